@@ -1,0 +1,67 @@
+"""What every node needs to talk: publish and subscribe, the master, the launcher, robots, rules.
+
+The public names are loaded when they are first used, so that a small node starts fast.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from nep_core.behavior import Behavior
+    from nep_core.broker import Broker
+    from nep_core.errors import NepError
+    from nep_core.human import human_state
+    from nep_core.launcher import Launcher
+    from nep_core.master import Master
+    from nep_core.network import BrokerNetwork, DirectNetwork
+    from nep_core.node import Node
+    from nep_core.p2p import PeerNetwork
+    from nep_core.pubsub import Publisher, Subscriber
+    from nep_core.robot import Robot
+    from nep_core.tasks import stop_program, together, wait, wait_until
+
+_HOMES = {
+    "Behavior": "behavior",
+    "Broker": "broker",
+    "BrokerNetwork": "network",
+    "DirectNetwork": "network",
+    "Launcher": "launcher",
+    "Master": "master",
+    "NepError": "errors",
+    "Node": "node",
+    "PeerNetwork": "p2p",
+    "Publisher": "pubsub",
+    "Robot": "robot",
+    "Subscriber": "pubsub",
+    "human_state": "human",
+    "stop_program": "tasks",
+    "together": "tasks",
+    "wait": "tasks",
+    "wait_until": "tasks",
+}
+
+__all__ = [
+    "Behavior",
+    "Broker",
+    "BrokerNetwork",
+    "DirectNetwork",
+    "Launcher",
+    "Master",
+    "NepError",
+    "Node",
+    "PeerNetwork",
+    "Publisher",
+    "Robot",
+    "Subscriber",
+    "human_state",
+    "stop_program",
+    "together",
+    "wait",
+    "wait_until",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"nep_core has no {name}")
+    return getattr(import_module(f"nep_core.{_HOMES[name]}"), name)

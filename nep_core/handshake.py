@@ -1,0 +1,50 @@
+"""The private subscriptions by which two peers know that they hear each other.
+
+After its data subscription a subscriber makes a private one. ZeroMQ keeps their order on a
+connection, so when a publisher sees the private one, the data subscription is in force. It
+answers with a *welcome* on the private topic, which no other subscriber gets.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+PRIVATE = b"\0s"
+_NUL = b"\0"
+
+
+class Seen(NamedTuple):
+    """A private subscription as its publisher sees it; ``present`` is False when it is gone."""
+
+    present: bool
+    topic: str
+    subscriber: str
+
+
+def private_subscription(topic: str, subscriber: str) -> bytes:
+    """The private subscription of ``subscriber`` (an id of its own) for ``topic``."""
+    return PRIVATE + topic.encode() + _NUL + subscriber.encode() + _NUL
+
+
+def read_subscription(event: bytes) -> Seen | None:
+    """What an XPUB event tells of a subscriber; None for ordinary subscriptions and rubbish."""
+    if not event[1:].startswith(PRIVATE) or event[:1] not in (b"\0", b"\1"):
+        return None
+    parts = event[1 + len(PRIVATE) :].split(_NUL)
+    if len(parts) != 3:
+        return None
+    topic, subscriber = (part.decode(errors="replace") for part in parts[:2])
+    return Seen(event[:1] == b"\1", topic, subscriber)
+
+
+def welcome(seen: Seen, instance: str, latched: bytes = b"") -> bytes:
+    """The frame that answers ``seen``: who answers, and the last message of a latched topic."""
+    start = private_subscription(seen.topic, seen.subscriber)
+    return start + instance.encode() + _NUL + latched
+
+
+def read_welcome(frame: bytes) -> tuple[str, bytes]:
+    """The instance that sent a welcome, and the latched frame (empty when there is none)."""
+    _topic, _subscriber, rest = frame[len(PRIVATE) :].split(_NUL, 2)
+    instance, _, latched = rest.partition(_NUL)
+    return instance.decode(errors="replace"), latched

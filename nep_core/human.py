@@ -1,0 +1,55 @@
+"""What the person does, as the program last heard it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import cast
+
+from nep_core.default_network import default_network
+from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.network import Network
+from nep_core.pubsub import Subscriber
+
+REMEMBER_S = 3.0
+"""How long a state such as a gesture stays the human's state after it was seen."""
+
+
+class HumanListener:
+    """Hears ``/human_behavior`` for a whole program."""
+
+    def __init__(self, network: Network) -> None:
+        self._state = ""
+        self._heard_s = 0.0
+        self._listeners: list[Callable[[HumanBehavior], None]] = []
+        self._states = Subscriber(
+            HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
+        )
+
+    def listen(self, listener: Callable[[HumanBehavior], None]) -> None:
+        """Call ``listener`` with every message from now on."""
+        self._listeners = [*self._listeners, listener]
+
+    def unlisten(self, listener: Callable[[HumanBehavior], None]) -> None:
+        """Call ``listener`` no more."""
+        self._listeners = [kept for kept in self._listeners if kept != listener]
+
+    def state(self) -> str:
+        """The last state, "" when nothing was seen for 3 s."""
+        return self._state if time.monotonic() - self._heard_s <= REMEMBER_S else ""
+
+    def _on_behavior(self, behavior: HumanBehavior) -> None:
+        self._state, self._heard_s = behavior.human_state, time.monotonic()
+        for listener in self._listeners:
+            listener(behavior)
+
+
+def human_listener(network: Network | None = None) -> HumanListener:
+    """The listener of this program's network."""
+    place = network or default_network()
+    return cast(HumanListener, place.shared("human", lambda: HumanListener(place)))
+
+
+def human_state() -> str:
+    """What the person did last, such as "gesture_karate"; "" when nothing for 3 s."""
+    return human_listener().state()

@@ -1,0 +1,118 @@
+"""The one thread of a network that tends its sockets while the program does other things."""
+
+from __future__ import annotations
+
+import logging
+import socket
+import threading
+import time
+from collections.abc import Callable
+
+import zmq
+
+log = logging.getLogger(__name__)
+
+TICK_MS = 20
+HURRIED_TICK_MS = 1
+HURRY_S = 0.05
+
+
+class Wake:
+    """Ends another thread's poll at once; safe to call in a signal handler."""
+
+    def __init__(self) -> None:
+        self._reader, self._writer = socket.socketpair()
+        self._reader.setblocking(False)
+        self._writer.setblocking(False)
+
+    def fileno(self) -> int:
+        """What to poll for reading."""
+        return self._reader.fileno()
+
+    def __call__(self) -> None:
+        """End the poll."""
+        try:
+            self._writer.send(b"!")
+        except BlockingIOError:
+            pass  # it is awake already
+        except OSError:
+            log.debug("woken after close")
+
+    def clear(self) -> None:
+        """Forget the calls so far."""
+        try:
+            while self._reader.recv(4096):
+                pass
+        except OSError:
+            pass  # nothing left
+
+    def close(self) -> None:
+        """Give the sockets back."""
+        self._reader.close()
+        self._writer.close()
+
+
+class IoThread:
+    """Calls each tending function at least every TICK_MS, and when a socket has something."""
+
+    def __init__(self, name: str) -> None:
+        self._wake = Wake()
+        self._poller = zmq.Poller()
+        self._poller.register(self._wake.fileno(), zmq.POLLIN)
+        self._tending: list[Callable[[], None]] = []
+        self._hurry_until_s = 0.0
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"nep-io-{name}", daemon=True)
+
+    def start(self) -> None:
+        """Begin; call once."""
+        self._thread.start()
+
+    def watch(self, readable: zmq.Socket[bytes] | int) -> None:
+        """Wake when this socket of ours, or file number, has something; before start()."""
+        self._poller.register(readable, zmq.POLLIN)
+
+    def tend(self, function: Callable[[], None]) -> None:
+        """Call ``function`` again and again from this thread."""
+        self._tending = [*self._tending, function]
+
+    def forget(self, function: Callable[[], None]) -> None:
+        """Stop calling ``function``."""
+        self._tending = [kept for kept in self._tending if kept != function]
+
+    def wake(self) -> None:
+        """Tend at once."""
+        self._wake()
+
+    def hurry(self) -> None:
+        """Tend every millisecond for a while: something waits to be sent."""
+        now_s = time.monotonic()
+        if now_s > self._hurry_until_s:
+            self._wake()
+        self._hurry_until_s = now_s + HURRY_S
+
+    def close(self) -> None:
+        """End the thread; waits for it unless it is the caller."""
+        self._stopping.set()
+        self._wake()
+        if self._thread.is_alive() and threading.current_thread() is not self._thread:
+            self._thread.join(2.0)
+        self._wake.close()
+
+    def _run(self) -> None:
+        while not self._stopping.is_set():
+            try:
+                hurried = time.monotonic() < self._hurry_until_s
+                self._poller.poll(HURRIED_TICK_MS if hurried else TICK_MS)
+            except zmq.ZMQError:
+                return  # the context ended
+            self._wake.clear()
+            for function in self._tending:
+                self._call(function)
+
+    def _call(self, function: Callable[[], None]) -> None:
+        try:
+            function()
+        except Exception:
+            log.exception("the I/O thread goes on after an error")
+            time.sleep(TICK_MS / 1000)  # never spin on an error that repeats

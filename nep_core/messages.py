@@ -1,0 +1,172 @@
+"""The messages that nodes exchange, as validated data.
+
+A message travels as one JSON object (see frames.py). Keys that a receiver does not know are
+ignored; a key that is missing, or of another type, is an error that names it.
+Times are seconds since 1970 (``time.time()``), angles rad, lengths m, unless a name says else.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any, Literal
+
+import msgspec
+
+NODE_STATE = "/node_state"
+IMU = "/imu"
+HUMAN_BEHAVIOR = "/human_behavior"
+ACTION_REQUEST = "/action_request"
+ACTION_RESULT = "/action_result"
+ROBOT_STATE = "/robot_state"
+PROGRAM_STATE = "/program_state"
+PROGRAM_CONTROL = "/program_control"
+GESTURE_REQUEST = "/gesture_request"
+
+NodeType = Literal["sensory", "perceptual", "cognitive", "action"]
+NodeEvent = Literal[
+    "starting",
+    "ready",
+    "running",
+    "busy",
+    "connecting",
+    "connected",
+    "connection_failed",
+    "disconnected",
+    "alive",
+    "warning",
+    "stopped",
+    "crashed",
+]
+ActionState = Literal["accepted", "started", "done", "failed", "cancelled"]
+ProgramEvent = Literal[
+    "started",
+    "line",
+    "rule_started",
+    "rule_finished",
+    "value",
+    "paused",
+    "finished",
+    "failed",
+]
+
+
+class NodeState(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """How a node is doing (``/node_state``); ``alive`` is its heartbeat, once a second."""
+
+    node: str
+    type: NodeType
+    event: NodeEvent
+    description: str = ""
+    pid: int = 0
+    host: str = ""
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class Imu(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """A batch of n samples of a watch or phone (``/imu``).
+
+    ``t`` is n seconds on the sensor's own clock, rising; ``acc`` is n rows of 3 in m/s²;
+    ``gyr`` is n rows of 3 in rad/s, or absent where the sensor has no gyroscope.
+    """
+
+    source: str
+    rate_hz: float
+    t: list[float]
+    acc: list[tuple[float, float, float]]
+    gyr: list[tuple[float, float, float]] | None = None
+    gravity_included: bool = True
+    simulated: bool = False
+
+
+class HumanBehavior(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """What a person does (``/human_behavior``): ``gesture_karate``, ``touched_head``, any word."""
+
+    human_state: str
+    certainty: float = 1.0
+    source: str = ""
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class ActionRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """What robots are asked to do (``/action_request``).
+
+    The same ``id`` sent again asks how the action is doing: it is never played twice.
+    """
+
+    id: str
+    robots: list[str]
+    action: str
+    args: dict[str, Any] = {}
+    priority: int = 0
+
+
+class ActionResult(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """How a requested action is going on one robot (``/action_result``)."""
+
+    id: str
+    robot: str
+    state: ActionState
+    description: str = ""
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """Where a robot's body is (``/robot_state``); 30 Hz while it moves, 1 Hz at rest.
+
+    ``joints`` are rad by joint name (hands 0 to 1); ``base`` is x m, y m, theta rad on the floor;
+    ``leds`` are 0xRRGGBB by group; ``battery`` is 0 to 1.
+    """
+
+    robot: str
+    joints: dict[str, float]
+    base: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    posture: str = ""
+    leds: dict[str, int] = {}
+    saying: str = ""
+    battery: float = 1.0
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class ProgramState(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """What the cognitive program is doing (``/program_state``).
+
+    ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for.
+    """
+
+    program: str
+    event: ProgramEvent
+    line: int = 0
+    rule: str = ""
+    thread: str = ""
+    description: str = ""
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class ProgramControl(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """What a running program is asked to do (``/program_control``)."""
+
+    command: Literal["stop"]
+    program: str = ""
+
+
+class GestureRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """Asks the virtual watch to make a gesture (``/gesture_request``); person -1 is anybody."""
+
+    gesture: str
+    person: int = -1
+
+
+BY_TOPIC: dict[str, type[msgspec.Struct]] = {
+    NODE_STATE: NodeState,
+    IMU: Imu,
+    HUMAN_BEHAVIOR: HumanBehavior,
+    ACTION_REQUEST: ActionRequest,
+    ACTION_RESULT: ActionResult,
+    ROBOT_STATE: RobotState,
+    PROGRAM_STATE: ProgramState,
+    PROGRAM_CONTROL: ProgramControl,
+    GESTURE_REQUEST: GestureRequest,
+}
+
+LATCHED = frozenset({NODE_STATE, ROBOT_STATE})
+"""Topics whose last message a late joiner gets."""

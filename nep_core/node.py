@@ -1,0 +1,131 @@
+"""A node: a small program with a name, which tells how it is doing and stops when it is asked."""
+
+from __future__ import annotations
+
+import logging
+import os
+import select
+import signal
+import socket
+import time
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from nep_core.frames import Encoding
+from nep_core.io_thread import Wake
+from nep_core.messages import NODE_STATE, NodeEvent, NodeState, NodeType
+from nep_core.network import Network
+from nep_core.p2p import PeerNetwork
+from nep_core.pubsub import Publisher, Subscriber
+
+log = logging.getLogger(__name__)
+
+T = TypeVar("T")
+
+HEARTBEAT_S = 1.0
+STOP_SIGNALS = tuple(
+    getattr(signal, name) for name in ("SIGTERM", "SIGINT", "SIGBREAK") if hasattr(signal, name)
+)
+
+
+class Node:
+    """A node in this process; raises MasterNotFound or NameTaken when it cannot join.
+
+    Its states go out on ``/node_state``, with a heartbeat once a second. Use it in a ``with``
+    statement: leaving it tells "stopped", or "crashed" with the error's sentence.
+    """
+
+    def __init__(self, name: str, type: NodeType, *, network: Network | None = None) -> None:
+        self.name = name
+        self.type = type
+        self.network = network or PeerNetwork(name)
+        self._stopping = False
+        self._stopped = Wake()  # an Event could deadlock in a signal handler
+        self._host = socket.gethostname()
+        self._next_beat_s = time.monotonic() + HEARTBEAT_S
+        self._states = Publisher(NODE_STATE, network=self.network)
+        self.state("starting")
+        self.network.io.tend(self._beat)
+
+    @property
+    def stopping(self) -> bool:
+        """Whether the node has been asked to stop."""
+        return self._stopping
+
+    def publisher(
+        self, topic: str, *, encoding: Encoding | None = None, latched: bool | None = None
+    ) -> Publisher:
+        """A publisher of this node."""
+        return Publisher(topic, network=self.network, encoding=encoding, latched=latched)
+
+    def subscriber(
+        self,
+        topic: str,
+        kind: type[T] | None = None,
+        *,
+        callback: Callable[[T], None] | None = None,
+    ) -> Subscriber[T]:
+        """A subscriber of this node; its waits end when the node stops."""
+        return Subscriber(topic, kind, network=self.network, callback=callback)
+
+    def state(self, event: NodeEvent, description: str = "") -> None:
+        """Tell how the node is doing."""
+        self._states.send(self._state(event, description))
+
+    def ready(self, description: str = "") -> None:
+        """Tell that the node is ready, and for what."""
+        self.state("ready", description)
+
+    def warn(self, description: str) -> None:
+        """Tell of something that a person should look at."""
+        log.warning("%s", description)
+        self.state("warning", description)
+
+    def wait(self, seconds: float) -> bool:
+        """Wait so long; True at once when the node is asked to stop."""
+        if not self._stopping:
+            select.select([self._stopped], [], [], max(0.0, seconds))
+        return self._stopping
+
+    def stop(self, *_signal: Any) -> None:
+        """Ask the node to stop; safe in a signal handler and from any thread."""
+        self._stopping = True
+        self._stopped()
+        self.network.interrupt()
+
+    def stop_on_signals(self) -> None:
+        """Stop cleanly on SIGTERM, Ctrl-C and (Windows) Ctrl-Break; only in the main thread."""
+        for number in STOP_SIGNALS:
+            signal.signal(number, self.stop)
+
+    def close(self, event: NodeEvent = "stopped", description: str = "") -> None:
+        """Say how it ended and leave the network."""
+        if not self.network.closed:
+            self.network.io.forget(self._beat)
+            self.state(event, description)
+            self.network.close()
+
+    def __enter__(self) -> Node:
+        return self
+
+    def __exit__(self, _kind: object, error: BaseException | None, _trace: object) -> None:
+        if error is None or isinstance(error, KeyboardInterrupt | SystemExit):
+            self.close()
+        else:
+            self.close("crashed", str(error) or type(error).__name__)
+
+    def _state(self, event: NodeEvent, description: str = "") -> NodeState:
+        return NodeState(
+            node=self.name,
+            type=self.type,
+            event=event,
+            description=description,
+            pid=os.getpid(),
+            host=self._host,
+        )
+
+    def _beat(self) -> None:
+        if time.monotonic() >= self._next_beat_s:
+            self._next_beat_s = time.monotonic() + HEARTBEAT_S
+            # Not latched: a late joiner wants to know that the node is ready, not that it lives.
+            self._states.send(self._state("alive"), latch=False)

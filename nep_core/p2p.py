@@ -1,0 +1,84 @@
+"""The default network: publishers bind a free port, and the master tells subscribers where."""
+
+from __future__ import annotations
+
+from nep_core.endpoints import check_endpoint, master_endpoint
+from nep_core.inbox import Inbox
+from nep_core.master_client import MasterClient
+from nep_core.network import Network
+from nep_core.registry import Publishing, Registration
+
+
+class PeerNetwork(Network):
+    """One program's place in a p2p network.
+
+    Joining raises MasterNotFound when no master answers, NameTaken when a node of this name is
+    already running.
+    """
+
+    def __init__(self, node: str = "", *, master: str | None = None) -> None:
+        self.master = check_endpoint(master or master_endpoint())
+        super().__init__(node)
+        self._topics: dict[str, int] = {}
+        self._inboxes_by_topic: dict[str, list[Inbox]] = {}
+        endpoint = self.outbox.bind("tcp://127.0.0.1:*")
+        told = MasterClient.registration(self.node, self.instance, endpoint)
+        self._client = MasterClient(
+            self.context, self.io, self.master, told, self._connect_subscribers
+        )
+        self.io.start()
+
+    def join(self) -> None:
+        """Make the node's name known at once; the first topic would do it too."""
+        self._client.change(lambda told: None)
+
+    def add_publisher(self, topic: str) -> set[str]:
+        """Register the topic; the subscribers that the master knows."""
+        with self._lock:
+            self._topics[topic] = self._topics.get(topic, 0) + 1
+        answer = self._client.change(self._tell_topics)
+        return set(answer.subscribers.get(topic, []))
+
+    def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
+        """Register the subscriber; the publishers that the master knows."""
+        with self._lock:
+            self._inboxes_by_topic.setdefault(topic, []).append(inbox)
+
+        def add(told: Registration) -> None:
+            told.subscribes[subscriber] = topic
+
+        answer = self._client.change(add)
+        return {publisher.instance for publisher in answer.publishers.get(topic, [])}
+
+    def remove_publisher(self, topic: str) -> None:
+        """Tell the master, without waiting, when the topic's last publisher here is closed."""
+        with self._lock:
+            self._topics[topic] = self._topics.get(topic, 0) - 1
+        self._client.change_later(self._tell_topics)
+
+    def remove_subscriber(self, subscriber: str) -> None:
+        """End a subscriber and tell the master, without waiting."""
+        with self._lock:
+            inbox = self._inboxes.get(subscriber)
+            for inboxes in self._inboxes_by_topic.values():
+                if inbox in inboxes:
+                    inboxes.remove(inbox)
+        super().remove_subscriber(subscriber)
+        self._client.change_later(lambda told: _forget(told, subscriber))
+
+    def _tell_topics(self, told: Registration) -> None:
+        told.publishes = sorted(topic for topic, count in self._topics.items() if count > 0)
+
+    def _connect_subscribers(self, topic: str, publishers: list[Publishing]) -> None:
+        endpoints = {publisher.endpoint for publisher in publishers}
+        with self._lock:
+            inboxes = list(self._inboxes_by_topic.get(topic, []))
+        for inbox in inboxes:
+            inbox.connect(endpoints)
+
+    def _leave(self) -> None:
+        self._client.close()
+
+
+def _forget(told: Registration, subscriber: str) -> None:
+    told.subscribes.pop(subscriber, None)

@@ -1,0 +1,25 @@
+"""Where nodes and logs are: beside the installed packages, or where a variable says."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import platformdirs
+
+NODES_VARIABLE = "NEP_NODES"
+"""More folders with nodes, before the shipped one, separated as in PATH."""
+
+
+def node_folders() -> tuple[Path, ...]:
+    """The folders in which manifests are looked for."""
+    more = [Path(part) for part in os.environ.get(NODES_VARIABLE, "").split(os.pathsep) if part]
+    frozen = getattr(sys, "_MEIPASS", None)
+    root = Path(frozen) if frozen else Path(__file__).resolve().parent.parent
+    return (*more, root / "nodes")
+
+
+def log_folder() -> Path:
+    """Where the nodes' log files are kept."""
+    return Path(platformdirs.user_log_dir("nep-studio", appauthor=False))

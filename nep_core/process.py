@@ -1,0 +1,149 @@
+"""One child process: started with a life line, its output kept, stopped with all its children."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+
+import psutil
+
+from nep_core import lifeline
+from nep_core.errors import NodeStartError
+from nep_core.outcome import Outcome
+
+log = logging.getLogger(__name__)
+
+ON_WINDOWS = sys.platform == "win32"
+STOP_SIGNAL: int = getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM)
+KEPT_LINES = 200
+LOG_BYTES = 5_000_000
+"""A node's log file is cut there; its last lines are kept in memory."""
+
+
+class ChildProcess:
+    """A running child; ``on_end`` is called with its Outcome, in a thread of its own.
+
+    Raises NodeStartError when the command cannot be run.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        command: list[str],
+        *,
+        environment: dict[str, str],
+        log_file: Path,
+        on_end: Callable[[Outcome], None],
+    ) -> None:
+        self.name = name
+        self.outcome: Outcome | None = None
+        self._asked = False
+        self._on_end = on_end
+        self._last_lines: deque[str] = deque(maxlen=KEPT_LINES)
+        self._log_file = log_file
+        log_file.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            self._popen = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                env={**environment, lifeline.VARIABLE: "1"},
+                start_new_session=not ON_WINDOWS,
+                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+            )
+        except OSError as error:
+            raise NodeStartError(
+                f"{name} cannot be started: {command[0]}: {error.strerror}.",
+                checklist=(f"Is {command[0]} installed, and can it be found?",),
+            ) from error
+        self._reader = threading.Thread(target=self._read, name=f"nep-log-{name}", daemon=True)
+        self._reader.start()
+        threading.Thread(target=self._await_end, name=f"nep-wait-{name}", daemon=True).start()
+
+    @property
+    def pid(self) -> int:
+        """The process id."""
+        return self._popen.pid
+
+    @property
+    def last_lines(self) -> list[str]:
+        """The last lines that it wrote, at most 200."""
+        return list(self._last_lines)
+
+    def poll(self) -> int | None:
+        """Its exit code; None while it runs."""
+        return self._popen.poll()
+
+    def wait(self, timeout_s: float | None = None) -> int | None:
+        """Wait for its end; its exit code, None when the time is over."""
+        try:
+            return self._popen.wait(timeout_s)
+        except subprocess.TimeoutExpired:
+            return None
+
+    def ask_to_stop(self) -> None:
+        """Send SIGTERM (Windows: Ctrl-Break)."""
+        self._asked = True
+        with contextlib.suppress(OSError):
+            self._popen.send_signal(STOP_SIGNAL)
+
+    def stop(self, grace_s: float = 2.0) -> None:
+        """Ask it to stop, and end the whole process tree after ``grace_s``."""
+        family = self._family()
+        self.ask_to_stop()
+        if self.wait(grace_s) is None:
+            log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
+        self._kill(family)
+        self._popen.wait()
+
+    def _family(self) -> list[psutil.Process]:
+        try:
+            return [*psutil.Process(self.pid).children(recursive=True), psutil.Process(self.pid)]
+        except psutil.NoSuchProcess:
+            return []
+
+    def _kill(self, family: list[psutil.Process]) -> None:
+        if not ON_WINDOWS:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self.pid, signal.SIGKILL)
+        for process in family:
+            with contextlib.suppress(psutil.NoSuchProcess):
+                process.kill()
+
+    def _read(self) -> None:
+        assert self._popen.stdout is not None
+        with self._log_file.open("wb") as kept:
+            for line in self._popen.stdout:
+                self._last_lines.append(line.decode(errors="replace").rstrip())
+                if kept.tell() < LOG_BYTES:
+                    kept.write(line)
+                    kept.flush()
+
+    def _await_end(self) -> None:
+        code = self._popen.wait()
+        self._reader.join(1.0)  # a grandchild may hold the pipe open
+        words = next((line for line in reversed(self._last_lines) if _says_something(line)), "")
+        self.outcome = Outcome(self.name, code, self._asked, words)
+        if self._popen.stdin is not None:
+            self._popen.stdin.close()
+        self._on_end(self.outcome)
+
+
+def _says_something(line: str) -> bool:
+    return bool(line.strip()) and not line.startswith("  [ ]")
+
+
+def program_command(*words: str) -> list[str]:
+    """The command that starts this program for another job, from source or frozen."""
+    if getattr(sys, "frozen", False):
+        return [sys.executable, *words]
+    return [sys.executable, "-m", "nep_studio", *words]

@@ -1,0 +1,182 @@
+"""Publisher and Subscriber: how nodes talk."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import Generic, TypeVar
+
+import msgspec
+
+from nep_core.default_network import default_network
+from nep_core.errors import BadMessage
+from nep_core.frames import Encoding, Header, Sendable, check_topic, decoders, split
+from nep_core.messages import LATCHED
+from nep_core.network import HANDSHAKE_S, Network
+
+log = logging.getLogger(__name__)
+
+T = TypeVar("T")
+
+
+class Publisher:
+    """Sends messages on one topic.
+
+    ``network``: where (default: this program's p2p network). ``wait_for_subscribers``: return
+    only when so many hear the topic, or after ``timeout_s``. ``latched``: subscribers that join
+    later get the last message. Subscribers that the master knows of never miss the first one.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        *,
+        network: Network | None = None,
+        encoding: Encoding | None = None,
+        latched: bool | None = None,
+        wait_for_subscribers: int = 0,
+        timeout_s: float = 5.0,
+    ) -> None:
+        check_topic(topic)
+        self.topic = topic
+        self.network = network or default_network()
+        self._latched = topic in LATCHED if latched is None else latched
+        self._stream = self.network.outbox.stream(topic, encoding)
+        self._closed = False
+        expected = self.network.add_publisher(topic)
+        if not self.network.outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
+            log.warning("a subscriber of %s has not connected yet", topic)
+        if wait_for_subscribers:
+            self.wait_for_subscribers(wait_for_subscribers, timeout_s)
+
+    def send(self, message: Sendable, *, latch: bool = True) -> None:
+        """Send a struct, dictionary, text or bytes; raises BadMessage.
+
+        ``latch=False`` keeps the message of a latched topic that later subscribers get.
+        """
+        self._stream.send(message, latch and self._latched)
+
+    def subscribers(self) -> int:
+        """How many subscribers hear this topic now."""
+        return len(self.network.outbox.subscribers(self.topic))
+
+    def wait_for_subscribers(self, count: int, timeout_s: float) -> bool:
+        """Wait until ``count`` subscribers hear this topic; False when the time is over."""
+        return self.network.outbox.wait_for(self.topic, set(), count, timeout_s)
+
+    def close(self) -> None:
+        """Publish no more."""
+        if not self._closed:
+            self._closed = True
+            self.network.remove_publisher(self.topic)
+
+
+class Subscriber(Generic[T]):
+    """Receives the messages of one topic.
+
+    ``kind``: the struct that messages are read into (default: what JSON gives). ``callback``:
+    called with each message, in a thread of its own. A message that is not of that kind is
+    skipped with a warning that names the key.
+
+    ``lost`` counts the messages that were sent but did not arrive; ``header`` tells who sent the
+    last message, when, and which number it (or the first of those that came with it) has.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        kind: type[T] | None = None,
+        *,
+        network: Network | None = None,
+        callback: Callable[[T], None] | None = None,
+    ) -> None:
+        check_topic(topic)
+        self.topic = topic
+        self.network = network or default_network()
+        self.lost = 0
+        self.header: Header | None = None
+        self._decoders = decoders(kind)
+        self._decode = self._decoders["json"]
+        self._payloads: deque[bytes] = deque()
+        self._last_sequence: dict[str, int] = {}
+        self._id, self._inbox = self.network.open_inbox(topic)
+        known = self.network.add_subscriber(topic, self._id, self._inbox)
+        if known and not self._wait_for(known, 0, HANDSHAKE_S):
+            log.warning("a publisher of %s does not answer", topic)
+        if callback is not None:
+            self._call_back(callback)
+
+    def receive(self, timeout_s: float | None = None) -> T | None:
+        """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
+        while True:
+            try:
+                payload = self._payloads.popleft()
+            except IndexError:
+                if not self._take_frame(timeout_s):
+                    return None
+                continue
+            try:
+                return self._decode(payload)  # type: ignore[no-any-return]
+            except (msgspec.MsgspecError, UnicodeDecodeError) as error:
+                log.warning(
+                    "%s: a message of %s: %s", self.topic, self.header and self.header.node, error
+                )
+
+    def pending(self) -> list[T]:
+        """All that has arrived, without waiting."""
+        messages = []
+        while (message := self.receive(0)) is not None:
+            messages.append(message)
+        return messages
+
+    def wait_for_publishers(self, count: int, timeout_s: float) -> bool:
+        """Wait until ``count`` publishers are heard; False when the time is over."""
+        return self._wait_for(set(), count, timeout_s)
+
+    def close(self) -> None:
+        """Hear no more; a thread that waits in receive() gets None."""
+        self.network.remove_subscriber(self._id)
+
+    def __iter__(self) -> Iterator[T]:
+        """Each message as it comes, until the subscriber is closed or the node stops."""
+        while (message := self.receive()) is not None:
+            yield message
+
+    def _wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
+        return self._inbox.wait_for(instances, count, timeout_s)
+
+    def _take_frame(self, timeout_s: float | None) -> bool:
+        data = self._inbox.take(timeout_s)
+        if data is None:
+            return False
+        try:
+            header, payloads = split(data)
+            decode = self._decoders[header.encoding]
+        except BadMessage as error:
+            log.warning("%s: %s", self.topic, error)
+            return True
+        except KeyError:
+            log.warning("%s: a message of %s is not JSON", self.topic, header.node)
+            return True
+        self._count(header, len(payloads))
+        self.header, self._decode = header, decode
+        self._payloads.extend(payloads)
+        return True
+
+    def _count(self, header: Header, messages: int) -> None:
+        last = self._last_sequence.get(header.node, 0)
+        if 0 < last < header.sequence - 1:
+            self.lost += header.sequence - last - 1
+        self._last_sequence[header.node] = header.sequence + messages - 1
+
+    def _call_back(self, callback: Callable[[T], None]) -> None:
+        def run() -> None:
+            for message in self:
+                try:
+                    callback(message)
+                except Exception:
+                    log.exception("%s: the callback failed", self.topic)
+
+        threading.Thread(target=run, name=f"nep-hear-{self.topic}", daemon=True).start()

@@ -1,0 +1,140 @@
+"""The parts of a program that run side by side, and how they wait and are cancelled.
+
+Cancelling is cooperative: a part ends at its next wait or robot call, by Cancelled, which
+ordinary ``except`` clauses do not catch.
+"""
+
+from __future__ import annotations
+
+import contextvars
+import threading
+from collections.abc import Callable
+
+POLL_S = 0.05
+"""How often a condition is looked at."""
+
+
+class Cancelled(BaseException):
+    """This part of the program has been asked to end."""
+
+
+class Task:
+    """A part of a program; cancelling it cancels the parts that it started."""
+
+    def __init__(self, parent: Task | None = None) -> None:
+        self.cancelled = threading.Event()
+        self._children: list[Task] = []
+        self._lock = threading.Lock()
+        if parent is not None:
+            parent._adopt(self)
+
+    def cancel(self) -> None:
+        """Let this part and those that it started end at their next wait."""
+        with self._lock:
+            self.cancelled.set()
+            children = list(self._children)
+        for child in children:
+            child.cancel()
+
+    def check(self) -> None:
+        """Raise Cancelled if this part has been asked to end."""
+        if self.cancelled.is_set():
+            raise Cancelled
+
+    def sleep(self, seconds: float) -> None:
+        """Wait so long; raises Cancelled as soon as this part is asked to end."""
+        if self.cancelled.wait(max(0.0, min(seconds, threading.TIMEOUT_MAX))):
+            raise Cancelled
+
+    def _adopt(self, child: Task) -> None:
+        with self._lock:
+            self._children = [kept for kept in self._children if not kept.cancelled.is_set()]
+            self._children.append(child)
+            if self.cancelled.is_set():
+                child.cancelled.set()
+
+    def release(self, child: Task) -> None:
+        """Forget a part that has ended."""
+        with self._lock:
+            if child in self._children:
+                self._children.remove(child)
+
+
+PROGRAM = Task()
+"""The whole program; cancelling it ends the program."""
+
+_current: contextvars.ContextVar[Task] = contextvars.ContextVar("nep_task", default=PROGRAM)
+
+
+def current_task() -> Task:
+    """The part of the program that this thread runs."""
+    return _current.get()
+
+
+class Part:
+    """A function in a thread and task of its own; its error is kept for whoever joins it."""
+
+    def __init__(self, function: Callable[[], object], name: str, parent: Task) -> None:
+        self.task = Task(parent)
+        self.error: BaseException | None = None
+        self._function = function
+        self._parent = parent
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+
+    def start(self) -> Part:
+        """Begin."""
+        self._thread.start()
+        return self
+
+    @property
+    def is_running(self) -> bool:
+        """Whether it has not ended yet."""
+        return self._thread.is_alive()
+
+    def join(self, timeout_s: float | None = None) -> None:
+        """Wait for its end."""
+        self._thread.join(timeout_s)
+
+    def _run(self) -> None:
+        _current.set(self.task)
+        try:
+            self._function()
+        except Cancelled:
+            pass
+        except BaseException as error:
+            self.error = error
+        finally:
+            self._parent.release(self.task)
+
+
+def wait(seconds: float) -> None:
+    """Let this part of the program rest for so many seconds."""
+    current_task().sleep(seconds)
+
+
+def wait_until(condition: Callable[[], object]) -> None:
+    """Let this part of the program rest until ``condition()`` is true."""
+    task = current_task()
+    while not condition():
+        task.sleep(POLL_S)
+
+
+def together(*functions: Callable[[], object]) -> None:
+    """Run the functions side by side and wait for all; an error ends the others and is raised."""
+    task = current_task()
+    parts = [Part(f, f"nep-together-{i}", task).start() for i, f in enumerate(functions, 1)]
+    while any(part.is_running for part in parts):
+        if task.cancelled.is_set() or any(part.error for part in parts):
+            for part in parts:
+                part.task.cancel()
+        next(part for part in [*parts] if part.is_running or part is parts[-1]).join(POLL_S)
+    task.check()
+    for part in parts:
+        if part.error is not None:
+            raise part.error
+
+
+def stop_program() -> None:
+    """End the whole program, well."""
+    PROGRAM.cancel()
+    raise Cancelled

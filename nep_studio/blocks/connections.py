@@ -1,0 +1,96 @@
+"""Which blocks go together, and why not: shapes in chains, results in slots, values in fields."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from .definitions import Definition
+from .language import Language
+from .program import Block, Project
+from .slots import why_not_fit
+from .values import why_not_name, why_not_value
+
+
+def why_not_chained(definition: Definition | None, *, first_in_stack: bool) -> str | None:
+    """Why a block cannot be in a chain at all; a block of an unknown type always can.
+
+    A reporter may lie on a page by itself, and is then the first and only one of its stack.
+    """
+    if definition is None or first_in_stack:
+        return None
+    if definition.shape == "hat":
+        return "A “when” block begins a stack: no block goes above it."
+    if definition.is_value:
+        return "A block that gives a value goes into a slot, not between other blocks."
+    return None
+
+
+def why_not_below(upper: Definition | None) -> str | None:
+    """Why no block can be put directly below ``upper``."""
+    if upper is not None and upper.is_value:
+        return "A block that gives a value goes into a slot: nothing goes below it."
+    if upper is not None and upper.is_last:
+        return "Nothing goes below this block: it would never be reached."
+    return None
+
+
+def why_not_plugged(
+    owner: Block, key: str, plugged: Block, definitions: Mapping[str, Definition]
+) -> str | None:
+    """Why ``plugged`` cannot be put into the slot ``key`` of ``owner``."""
+    definition = definitions.get(owner.type)
+    value = definitions.get(plugged.type)
+    if definition is None:
+        return None
+    slot = definition.slot(key, owner.groups)
+    if slot is None or slot.kind.name == "body":
+        return f"The block “{owner.type}” has no slot “{key}”."
+    if value is None:
+        return None
+    if not value.is_value:
+        return "Only a block that gives a value goes into a slot."
+    return why_not_fit(slot.kind, value.result, value.id)
+
+
+def why_no_body(owner: Block, key: str, definitions: Mapping[str, Definition]) -> str | None:
+    """Why the block ``owner`` has no body ``key`` to put blocks in."""
+    definition = definitions.get(owner.type)
+    if definition is None:
+        return None
+    slot = definition.slot(key, owner.groups)
+    if slot is None or slot.kind.name != "body":
+        return f"The block “{owner.type}” has no place for blocks called “{key}”."
+    return None
+
+
+def why_no_field(block: Block, key: str, value: object, language: Language) -> str | None:
+    """Why the field ``key`` of a block cannot be there or cannot hold ``value``."""
+    definition = language.definitions.get(block.type)
+    if definition is None:
+        return "A block of an unknown type cannot be changed."
+    slot = definition.slot(key, block.groups)
+    if slot is None or not slot.kind.typed:
+        return f"The block “{block.type}” has no field “{key}”."
+    return why_not_value(slot.kind.name, value)
+
+
+def why_no_groups(block: Block, definition: Definition) -> str | None:
+    """Why a block cannot have its groups as often as it does."""
+    for name, count in block.groups.items():
+        group = definition.groups.get(name)
+        if group is None:
+            return f"The block “{block.type}” has no part “{name}”."
+        if not definition.minimum[name] <= count <= group.maximum:
+            return (
+                f"The part “{name}” of “{block.type}” is there {count} times: "
+                f"{definition.minimum[name]} to {group.maximum} can be."
+            )
+    return None
+
+
+def why_not_variable_name(project: Project, name: str, *, but: str = "") -> str | None:
+    """Why a variable cannot have this name; ``but`` is the id of the variable itself."""
+    reason = why_not_name(name)
+    if reason is None and any(v.name == name and v.id != but for v in project.variables):
+        return f"There is a variable “{name}” already."
+    return reason

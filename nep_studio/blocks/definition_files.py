@@ -1,0 +1,184 @@
+"""Read block definitions from a folder of TOML files; whatever is wrong names file and block."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, get_args
+
+from .definition_call import CallError, read_call
+from .definitions import FLAGS, Category, Definition, Shape
+from .errors import DefinitionError
+from .program import PAGES
+from .sentence import SentenceError, groups_of, parse, slots_of
+from .slots import RESULTS
+from .values import why_not_value
+
+_BLOCK_KEYS = frozenset(
+    ("sentence", "shape", "result", "help", "defaults", "minimum", "flags", "call", "generator")
+)
+
+
+@dataclass(slots=True)
+class DefinitionSet:
+    """All that a folder defines."""
+
+    definitions: dict[str, Definition] = field(default_factory=dict)
+    categories: list[Category] = field(default_factory=list)
+    choices: dict[str, dict[str, str]] = field(default_factory=dict)
+
+
+def load_definitions(folder: Path, generators: Mapping[str, Collection[str]]) -> DefinitionSet:
+    """Read every ``*.toml`` of a folder.
+
+    ``generators`` are the names of the generator functions by kind: hat, statement, value.
+    Raises DefinitionError, which names the file and the block.
+    """
+    found = DefinitionSet()
+    for path in sorted(folder.glob("*.toml")):
+        _read_file(path, generators, found)
+    if not found.definitions:
+        raise DefinitionError(f"There are no block definitions in the folder {folder}.")
+    found.categories.sort(key=lambda category: (category.order, category.id))
+    return found
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Read a TOML file, or raise DefinitionError with the file's name and the line."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
+        raise DefinitionError(
+            f"The file {path.name} cannot be read: {error}.", details=str(path)
+        ) from error
+
+
+def read_choices(path: Path, data: object) -> dict[str, dict[str, str]]:
+    """Check tables of choices (value = label, or value = {label = ...}) read from a file."""
+    if not isinstance(data, dict) or not all(isinstance(table, dict) for table in data.values()):
+        raise DefinitionError(f"In {path.name}, [choices] must hold tables of value = “label”.")
+    choices: dict[str, dict[str, str]] = {}
+    for name, table in data.items():
+        choices[name] = {}
+        for value, entry in table.items():
+            label = entry.get("label") if isinstance(entry, dict) else entry
+            if not isinstance(label, str) or why_not_value("choice", value) is not None:
+                raise DefinitionError(f"In {path.name}, choice “{value}” of {name} has no label.")
+            choices[name][value] = label
+    return choices
+
+
+def _read_file(path: Path, generators: Mapping[str, Collection[str]], found: DefinitionSet) -> None:
+    data = read_toml(path)
+    category = _read_category(path, data.get("category"))
+    found.categories.append(category)
+    found.choices.update(read_choices(path, data.get("choices", {})))
+    blocks = data.get("blocks", {})
+    if not isinstance(blocks, dict):
+        raise DefinitionError(f"In {path.name}, [blocks] must be a table of blocks.")
+    for name, entry in blocks.items():
+        try:
+            definition = _read_block(category, name, entry, generators)
+        except (SentenceError, CallError) as error:
+            raise DefinitionError(f"In {path.name}, block “{name}”: {error}.") from error
+        if definition.id in found.definitions:
+            raise DefinitionError(f"In {path.name}, block “{definition.id}” is defined twice.")
+        found.definitions[definition.id] = definition
+
+
+def _read_category(path: Path, data: object) -> Category:
+    if not isinstance(data, dict) or not isinstance(data.get("id"), str):
+        raise DefinitionError(f"The file {path.name} needs a [category] with an id.")
+    page = data.get("page", "behaviour")
+    if page not in PAGES:
+        raise DefinitionError(f"In {path.name}, the page is one of {', '.join(PAGES)}.")
+    title, colour, order = data.get("title"), data.get("colour"), data.get("order")
+    if not isinstance(title, str) or not isinstance(colour, str) or not isinstance(order, int):
+        raise DefinitionError(f"In {path.name}, [category] needs a title, a colour and an order.")
+    return Category(data["id"], title, colour, order, page)
+
+
+def _read_block(
+    category: Category, name: str, entry: object, generators: Mapping[str, Collection[str]]
+) -> Definition:
+    if not isinstance(entry, dict) or not isinstance(entry.get("sentence"), str):
+        raise SentenceError("it needs a sentence")
+    if unknown := set(entry) - _BLOCK_KEYS:
+        raise SentenceError(f"it has a key “{min(unknown)}” that is not known")
+    if not all(isinstance(entry.get(key, {}), dict) for key in ("defaults", "minimum")):
+        raise SentenceError("defaults and minimum must be tables")
+    parts = parse(entry["sentence"])
+    slots, groups = slots_of(parts), groups_of(parts)
+    minimum = entry.get("minimum", {})
+    definition = Definition(
+        id=f"{category.id}.{name}",
+        category=category,
+        shape=entry.get("shape", ""),
+        parts=parts,
+        slots=slots,
+        groups=groups,
+        minimum={group: minimum.get(group, 0) for group in groups},
+        defaults=entry.get("defaults", {}),
+        result="boolean" if entry.get("shape") == "boolean" else entry.get("result", ""),
+        help=entry.get("help", ""),
+        flags=frozenset(entry.get("flags", [])),
+        call=read_call(entry["call"], slots) if "call" in entry else None,
+        generator=entry.get("generator", ""),
+    )
+    _check_shape(definition)
+    _check_defaults(definition, minimum)
+    _check_code(definition, generators)
+    return definition
+
+
+def _check_shape(definition: Definition) -> None:
+    if definition.shape not in get_args(Shape):
+        raise SentenceError(f"its shape is one of {', '.join(get_args(Shape))}")
+    if definition.is_value != (definition.result in RESULTS):
+        raise SentenceError(f"a reporter, and only that, has a result: {', '.join(RESULTS)}")
+    if unknown := definition.flags - set(FLAGS):
+        raise SentenceError(f"there is no flag “{min(unknown)}”")
+    has_body = any(slot.kind.name == "body" for slot in definition.slots.values())
+    if has_body != (definition.shape == "c"):
+        raise SentenceError("a block with a body, and only that, has the shape c")
+    if "posture" in definition.flags and "posture" not in definition.slots:
+        raise SentenceError("a block with the flag posture needs a slot “posture”")
+
+
+def _check_defaults(definition: Definition, minimum: Mapping[str, int]) -> None:
+    for name, value in definition.defaults.items():
+        slot = definition.slots.get(name)
+        if slot is None or not slot.kind.typed:
+            raise SentenceError(f"default “{name}” is not for a slot of the sentence")
+        if (reason := why_not_value(slot.kind.name, value)) is not None:
+            raise SentenceError(f"default “{name}”: {reason}")
+    for slot in definition.slots.values():
+        if (
+            slot.kind.typed
+            and slot.kind.name != "variable"
+            and slot.name not in definition.defaults
+        ):
+            raise SentenceError(f"slot “{slot.name}” needs a default")
+    for name, count in minimum.items():
+        group = definition.groups.get(name)
+        if group is None or not isinstance(count, int) or not 0 <= count <= group.maximum:
+            raise SentenceError(f"minimum “{name}” does not fit a group of the sentence")
+
+
+def _check_code(definition: Definition, generators: Mapping[str, Collection[str]]) -> None:
+    if definition.page != "behaviour":
+        if definition.call is not None or definition.generator:
+            raise CallError("only blocks of the behaviour page have a call or a generator")
+        return
+    if (definition.call is None) == (definition.generator == ""):
+        raise CallError("it needs either a call or a generator")
+    kind = "value" if definition.is_value else "hat" if definition.shape == "hat" else "statement"
+    if definition.generator and definition.generator not in generators[kind]:
+        raise CallError(f"there is no {kind} generator “{definition.generator}”")
+    call = definition.call
+    if call is not None and call.on and definition.slots[call.on].kind.name != "robot":
+        raise CallError("a method is called on a robot slot")
+    if call is not None and definition.shape == "hat":
+        raise CallError("a hat needs a generator")

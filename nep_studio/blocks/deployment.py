@@ -1,0 +1,118 @@
+"""What the Robots and Nodes pages say: which robots take part and which nodes run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import cast
+
+from .language import Language
+from .program import ALL_ROBOTS, Block, Project
+from .values import FieldValue, Setting
+
+ROBOT_BLOCK = "robots.robot"
+NODE_BLOCK = "nodes.launch"
+GESTURE_NODE = "perceptual/gesture"
+GESTURE_STATE = "gesture_"
+"""What the human state of a recognised gesture begins with."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotEntry:
+    """A robot of the Robots page; ``driver`` is virtual or naoqi, ``address`` host or host:port."""
+
+    name: str
+    driver: str
+    address: str
+    block_id: str
+
+
+@dataclass(frozen=True, slots=True)
+class NodeEntry:
+    """A node of the Nodes page; ``node`` is "type/name"."""
+
+    node: str
+    name: str
+    parameters: Mapping[str, Setting]
+    block_id: str
+
+
+def robot_entries(project: Project, language: Language) -> tuple[RobotEntry, ...]:
+    """The robots of the Robots page, in its order."""
+    entries = []
+    for block in _entries(project, "robots", ROBOT_BLOCK):
+        name, driver, address = _values(language, block, "name", "driver", "address")
+        entries.append(RobotEntry(str(name), str(driver), str(address), block.id))
+    return tuple(entries)
+
+
+def node_entries(project: Project, language: Language) -> tuple[NodeEntry, ...]:
+    """The nodes of the Nodes page, in its order."""
+    entries = []
+    for block in _entries(project, "nodes", NODE_BLOCK):
+        node, name, parameters = _values(language, block, "node", "name", "parameters")
+        settings = dict(cast("Mapping[str, Setting]", parameters))
+        entries.append(NodeEntry(str(node), str(name), settings, block.id))
+    return tuple(entries)
+
+
+def robots_used(project: Project, language: Language) -> dict[str, str]:
+    """The robots that rules name, each with the first block that does; all robots are not one."""
+    used: dict[str, str] = {}
+    for block, key in _slots_of_kind(project, language, "robot"):
+        name = str(language.definitions[block.type].value(block, key))
+        if name != ALL_ROBOTS:
+            used.setdefault(name, block.id)
+    return used
+
+
+def gestures_used(project: Project, language: Language) -> dict[str, str]:
+    """The gestures that rules and questions name, each with the first block that does."""
+    used: dict[str, str] = {}
+    for kind in ("gesture", "state"):
+        for block, key in _slots_of_kind(project, language, kind):
+            name = str(language.definitions[block.type].value(block, key))
+            if kind == "gesture" or name.startswith(GESTURE_STATE):
+                used.setdefault(name.removeprefix(GESTURE_STATE), block.id)
+    return used
+
+
+def gestures_recognised(nodes: tuple[NodeEntry, ...]) -> set[str]:
+    """The gestures that the nodes of the Nodes page recognise."""
+    return {str(entry.parameters.get("gesture")) for entry in nodes if entry.node == GESTURE_NODE}
+
+
+def rules(project: Project, language: Language) -> Iterator[list[str]]:
+    """The chains of the behaviour page that begin with an enabled hat: those that run."""
+    for stack in project.pages["behaviour"]:
+        first = project.blocks[stack.body[0]]
+        definition = language.definitions.get(first.type)
+        if definition is not None and definition.shape == "hat" and not first.disabled:
+            yield stack.body
+
+
+def _slots_of_kind(project: Project, language: Language, kind: str) -> Iterator[tuple[Block, str]]:
+    """The blocks in rules that have a slot of this kind, and the slot's name."""
+    keys = {
+        definition.id: slot.name
+        for definition in language.definitions.values()
+        for slot in definition.slots.values()
+        if slot.kind.name == kind
+    }
+    for chain in rules(project, language):
+        for block in project.within(chain, enabled=True):
+            if block.type in keys:
+                yield block, keys[block.type]
+
+
+def _entries(project: Project, page: str, block_type: str) -> Iterator[Block]:
+    for stack in project.pages[page]:
+        for block_id in stack.body:
+            block = project.blocks[block_id]
+            if block.type == block_type and not block.disabled:
+                yield block
+
+
+def _values(language: Language, block: Block, *keys: str) -> list[FieldValue | None]:
+    definition = language.definitions[block.type]
+    return [definition.value(block, key) for key in keys]

@@ -1,0 +1,158 @@
+"""Edits that put blocks into places: create, delete, move."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+
+from ..errors import EditRefused
+from ..places import InInput, InStack, NewStack, Place, place_of, put, take
+from ..program import PAGES, Block, Parent, Project
+
+
+class CreateBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Make blocks, those inside others too; ``roots`` are the ones that go into the place."""
+
+    roots: tuple[str, ...]
+    blocks: tuple[Block, ...]
+    place: Place
+
+    def apply(self, project: Project) -> DeleteBlocks:
+        """Make the blocks."""
+        if any(block.id in project.blocks or block.id in project.stacks for block in self.blocks):
+            raise EditRefused("A block with this id is already there.")
+        _require_whole(self)
+        _require_free(project, self.place, self.roots)
+        for block in self.blocks:
+            project.blocks[block.id] = block.copy()
+            project.id_seen(block.id)
+            _adopt(project, block)
+        put(project, list(self.roots), self.place)
+        return DeleteBlocks(self.roots[0], len(self.roots))
+
+
+class DeleteBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Delete ``count`` blocks of a chain from ``first`` on, with all that is inside them."""
+
+    first: str
+    count: int = 1
+
+    def apply(self, project: Project) -> CreateBlocks:
+        """Delete the blocks."""
+        _require_run(project, self.first, self.count)
+        place = place_of(project, self.first, self.count)
+        roots = take(project, self.first, self.count)
+        blocks = tuple(project.within(roots))
+        for block in blocks:
+            del project.blocks[block.id]
+            for child in block.children():
+                del project.parents[child]
+        return CreateBlocks(tuple(roots), blocks, place)
+
+
+class MoveBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Move ``count`` blocks of a chain from ``first`` on, with all that is inside them."""
+
+    first: str
+    count: int
+    place: Place
+
+    def apply(self, project: Project) -> MoveBlocks:
+        """Move the blocks."""
+        roots = _require_run(project, self.first, self.count)
+        old = place_of(project, self.first, self.count)
+        _require_outside(project, self.place, roots)
+        _require_free(project, self.place, roots, moved=True)
+        take(project, self.first, self.count)
+        put(project, roots, self.place)
+        return MoveBlocks(self.first, self.count, old)
+
+
+def require_block(project: Project, block_id: str) -> Block:
+    """The block with this id, or EditRefused."""
+    block = project.blocks.get(block_id)
+    if block is None:
+        raise EditRefused("This block is not there any more.")
+    return block
+
+
+def _require_run(project: Project, first: str, count: int) -> list[str]:
+    """The ids of ``count`` blocks that follow each other, from ``first`` on."""
+    require_block(project, first)
+    chain = project.chain_of(project.parents[first])
+    if chain is None or first not in chain:
+        chain = [first]
+    index = chain.index(first)
+    if not 1 <= count <= len(chain) - index:
+        raise EditRefused("There are not so many blocks below this one.")
+    return chain[index : index + count]
+
+
+def _require_whole(edit: CreateBlocks) -> None:
+    """The blocks must be the roots and all that is inside them, each once."""
+    inside = [child for block in edit.blocks for child in block.children()]
+    ids = [block.id for block in edit.blocks]
+    if not edit.roots or sorted([*inside, *edit.roots]) != sorted(ids) or len(set(ids)) < len(ids):
+        raise EditRefused("These blocks are not complete.")
+
+
+def _require_outside(project: Project, place: Place, roots: list[str]) -> None:
+    """A place must not be inside the blocks that are moved there."""
+    owner = place.stack if isinstance(place, NewStack | InStack) else place.block
+    moved = set(roots)
+    while owner in project.blocks:
+        if owner in moved:
+            raise EditRefused("A block cannot be put inside itself.")
+        owner = project.parents[owner].owner
+    stack = project.stacks.get(place.stack) if isinstance(place, InStack) else None
+    if stack is not None and stack.body == roots:
+        raise EditRefused("These blocks are a stack already.")
+
+
+def _require_free(
+    project: Project, place: Place, roots: Sequence[str], *, moved: bool = False
+) -> None:
+    """A place must be there, and free, once the moved blocks have left theirs."""
+    if isinstance(place, InInput):
+        plugged = require_block(project, place.block).inputs.get(place.slot)
+        if len(roots) != 1 or plugged not in (None, *(roots if moved else ())):
+            raise EditRefused("There is a block in this slot already.")
+        return
+    chain: list[str]
+    if isinstance(place, NewStack):
+        taken = place.stack in project.stacks or place.stack in project.blocks
+        if place.page not in PAGES or taken:
+            raise EditRefused("A stack cannot be made here.")
+        index, length = place.position, len(project.pages[place.page])
+        if moved and _leaves_page(project, roots, place.page):
+            length -= 1
+    else:
+        index = place.index
+        if isinstance(place, InStack):
+            if place.stack not in project.stacks:
+                raise EditRefused("This stack is not there any more.")
+            chain = project.stacks[place.stack].body
+        else:
+            chain = require_block(project, place.block).bodies.get(place.slot, [])
+        length = len(chain)
+        if moved and roots[0] in chain:
+            length -= len(roots)
+    if not 0 <= index <= length:
+        raise EditRefused("There is no such place.")
+
+
+def _leaves_page(project: Project, roots: Sequence[str], page: str) -> bool:
+    """Whether moving the blocks empties their stack, which then leaves this page's list."""
+    parent = project.parents[roots[0]]
+    stack = project.stacks.get(parent.owner)
+    return stack is not None and len(stack.body) == len(roots) and stack in project.pages[page]
+
+
+def _adopt(project: Project, block: Block) -> None:
+    """Note for the blocks directly inside a new block that it is their parent."""
+    for slot, plugged in block.inputs.items():
+        project.parents[plugged] = Parent(block.id, slot)
+    for slot, chain in block.bodies.items():
+        for child in chain:
+            project.parents[child] = Parent(block.id, slot)

@@ -1,0 +1,83 @@
+"""Python names for what people name: robots, variables, rules; always legal, never taken."""
+
+from __future__ import annotations
+
+import builtins
+import keyword
+import re
+import unicodedata
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+API = frozenset(
+    {
+        "Behavior",
+        "Launcher",
+        "Robot",
+        "human_state",
+        "stop_program",
+        "together",
+        "wait",
+        "wait_until",
+    }
+)
+"""What a generated program may import from nep_core under its own name."""
+
+RESERVED = frozenset(
+    {
+        *keyword.kwlist,
+        *keyword.softkwlist,
+        *(name for name in dir(builtins) if not name.startswith("_")),
+        *("exit", "quit", "copyright", "credits", "license", "help"),
+        *API,
+        *("behavior", "launcher", "random"),
+    }
+)
+"""Names that keep their meaning in a generated program."""
+
+_LONGEST = 40
+
+
+def python_name(text: str, fallback: str) -> str:
+    """Turn any text into an identifier, as near to it as can be: “größe (cm)” to größe_cm.
+
+    Python reads identifiers in NFKC form, so that the result is in that form. ``fallback`` is
+    used where nothing is left, and stands before what cannot begin a name.
+    """
+    normal = unicodedata.normalize("NFKC", text)
+    kept = "".join(c if f"a{c}".isidentifier() else "_" for c in normal)
+    name = re.sub("_+", "_", kept)[:_LONGEST].strip("_")
+    if name and not name.isidentifier():
+        name = f"{fallback}_{name}"
+    is_safe = name.isidentifier() and unicodedata.normalize("NFKC", name) == name
+    return name if is_safe else fallback
+
+
+class NameTable:
+    """Names given so far in one generated file."""
+
+    def __init__(self, taken: Iterable[str] = ()) -> None:
+        self._taken = set(taken)
+
+    def give(self, text: str, fallback: str) -> str:
+        """A name for ``text`` that nothing else in the file has."""
+        name = python_name(text, fallback)
+        if name in RESERVED:
+            name += "_"
+        unique, number = name, 2
+        while unique in self._taken or unique in RESERVED:
+            unique, number = f"{name}_{number}", number + 1
+        self._taken.add(unique)
+        return unique
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramNames:
+    """The Python names in a program: of robots by their names, of variables by their ids."""
+
+    robots: dict[str, str]
+    variables: dict[str, str]
+
+    def taken(self) -> set[str]:
+        """All these names."""
+        return {*self.robots.values(), *self.variables.values()}

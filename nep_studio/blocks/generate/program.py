@@ -1,0 +1,174 @@
+"""The whole generated file: what is imported, the robots, the variables, the rules."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from ..deployment import robot_entries, rules
+from ..language import Language
+from ..program import ALL_ROBOTS, Project
+from .expressions import Expressions, call
+from .hats import HATS, Hat
+from .names import NameTable, ProgramNames
+from .printing import literal, show
+from .reporters import REPORTERS
+from .rules import RuleWriter
+from .source_map import Code
+
+
+@dataclass(frozen=True, slots=True)
+class _Rule:
+    """A written rule, what it was written for, and what it needs to be there."""
+
+    made_for: tuple[object, ...]
+    lines: list[str]
+    blocks: list[str]
+    api: frozenset[str]
+    modules: frozenset[str]
+    robots: frozenset[str]
+    variables: frozenset[str]
+
+
+@dataclass(slots=True)
+class _Page:
+    """Lines with the block of each."""
+
+    lines: list[str] = field(default_factory=list)
+    blocks: list[str] = field(default_factory=list)
+
+    def add(self, lines: Sequence[str], blocks: Sequence[str] = ()) -> None:
+        self.lines.extend(lines)
+        self.blocks.extend(blocks or [""] * len(lines))
+
+
+class ProgramGenerator:
+    """Makes the Python of a project, and again after an edit for the stacks that have changed."""
+
+    def __init__(self, project: Project, language: Language) -> None:
+        self._project = project
+        self._language = language
+        self._rules: dict[str, _Rule] = {}
+        self._robots: dict[str, tuple[int, frozenset[str]]] = {}
+        self._robot_slots = {
+            definition.id: slot.name
+            for definition in language.definitions.values()
+            for slot in definition.slots.values()
+            if slot.kind.name == "robot"
+        }
+
+    def generate(self) -> Code:
+        """The program as it is now; raises CodeRefused, which names the block."""
+        chains = {
+            self._project.parents[chain[0]].owner: chain
+            for chain in rules(self._project, self._language)
+        }
+        names = self._names(chains)
+        functions = NameTable(names.taken())
+        self._rules = {
+            stack: self._rule(stack, chain, names, functions) for stack, chain in chains.items()
+        }
+        return self._assemble(names, list(self._rules.values()))
+
+    def _rule(
+        self, stack: str, chain: list[str], names: ProgramNames, functions: NameTable
+    ) -> _Rule:
+        """Write the rule of a stack, unless it is written already."""
+        code = Expressions(self._project, self._language, names, REPORTERS)
+        hat_block = self._project.blocks[chain[0]]
+        hat = HATS[code.definition(hat_block).generator](code, hat_block)
+        function = functions.give(hat.name, "when")
+        made_for = (self._project.revisions.get(stack), function, names)
+        known = self._rules.get(stack)
+        if known is not None and known.made_for == made_for:
+            return known
+        return _write(made_for, code, function, hat, chain)
+
+    def _names(self, chains: dict[str, list[str]]) -> ProgramNames:
+        """Names for the robots of the Robots page, then others that rules use, then variables."""
+        listed = [entry.name for entry in robot_entries(self._project, self._language)]
+        used = frozenset[str]().union(*(self._robots_in(*item) for item in chains.items()))
+        table = NameTable()
+        robots = {ALL_ROBOTS: table.give("all_robots", "robot")}
+        for name in [*listed, *sorted(used)]:
+            if name not in robots:
+                robots[name] = table.give(name.lower(), "robot")
+        variables = {v.id: table.give(v.name, "variable") for v in self._project.variables}
+        return ProgramNames(robots, variables)
+
+    def _robots_in(self, stack: str, chain: list[str]) -> frozenset[str]:
+        revision = self._project.revisions.get(stack, 0)
+        known = self._robots.get(stack)
+        if known is None or known[0] != revision:
+            definitions, slots = self._language.definitions, self._robot_slots
+            robots = frozenset(
+                str(definitions[block.type].value(block, slots[block.type]))
+                for block in self._project.within(chain)
+                if block.type in slots
+            )
+            known = self._robots[stack] = (revision, robots)
+        return known[1]
+
+    def _assemble(self, names: ProgramNames, rules: list[_Rule]) -> Code:
+        api = {"Behavior"}.union(*(rule.api for rule in rules))
+        modules = set[str]().union(*(rule.modules for rule in rules))
+        used = set[str]().union(*(rule.robots for rule in rules))
+        assigned = set[str]().union(*(rule.variables for rule in rules))
+        page = _Page()
+        robots = self._robot_lines(names, used)
+        if robots:
+            api.add("Robot")
+        page.add([_docstring(self._project.name), *(f"import {name}" for name in sorted(modules))])
+        page.add([f"from nep_core import {', '.join(sorted(api))}", ""])
+        page.add([line for line, _ in robots], [block for _, block in robots])
+        behavior = call("Behavior", ast.Constant(self._project.name))
+        page.add([f"behavior = {show(behavior)}"])
+        page.add([f"{name} = 0" for v, name in names.variables.items() if v in assigned])
+        for rule in rules:
+            page.add(["", ""])
+            page.add(rule.lines, rule.blocks)
+        page.add(["", "", "behavior.run()"] if rules else ["", "behavior.run()"])
+        return Code("\n".join(page.lines) + "\n", tuple(page.blocks))
+
+    def _robot_lines(self, names: ProgramNames, used: set[str]) -> list[tuple[str, str]]:
+        """A line for each robot that the rules use, with its block on the Robots page."""
+        entries = {e.name: e.block_id for e in robot_entries(self._project, self._language)}
+        lines = []
+        for name, identifier in names.robots.items():
+            if name not in used:
+                continue
+            which: ast.expr = ast.Constant(name)
+            if name == ALL_ROBOTS:
+                which = ast.List([ast.Constant(robot) for robot in entries])
+            line = f"{identifier} = {show(call('Robot', which))}"
+            lines.append((line, entries.get(name, "")))
+        return lines
+
+
+def generate_program(project: Project, language: Language) -> Code:
+    """The Python of a project; raises CodeRefused, which names the block."""
+    return ProgramGenerator(project, language).generate()
+
+
+def _write(
+    made_for: tuple[object, ...], code: Expressions, function: str, hat: Hat, chain: list[str]
+) -> _Rule:
+    writer = RuleWriter(code)
+    writer.write(function, hat, chain)
+    return _Rule(
+        made_for,
+        writer.lines,
+        writer.blocks,
+        frozenset(code.api),
+        frozenset(code.modules),
+        frozenset(code.robots),
+        frozenset(code.variables),
+    )
+
+
+def _docstring(name: str) -> str:
+    sentence = f"{name.rstrip('.')}. Made with NEP Studio."
+    if '"' in sentence or "\\" in sentence or not sentence.isprintable():
+        return literal(sentence)
+    return f'"""{sentence}"""'

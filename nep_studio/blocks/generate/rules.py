@@ -1,0 +1,143 @@
+"""Write one stack as the function of a rule, without recursion, with the block of each line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from ..errors import CodeRefused
+from ..program import Block
+from .expressions import Expressions
+from .hats import Hat
+from .printing import show
+from .statements import STATEMENTS, Assignment, Body, Function, Piece
+
+DEEPEST_LOOP = 20
+"""CPython refuses more: "too many statically nested blocks"."""
+
+DEEPEST_INDENT = 90
+"""CPython stops at 100 indents."""
+
+_MARGINS = tuple("    " * indent for indent in range(DEEPEST_INDENT + 2))
+
+
+@dataclass(slots=True)
+class _Scope:
+    """A function being written: where its ``global`` line goes, and for which variables."""
+
+    line: int
+    indent: int
+    block: str
+    assigned: set[str] = field(default_factory=set)
+
+
+@dataclass(slots=True)
+class _Frame:
+    """What is left to write of a chain (blocks) or of a block (pieces), and how deep it is.
+
+    ``opens`` marks the chain that is the whole body of a function.
+    """
+
+    left: Iterator[Block] | Iterator[Piece]
+    block: str
+    indent: int
+    loops: int
+    scope: _Scope
+    opens: bool = False
+
+
+class RuleWriter:
+    """Writes one rule; ``blocks[i]`` is the block that made ``lines[i]``."""
+
+    def __init__(self, code: Expressions) -> None:
+        self.lines: list[str] = []
+        self.blocks: list[str] = []
+        self._code = code
+
+    def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> None:
+        """Write decorator, header and body; ``stack[0]`` is the block of the hat."""
+        hat_block = self._code.project.blocks[stack[0]]
+        self._comment(hat_block, "")
+        self._line(f"@{show(hat.decorator)}", hat_block.id)
+        self._line(f"def {function_name}():", hat_block.id)
+        frames = [self._function(stack[1:], hat_block.id, 1)]
+        while frames:
+            frame = frames[-1]
+            item = next(frame.left, None)
+            if item is None:
+                self._close(frames.pop())
+            elif isinstance(item, Block):
+                frames.append(self._block(frame, item))
+            elif (inner := self._piece(frame, item)) is not None:
+                frames.append(inner)
+
+    def _block(self, chain: _Frame, block: Block) -> _Frame:
+        self._comment(block, _MARGINS[chain.indent])
+        definition = self._code.definition(block)
+        if definition.call is not None:
+            pieces: Sequence[Piece] = (show(self._code.call(block, definition.call)),)
+        else:
+            pieces = STATEMENTS[definition.generator](self._code, block)
+        return _Frame(iter(pieces), block.id, chain.indent, chain.loops, chain.scope)
+
+    def _piece(self, frame: _Frame, piece: Piece) -> _Frame | None:
+        """Write one piece of a block; give the chain inside it, if it has one."""
+        margin = _MARGINS[frame.indent]
+        if isinstance(piece, str):
+            self._line(margin + piece, frame.block)
+            return None
+        if isinstance(piece, Assignment):
+            frame.scope.assigned.add(piece.variable)
+            self._line(margin + piece.line, frame.block)
+            return None
+        chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
+        if isinstance(piece, Function):
+            self._line(f"{margin}def {piece.name}():", frame.block)
+            return self._function(chain, frame.block, frame.indent + 1)
+        return self._chain(chain, frame, piece)
+
+    def _chain(self, chain: Sequence[str], owner: _Frame, body: Body) -> _Frame:
+        indent, loops = owner.indent + 1, owner.loops + body.loop
+        blocks = self._enabled(chain, owner.block, indent, loops)
+        return _Frame(blocks, owner.block, indent, loops, owner.scope)
+
+    def _function(self, chain: Sequence[str], owner: str, indent: int) -> _Frame:
+        scope = _Scope(len(self.lines), indent, owner)
+        blocks = self._enabled(chain, owner, indent, 0)
+        return _Frame(blocks, owner, indent, 0, scope, opens=True)
+
+    def _enabled(
+        self, chain: Sequence[str], owner: str, indent: int, loops: int
+    ) -> Iterator[Block]:
+        """The blocks of a chain that are not disabled; where there are none, write ``pass``."""
+        if loops > DEEPEST_LOOP or indent > DEEPEST_INDENT:
+            raise CodeRefused(
+                "Blocks are nested too deep: "
+                f"{DEEPEST_LOOP} loops or {DEEPEST_INDENT} blocks inside each other at most.",
+                block=owner,
+                checklist=("Take the inner blocks out into a rule of their own.",),
+            )
+        project_blocks = self._code.project.blocks
+        blocks = [project_blocks[i] for i in chain if not project_blocks[i].disabled]
+        if not blocks:
+            self._line(f"{_MARGINS[indent]}pass", owner)
+        return iter(blocks)
+
+    def _close(self, frame: _Frame) -> None:
+        """At the end of a function, put its ``global`` line at its beginning."""
+        scope = frame.scope
+        if frame.opens and scope.assigned:
+            line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(scope.assigned))}"
+            self.lines.insert(scope.line, line)
+            self.blocks.insert(scope.line, scope.block)
+
+    def _line(self, line: str, block: str) -> None:
+        self.lines.append(line)
+        self.blocks.append(block)
+
+    def _comment(self, block: Block, margin: str) -> None:
+        """What a person wrote at a block; control characters could end the comment."""
+        for line in block.comment.splitlines():
+            visible = "".join(c if c.isprintable() else " " for c in line).strip()
+            if visible:
+                self._line(f"{margin}# {visible}", block.id)

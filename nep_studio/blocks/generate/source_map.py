@@ -1,0 +1,33 @@
+"""Generated Python with a map: which block made each line, and which lines a block made."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import cached_property
+
+
+@dataclass(frozen=True)
+class Code:
+    """A generated file; ``blocks[i]`` made line i + 1 (an empty text where no block did)."""
+
+    text: str
+    blocks: tuple[str, ...]
+
+    def block_at(self, line: int) -> str | None:
+        """The block that made a line, counted from 1, or None."""
+        if not 1 <= line <= len(self.blocks):
+            return None
+        return self.blocks[line - 1] or None
+
+    def lines_of(self, block: str) -> tuple[int, ...]:
+        """The lines that a statement block made itself, without those of the blocks inside it."""
+        return self._lines.get(block, ())
+
+    @cached_property
+    def _lines(self) -> dict[str, tuple[int, ...]]:
+        lines: defaultdict[str, list[int]] = defaultdict(list)
+        for number, block in enumerate(self.blocks, start=1):
+            if block:
+                lines[block].append(number)
+        return {block: tuple(numbers) for block, numbers in lines.items()}

@@ -1,0 +1,113 @@
+"""Undo and redo: transactions of edits, each one step; typing in one field is one step too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from .edits import Edit, SetComment, SetField
+from .program import Project
+
+
+@dataclass(slots=True)
+class Step:
+    """One step that a person can take back: its label for the menu, and the edits to do so."""
+
+    label: str
+    edits: list[Edit] = field(default_factory=list)
+
+
+class History:
+    """Applies edits to a project and remembers how to take them back."""
+
+    def __init__(self, project: Project) -> None:
+        self._project = project
+        self._undo: list[Step] = []
+        self._redo: list[Step] = []
+        self._open: Step | None = None
+        self._may_merge = False
+
+    @property
+    def undo_label(self) -> str:
+        """What undo would take back, or an empty text when there is nothing."""
+        return self._undo[-1].label if self._undo else ""
+
+    @property
+    def redo_label(self) -> str:
+        """What redo would do again, or an empty text when there is nothing."""
+        return self._redo[-1].label if self._redo else ""
+
+    @contextmanager
+    def transaction(self, label: str) -> Iterator[None]:
+        """Everything applied inside is one step; an exception takes all of it back.
+
+        A transaction inside another is part of the outer one.
+        """
+        if self._open is not None:
+            yield
+            return
+        self._open = Step(label)
+        try:
+            yield
+        except BaseException:
+            self._take_back(self._open)
+            raise
+        else:
+            self._record(self._open)
+        finally:
+            self._open = None
+
+    def apply(self, edit: Edit, label: str = "") -> None:
+        """Apply an edit, as a step of its own when no transaction is open."""
+        with self.transaction(label or type(edit).__name__):
+            assert self._open is not None
+            self._open.edits.append(edit.apply(self._project))
+
+    def undo(self) -> bool:
+        """Take the last step back; False when there is none."""
+        return self._step(self._undo, self._redo)
+
+    def redo(self) -> bool:
+        """Do the step again that was taken back last; False when there is none."""
+        return self._step(self._redo, self._undo)
+
+    def seal(self) -> None:
+        """End the typing: what follows is a step of its own (the field has lost the focus)."""
+        self._may_merge = False
+
+    def _step(self, source: list[Step], target: list[Step]) -> bool:
+        if self._open is not None:
+            raise RuntimeError("undo and redo cannot run inside a transaction")
+        self.seal()
+        if not source:
+            return False
+        target.append(self._take_back(source.pop()))
+        return True
+
+    def _take_back(self, step: Step) -> Step:
+        """Apply a step's edits, newest first; give the step that does the opposite."""
+        opposite = Step(step.label)
+        while step.edits:
+            opposite.edits.append(step.edits.pop().apply(self._project))
+        return opposite
+
+    def _record(self, step: Step) -> None:
+        if not step.edits:
+            return
+        self._redo.clear()
+        if not (self._may_merge and self._undo and _same_typing(self._undo[-1], step)):
+            self._undo.append(step)
+        self._may_merge = True
+
+
+def _same_typing(earlier: Step, later: Step) -> bool:
+    """Whether two steps set the same field or comment; the earlier one then undoes both."""
+    if len(earlier.edits) != 1 or len(later.edits) != 1:
+        return False
+    first, second = earlier.edits[0], later.edits[0]
+    if isinstance(first, SetField) and isinstance(second, SetField):
+        return (first.block, first.slot) == (second.block, second.slot)
+    if isinstance(first, SetComment) and isinstance(second, SetComment):
+        return first.block == second.block
+    return False

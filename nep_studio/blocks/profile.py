@@ -1,0 +1,41 @@
+"""A robot profile: the choices that a kind of robot gives to blocks, read from robot.toml."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from .definition_files import read_choices, read_toml
+from .errors import DefinitionError
+
+
+@dataclass(frozen=True, slots=True)
+class RobotProfile:
+    """What a kind of robot can do.
+
+    ``node`` is the action node that plays it; ``choices`` are tables of value and label;
+    ``standing`` are the postures from which the robot can walk.
+    """
+
+    name: str
+    title: str
+    node: str
+    choices: Mapping[str, Mapping[str, str]]
+    standing: frozenset[str]
+
+
+def load_profile(path: Path) -> RobotProfile:
+    """Read a robot.toml, or raise DefinitionError, which names the file."""
+    data = read_toml(path)
+    names = [data.get(key) for key in ("name", "title", "node")]
+    if not all(isinstance(name, str) and name for name in names):
+        raise DefinitionError(f"The file {path.name} needs a name, a title and a node.")
+    choices = read_choices(path, data.get("choices", {}))
+    postures = data.get("choices", {}).get("postures", {})
+    standing = frozenset(
+        value
+        for value, entry in postures.items()
+        if isinstance(entry, dict) and entry.get("stands") is True
+    )
+    return RobotProfile(data["name"], data["title"], data["node"], choices, standing)

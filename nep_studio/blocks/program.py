@@ -1,0 +1,162 @@
+"""A program as plain data: pages of stacks of blocks, flat, each with an id that stays.
+
+A block is in exactly one place: in the chain of a stack, in the chain of another block's body, or
+plugged into another block's input. ``Project.parents`` says where. Slots inside a repeated group
+are numbered from 1: ``also_do.2``. Only edits.py changes a project.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import msgspec
+
+from .values import FieldValue
+
+PAGES = ("behaviour", "robots", "nodes")
+
+ALL_ROBOTS = "*"
+"""The value of a robot field that means every robot of the Robots page."""
+
+
+class Block(msgspec.Struct, omit_defaults=True):
+    """One block.
+
+    ``fields`` are values chosen or typed by slot, ``inputs`` plugged blocks by slot, ``bodies``
+    chains of blocks by slot (never an empty one), ``groups`` how often each group of the sentence
+    is there; ``extra`` are keys of the file that this version does not know: never changed, saved
+    as they were.
+    """
+
+    id: str
+    type: str
+    fields: dict[str, FieldValue] = {}
+    inputs: dict[str, str] = {}
+    bodies: dict[str, list[str]] = {}
+    groups: dict[str, int] = {}
+    disabled: bool = False
+    collapsed: bool = False
+    comment: str = ""
+    extra: dict[str, Any] = {}
+
+    def children(self) -> Iterator[str]:
+        """The blocks that are directly inside this one, inputs first."""
+        yield from self.inputs.values()
+        for chain in self.bodies.values():
+            yield from chain
+
+    def copy(self) -> Block:
+        """A block of the same content that can be changed apart from this one."""
+        return Block(
+            self.id,
+            self.type,
+            {slot: _own(value) for slot, value in self.fields.items()},
+            dict(self.inputs),
+            {slot: list(chain) for slot, chain in self.bodies.items()},
+            dict(self.groups),
+            self.disabled,
+            self.collapsed,
+            self.comment,
+            self.extra,
+        )
+
+
+class Stack(msgspec.Struct):
+    """A chain of blocks at a place on a page, in canvas units from the page's corner."""
+
+    id: str
+    x: float
+    y: float
+    body: list[str]
+
+
+class Variable(msgspec.Struct):
+    """A value with a name that the whole program shares; blocks name it by its id."""
+
+    id: str
+    name: str
+
+
+class Parent(NamedTuple):
+    """Where a block is: in a stack (``slot`` is empty) or in a slot of another block."""
+
+    owner: str
+    slot: str = ""
+
+
+class Project:
+    """A program: its name, its variables, and three pages of stacks."""
+
+    def __init__(self, name: str = "Untitled") -> None:
+        self.name = name
+        self.variables: list[Variable] = []
+        self.pages: dict[str, list[Stack]] = {page: [] for page in PAGES}
+        self.blocks: dict[str, Block] = {}
+        self.stacks: dict[str, Stack] = {}
+        self.parents: dict[str, Parent] = {}
+        self.revisions: dict[str, int] = {}
+        """How often each stack has changed; never goes back, not even by undo."""
+        self._last_id = 0
+
+    def new_id(self, prefix: str) -> str:
+        """An id that no block, stack or variable of this project has had: prefix and number."""
+        self._last_id += 1
+        return f"{prefix}{self._last_id}"
+
+    def id_seen(self, some_id: str) -> None:
+        """Remember that an id is used, so that new_id never gives it again."""
+        digits = some_id.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_-")
+        if digits.isascii() and digits.isdecimal() and len(digits) < 16:
+            self._last_id = max(self._last_id, int(digits))
+
+    def stack_of(self, block_id: str) -> Stack:
+        """The stack in which a block is, however deep."""
+        owner = block_id
+        while owner in self.parents:
+            owner = self.parents[owner].owner
+        return self.stacks[owner]
+
+    def page_of(self, stack_id: str) -> str:
+        """The name of the page on which a stack is."""
+        return next(
+            page for page, stacks in self.pages.items() if any(s.id == stack_id for s in stacks)
+        )
+
+    def chain_of(self, parent: Parent) -> list[str] | None:
+        """The chain of blocks at a place (the list itself), or None when it is an input."""
+        if not parent.slot:
+            return self.stacks[parent.owner].body
+        return self.blocks[parent.owner].bodies.get(parent.slot)
+
+    def within(self, roots: Sequence[str], *, enabled: bool = False) -> Iterator[Block]:
+        """The blocks of a chain and all that is inside them, each before what it contains.
+
+        With ``enabled``, disabled blocks are left out with all that is inside them.
+        """
+        waiting = list(reversed(roots))
+        while waiting:
+            block = self.blocks[waiting.pop()]
+            if enabled and block.disabled:
+                continue
+            yield block
+            if block.inputs or block.bodies:
+                waiting.extend(reversed(list(block.children())))
+
+    def variable(self, variable_id: str) -> Variable | None:
+        """The variable with this id, or None."""
+        return next((v for v in self.variables if v.id == variable_id), None)
+
+    def touch(self, stack_id: str) -> None:
+        """Say that a stack has changed."""
+        self.revisions[stack_id] = self.revisions.get(stack_id, 0) + 1
+
+
+def split_slot(key: str) -> tuple[str, int]:
+    """Take ``also_do.2`` apart into its name and number; the number is 0 outside groups."""
+    name, dot, number = key.partition(".")
+    return (name, int(number)) if dot and number.isdecimal() else (key, 0)
+
+
+def _own(value: FieldValue) -> FieldValue:
+    return dict(value) if isinstance(value, dict) else value

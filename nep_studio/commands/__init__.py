@@ -1,0 +1,1 @@
+"""The jobs of ``nep-studio`` that need no window."""

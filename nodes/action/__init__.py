@@ -1,0 +1,1 @@
+"""Action nodes: they play requests on robots."""

@@ -1,0 +1,1 @@
+"""The body of a NAO: joints, postures, motion; no network in here."""

@@ -1,0 +1,126 @@
+"""What a robot can be asked to do: one small struct for the arguments of each action."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import msgspec
+from msgspec import Meta
+
+from nep_core.errors import ActionFailed
+
+LONGEST_TEXT = 5000
+
+Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
+WalkLength = Annotated[float, Meta(ge=-20.0, le=20.0)]
+TurnAngle = Annotated[float, Meta(ge=-3600.0, le=3600.0)]
+LookAngle = Annotated[float, Meta(ge=-180.0, le=180.0)]
+Stretch = Annotated[float, Meta(ge=0.1, le=10.0)]
+FadeTime = Annotated[float, Meta(ge=0.0, le=60.0)]
+
+
+class Say(msgspec.Struct, frozen=True):
+    """Say a text, with gestures of the arms while speaking."""
+
+    text: Text
+    gesture: str = "no_gesture"
+    language: str = ""
+
+
+class Do(msgspec.Struct, frozen=True):
+    """Take a posture, such as ``posture_stand``."""
+
+    posture: str
+
+
+class Imitate(msgspec.Struct, frozen=True):
+    """Imitate an animal."""
+
+    animal: str
+
+
+class Play(msgspec.Struct, frozen=True):
+    """Play an animation: as seen in a mirror, backwards, or ``stretch`` times as long."""
+
+    animation: str
+    mirror: bool = False
+    reverse: bool = False
+    stretch: Stretch = 1.0
+
+
+class Walk(msgspec.Struct, frozen=True):
+    """Walk so many metres forward and to the left (below 0: back, to the right)."""
+
+    forward_m: WalkLength = 0.0
+    left_m: WalkLength = 0.0
+
+
+class Turn(msgspec.Struct, frozen=True):
+    """Turn on the spot: above 0 to the left."""
+
+    degrees: TurnAngle
+
+
+class Look(msgspec.Struct, frozen=True):
+    """Turn the head: yaw above 0 to the left, pitch above 0 down, as NAO counts."""
+
+    yaw_deg: LookAngle = 0.0
+    pitch_deg: LookAngle = 0.0
+
+
+class Leds(msgspec.Struct, frozen=True):
+    """Light a group of lights in a colour (``#rrggbb``), fading over some seconds."""
+
+    group: str
+    colour: str
+    seconds: FadeTime = 0.0
+
+
+Action = Say | Do | Imitate | Play | Walk | Turn | Look | Leds
+
+ACTIONS: dict[str, type[Action]] = {
+    "say": Say,
+    "do": Do,
+    "imitate": Imitate,
+    "play": Play,
+    "walk": Walk,
+    "turn": Turn,
+    "look": Look,
+    "leds": Leds,
+}
+STOP = "stop"
+"""The one action that is no command: it ends all commands, and nothing can delay it."""
+
+
+def read_action(name: str, args: dict[str, Any]) -> Action:
+    """Return a named action with its arguments checked; arguments it does not know are ignored.
+
+    Raises ActionFailed with a sentence that names what is possible.
+    """
+    if name not in ACTIONS:
+        known = ", ".join([*ACTIONS, STOP])
+        raise ActionFailed(f'There is no action "{name}". Possible actions: {known}.')
+    kind = ACTIONS[name]
+    try:
+        action = msgspec.convert(args, kind)
+    except msgspec.ValidationError as error:
+        raise ActionFailed(f'"{name}" cannot be done: {_plain(error)} {_takes(kind)}') from error
+    for field in kind.__struct_fields__:
+        if isinstance(value := getattr(action, field), float) and not math.isfinite(value):
+            raise ActionFailed(f'"{name}" cannot be done: {field} is not a number. {_takes(kind)}')
+    return action
+
+
+def _plain(error: msgspec.ValidationError) -> str:
+    what, _, place = str(error).partition(" - at `$.")
+    what = what.replace("Object missing required field", "there is no").replace("`", "")
+    return f"{place.rstrip('`')}: {what}." if place else f"{what}."
+
+
+def _takes(kind: type[Action]) -> str:
+    fields = [
+        field.name if field.required else f"{field.name} (may be left out)"
+        for field in msgspec.structs.fields(kind)
+    ]
+    return f"It takes {', '.join(fields)}."

@@ -1,0 +1,57 @@
+"""What every robot driver offers to the action node, be its robot on the screen or in the room."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple, Protocol
+
+from nep_core.messages import RobotState
+from nodes.action.naobody.actions import Action
+from nodes.action.naobody.limbs import Limb
+
+
+class Connection(NamedTuple):
+    """How the link to the robot is, and a sentence about it."""
+
+    event: Literal["connecting", "connected", "connection_failed", "disconnected"]
+    description: str
+
+
+class Ended(NamedTuple):
+    """A command that the robot has ended, and what there is to say about it."""
+
+    id: str
+    state: Literal["done", "failed"]
+    description: str
+
+
+class Driver(Protocol):
+    """One robot. Nothing here waits: ``step`` is called often, and moves on what goes on."""
+
+    @property
+    def connection(self) -> Connection:
+        """How the link to the robot is."""
+
+    @property
+    def moving(self) -> bool:
+        """Whether the robot does something."""
+
+    def connect(self) -> None:
+        """Begin to connect, and keep trying until ``disconnect``."""
+
+    def disconnect(self) -> None:
+        """Give the robot up."""
+
+    def limbs(self, action: Action) -> frozenset[Limb]:
+        """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
+
+    def start(self, command_id: str, action: Action) -> None:
+        """Begin an action; ``step`` tells when it has ended."""
+
+    def stop(self) -> None:
+        """End every action at once; none of them is told by ``step`` any more."""
+
+    def step(self, now_s: float) -> list[Ended]:
+        """Go on to a time. Returns early, as soon as a command ends: call until it is empty."""
+
+    def state(self) -> RobotState | None:
+        """Return where the robot's body is, or None when that is not known."""

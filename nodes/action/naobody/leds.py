@@ -1,0 +1,55 @@
+"""A robot's lights: which groups there are, and what a colour's text means."""
+
+from __future__ import annotations
+
+import re
+
+from nep_core.errors import ActionFailed
+
+OFF = 0x000000
+GROUPS: dict[str, tuple[str, ...]] = {
+    "LeftFaceLeds": ("LeftFaceLeds",),
+    "RightFaceLeds": ("RightFaceLeds",),
+    "FaceLeds": ("LeftFaceLeds", "RightFaceLeds"),
+    "LeftEarLeds": ("LeftEarLeds",),
+    "RightEarLeds": ("RightEarLeds",),
+    "EarLeds": ("LeftEarLeds", "RightEarLeds"),
+    "BrainLeds": ("BrainLeds",),
+    "ChestLeds": ("ChestLeds",),
+    "LeftFootLeds": ("LeftFootLeds",),
+    "RightFootLeds": ("RightFootLeds",),
+    "FeetLeds": ("LeftFootLeds", "RightFootLeds"),
+}
+GROUPS["AllLeds"] = tuple(name for name, parts in GROUPS.items() if parts == (name,))
+"""NAOqi's names of groups, each with the lights that it is made of."""
+
+AT_START: dict[str, int] = {light: OFF for light in GROUPS["AllLeds"]} | {
+    "LeftFaceLeds": 0xFFFFFF,
+    "RightFaceLeds": 0xFFFFFF,
+    "LeftEarLeds": 0x0000FF,
+    "RightEarLeds": 0x0000FF,
+}
+
+
+def lights(group: str) -> tuple[str, ...]:
+    """Return the lights of a group. Raises ActionFailed with the groups that there are."""
+    if group not in GROUPS:
+        known = ", ".join(sorted(GROUPS))
+        raise ActionFailed(f'There are no lights called "{group}". Possible: {known}.')
+    return GROUPS[group]
+
+
+def colour_number(colour: str) -> int:
+    """Return 0xRRGGBB for text such as ``#ff8000``. Raises ActionFailed for other text."""
+    if not re.fullmatch(r"#[0-9a-fA-F]{6}", colour):
+        raise ActionFailed(f'"{colour}" is not a colour. Write one like #ff8000: red, green, blue.')
+    return int(colour[1:], 16)
+
+
+def mixed(start: int, end: int, part: float) -> int:
+    """Return the colour that is ``part`` (0 to 1) of the way from one colour to another."""
+    colour = 0
+    for shift in (16, 8, 0):
+        first, last = (start >> shift) & 0xFF, (end >> shift) & 0xFF
+        colour |= round(first + (last - first) * part) << shift
+    return colour

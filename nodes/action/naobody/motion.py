@@ -1,0 +1,140 @@
+"""Movements ready to be played: every joint's angle at every tick, within its limits and speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nodes.action.naobody.body import Angles, Body
+from nodes.action.naobody.curves import MINIMUM_JERK_PEAK, minimum_jerk, ticks, track_angles
+from nodes.action.naobody.keyframes import Keyframes
+
+TICK_S = 0.01
+POSTURE_SPEED = 0.25
+"""Part of their top speed that joints use between postures: what looks calm, and stays upright."""
+SHORTEST_MOVE_S = 0.4
+APPROACH_SPEED = 0.5
+BRAKING_S = 0.25
+SPEED_MARGIN = 1.02
+"""Movements that are too fast are slowed this much more than a sampled curve says."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Angles (ticks, columns) of some joints, one row every TICK_S; ``notes`` say what was changed.
+
+    ``columns`` are places in the body's joint order.
+    """
+
+    columns: tuple[int, ...]
+    angles: Angles
+    notes: tuple[str, ...] = ()
+
+    @property
+    def duration_s(self) -> float:
+        """How long it takes."""
+        return len(self.angles) * TICK_S
+
+
+def move(
+    body: Body,
+    pose: Angles,
+    goal: Angles,
+    columns: Sequence[int],
+    *,
+    speed: float = POSTURE_SPEED,
+    at_least_s: float = SHORTEST_MOVE_S,
+) -> Motion:
+    """Return the minimum-jerk movement of some joints from a pose to a goal (both: every joint).
+
+    No joint moves faster than ``speed`` (0 to 1) times its top speed.
+    """
+    chosen = list(columns)
+    start, end = pose[chosen], goal[chosen]
+    fastest = body.max_speed[chosen] * speed
+    needed_s = float(np.max(MINIMUM_JERK_PEAK * np.abs(end - start) / fastest, initial=0.0))
+    duration_s = math.ceil(max(needed_s, at_least_s) / TICK_S) * TICK_S
+    progress = minimum_jerk(ticks(duration_s, TICK_S) / duration_s)
+    return _allowed(body, pose, chosen, start + progress[:, None] * (end - start))
+
+
+def keyframe_motion(body: Body, pose: Angles, keyframes: Keyframes) -> Motion:
+    """Return keyframes as a movement that begins at a pose (every joint).
+
+    The way to the first keys gets the time it needs; what is too fast is stretched in time;
+    angles that the joints cannot have are clamped. The notes say so.
+    """
+    notes: list[str] = []
+    keyframes = _with_coupled_joints(body, keyframes)
+    keyframes = keyframes.delayed(_approach_delay_s(body, pose, keyframes))
+    factor = _slowdown(body, pose, keyframes)
+    if factor > 1.0:
+        notes.append(f"played {factor:.2f} times slower: its joints cannot move faster")
+        keyframes = keyframes.stretched(factor)
+    columns = [body.index[name] for name in keyframes.tracks]
+    return _allowed(body, pose, columns, _sampled(body, pose, keyframes, TICK_S), notes)
+
+
+def braking(body: Body, pose: Angles, speed_rad_s: Angles) -> Motion:
+    """Return how every joint comes to rest from its present speed, evenly, without a jerk."""
+    s = ticks(BRAKING_S, TICK_S) / BRAKING_S
+    way = (1.0 - (1.0 - s) ** 3) / 3.0 * BRAKING_S
+    allowed, _ = body.clamped(pose + way[:, None] * speed_rad_s)
+    return Motion(tuple(range(len(pose))), allowed)
+
+
+def _allowed(
+    body: Body, pose: Angles, columns: list[int], angles: Angles, notes: Sequence[str] = ()
+) -> Motion:
+    """Return the movement with its angles clamped; a head that turns may have to nod for it."""
+    whole = np.repeat(pose[None, :], len(angles), axis=0)
+    whole[:, columns] = angles
+    allowed, clamped = body.clamped(whole)
+    if clamped:
+        notes = [*notes, f"kept within the limits of {', '.join(clamped)}"]
+    if body.head[0] in columns:
+        columns = sorted({*columns, *body.head})
+    return Motion(tuple(columns), allowed[:, columns], tuple(notes))
+
+
+def _with_coupled_joints(body: Body, keyframes: Keyframes) -> Keyframes:
+    """Give the joints that share a motor the same track: the leader's where it has one."""
+    tracks = dict(keyframes.tracks)
+    for follower, leader in body.same_motor.items():
+        shared = tracks.get(leader) or tracks.get(follower)
+        if shared:
+            tracks[leader] = tracks[follower] = shared
+    return Keyframes(tracks)
+
+
+def _approach_delay_s(body: Body, pose: Angles, keyframes: Keyframes) -> float:
+    delay_s = 0.0
+    for name, track in keyframes.tracks.items():
+        column = body.index[name]
+        way = abs(track.keys[0] - pose[column])
+        needed_s = max(TICK_S, MINIMUM_JERK_PEAK * way / (body.max_speed[column] * APPROACH_SPEED))
+        delay_s = max(delay_s, needed_s - track.times[0])
+    return delay_s
+
+
+def _slowdown(body: Body, pose: Angles, keyframes: Keyframes) -> float:
+    """Return how many times longer the keyframes must last so that no joint is too fast."""
+    tick_s = TICK_S / 4.0
+    columns = [body.index[name] for name in keyframes.tracks]
+    angles = np.vstack([pose[columns], _sampled(body, pose, keyframes, tick_s)])
+    speeds = np.abs(np.diff(angles, axis=0)) / tick_s
+    worst = float(np.max(speeds / body.max_speed[columns], initial=0.0))
+    return worst * SPEED_MARGIN if worst > 1.0 else 1.0
+
+
+def _sampled(body: Body, pose: Angles, keyframes: Keyframes, tick_s: float) -> Angles:
+    times_s = ticks(keyframes.duration_s, tick_s)
+    return np.column_stack(
+        [
+            track_angles(track, float(pose[body.index[name]]), times_s)
+            for name, track in keyframes.tracks.items()
+        ]
+    )

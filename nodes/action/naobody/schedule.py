@@ -1,0 +1,71 @@
+"""Which commands run now and which wait: a limb does one thing at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from nodes.action.naobody.actions import Action
+from nodes.action.naobody.limbs import Limb
+
+
+@dataclass(frozen=True)
+class Command:
+    """An action to be done, with the limbs that it needs for itself."""
+
+    id: str
+    action: Action
+    limbs: frozenset[Limb]
+    priority: int = 0
+
+
+class Schedule:
+    """Commands on different limbs run together, on the same limb by priority, then by time."""
+
+    def __init__(self) -> None:
+        self._waiting: list[Command] = []
+        self._running: dict[str, Command] = {}
+
+    @property
+    def running(self) -> tuple[Command, ...]:
+        """The commands that have been started and have not ended."""
+        return tuple(self._running.values())
+
+    @property
+    def waiting(self) -> tuple[Command, ...]:
+        """The commands that wait for their limbs, the next one first."""
+        return tuple(self._waiting)
+
+    def add(self, command: Command) -> None:
+        """Let a command wait: behind those of its own priority, before those of a lower one."""
+        self._waiting.append(command)
+        self._waiting.sort(key=lambda waiting: -waiting.priority)
+
+    def start_ready(self) -> list[Command]:
+        """Move the commands whose limbs are free from waiting to running, and return them."""
+        ready = list(self._ready())
+        for command in ready:
+            self._waiting.remove(command)
+            self._running[command.id] = command
+        return ready
+
+    def end(self, command_id: str) -> None:
+        """Free the limbs of a running command."""
+        del self._running[command_id]
+
+    def clear(self) -> list[Command]:
+        """Forget every command, and return those that were running or waiting."""
+        forgotten = [*self._running.values(), *self._waiting]
+        self._running.clear()
+        self._waiting.clear()
+        return forgotten
+
+    def _ready(self) -> Iterator[Command]:
+        taken: set[Limb] = set()
+        for command in self._running.values():
+            taken |= command.limbs
+        for command in self._waiting:
+            if not taken & command.limbs:
+                yield command
+            # A waiting command keeps its place: a later one may not take its limbs meanwhile.
+            taken |= command.limbs

@@ -1,0 +1,1 @@
+"""Cognitive nodes: they decide what the robots do."""

@@ -1,0 +1,1 @@
+"""Perceptual nodes: they turn measurements into words."""

@@ -1,0 +1,1 @@
+"""Recognising gestures in the movement of a wrist; no network in here."""

@@ -1,0 +1,97 @@
+"""Unbroken passages of recordings at an even rate, and the gestures made in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from nep_core.errors import RecordingError
+from nodes.perceptual.recognition.stream import RATE_HZ, EvenStream, Floats
+from nodes.recordings import Recording
+
+SHORTEST_S, LONGEST_S = 0.2, 8.0
+_SLOWEST_HZ = 10.0
+
+
+@dataclass(frozen=True)
+class Take:
+    """One performance of a gesture, in s on the clock of its recording."""
+
+    gesture: str
+    start_s: float
+    end_s: float
+
+    @property
+    def duration_s(self) -> float:
+        """How long it lasts."""
+        return self.end_s - self.start_s
+
+
+@dataclass(frozen=True)
+class Passage:
+    """Even ``samples`` (m, 3 or 6) from ``start_s`` on, without a gap, and the takes in it."""
+
+    source: str
+    person: str
+    start_s: float
+    samples: Floats
+    takes: tuple[Take, ...]
+
+    @property
+    def duration_s(self) -> float:
+        """How long it lasts."""
+        return len(self.samples) / RATE_HZ
+
+
+def passages_of(recordings: Sequence[Recording], gyroscope: bool) -> list[Passage]:
+    """All passages of the recordings; RecordingError names the recording that cannot be used."""
+    return [part for recording in recordings for part in _passages(recording, gyroscope)]
+
+
+def takes_of(recording: Recording) -> list[Take]:
+    """The gestures labelled in a recording; RecordingError names one that is too short or long."""
+    takes = []
+    at = 0
+    for name, run in groupby(recording.labels or ()):
+        count = len(list(run))
+        if name:
+            take = Take(name, float(recording.t[at]), float(recording.t[at + count - 1]))
+            _check(recording, take)
+            takes.append(take)
+        at += count
+    return takes
+
+
+def _passages(recording: Recording, gyroscope: bool) -> Iterator[Passage]:
+    if recording.rate_hz < _SLOWEST_HZ:
+        raise RecordingError(
+            f"{recording.source} has {recording.rate_hz:.1f} samples a second, which is too few"
+            " to tell gestures apart.",
+            checklist=(f"Record at least {_SLOWEST_HZ:.0f} samples a second, better 50.",),
+        )
+    values = recording.acc
+    if gyroscope and recording.gyr is not None:
+        values = np.hstack([recording.acc, recording.gyr])
+    takes = takes_of(recording)
+    for stretch in EvenStream().push(recording.t, values):
+        start_s, end_s = float(stretch.t[0]), float(stretch.t[-1])
+        inside = (take for take in takes if start_s - 0.1 <= take.start_s <= end_s)
+        whole = tuple(take for take in inside if take.end_s <= end_s + 0.1)
+        yield Passage(recording.source, recording.person, start_s, stretch.values, whole)
+
+
+def _check(recording: Recording, take: Take) -> None:
+    if SHORTEST_S <= take.duration_s <= LONGEST_S:
+        return
+    size = "short" if take.duration_s < SHORTEST_S else "long"
+    raise RecordingError(
+        f'{recording.source}: the gesture "{take.gesture}" at {take.start_s:.2f} s lasts'
+        f" {take.duration_s:.2f} s, which is too {size}.",
+        checklist=(
+            f"A gesture lasts {SHORTEST_S} to {LONGEST_S:.0f} seconds.",
+            "Mark it anew in the recording, or leave it out.",
+        ),
+    )

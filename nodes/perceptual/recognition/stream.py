@@ -1,0 +1,113 @@
+"""A sensor's samples at an even rate, whatever the sensor's clock and connection do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+RATE_HZ = 50.0
+MAX_GAP_S = 0.5
+"""A longer silence ends the movement: nothing is made up to fill it."""
+_CLOCK_RESET_S = 1.0
+_ACC_LIMIT_M_S2 = 320.0  # twice what the sensors of watches and phones can measure
+_GYR_LIMIT_RAD_S = 80.0
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """m even samples: ``t`` (m,) s on the sensor's clock, ``values`` (m, 3 or 6) m/s² and rad/s.
+
+    ``follows`` tells that it goes on where the stretch before it ended.
+    """
+
+    t: Floats
+    values: Floats
+    follows: bool
+
+
+class EvenStream:
+    """Turns samples as they come into samples at ``rate_hz``, by linear interpolation.
+
+    Samples that are not numbers, come twice or come too late are left out; after a gap, or a
+    clock that was set back, a new stretch begins.
+    """
+
+    def __init__(self, rate_hz: float = RATE_HZ) -> None:
+        self.rate_hz = rate_hz
+        self._seen_s = np.nan
+        self._kept_s = np.nan
+        self._kept = np.empty(0)
+        self._origin_s = 0.0
+        self._made = 0
+
+    def push(self, t: ArrayLike, values: ArrayLike) -> Iterator[Stretch]:
+        """Take n samples: ``t`` (n,) or one number, ``values`` (n, 3 or 6) or one row."""
+        t, values = np.atleast_1d(np.asarray(t, float)), np.atleast_2d(np.asarray(values, float))
+        usable = np.isfinite(t) & np.isfinite(values).all(axis=1)
+        t, values = t[usable], _within_limits(values[usable])
+        if not len(t):
+            return
+        steps_s = np.diff(t, prepend=self._seen_s)
+        self._seen_s = t[-1]
+        breaks = np.flatnonzero(~((steps_s >= -_CLOCK_RESET_S) & (steps_s <= MAX_GAP_S)))
+        for part in np.split(np.arange(len(t)), breaks):
+            if len(part):
+                starts = part[0] in breaks
+                yield from self._resample(t[part], values[part], starts)
+
+    def _resample(self, t: Floats, values: Floats, starts: bool) -> Iterator[Stretch]:
+        if starts:
+            self._origin_s, self._made = t[0], 0
+        else:
+            t, values = np.append(self._kept_s, t), np.vstack([self._kept, values])
+        rises = np.ones(len(t), bool)
+        rises[1:] = t[1:] > np.maximum.accumulate(t)[:-1]
+        t, values = t[rises], values[rises]
+        self._kept_s, self._kept = t[-1], values[-1]
+        last = int(np.floor((t[-1] - self._origin_s) * self.rate_hz + 1e-9))
+        even_s = self._origin_s + np.arange(self._made, last + 1) / self.rate_hz
+        follows = self._made > 0
+        self._made = max(self._made, last + 1)
+        if len(even_s):
+            columns = [np.interp(even_s, t, column) for column in values.T]
+            yield Stretch(even_s, np.stack(columns, axis=1), follows)
+
+
+class Memory:
+    """The last samples of a stream, in order, in one array that is seldom moved."""
+
+    def __init__(self, size: int) -> None:
+        self._size = size
+        self._rows = np.empty((0, 0))
+        self._end = 0
+
+    def __len__(self) -> int:
+        return min(self._end, self._size)
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._end = 0
+
+    def add(self, row: Floats) -> None:
+        """Remember one sample more, and forget the oldest when there are too many."""
+        if self._rows.shape[1] != len(row):
+            self._rows, self._end = np.empty((4 * self._size, len(row))), 0
+        if self._end == len(self._rows):
+            self._rows[: self._size] = self._rows[-self._size :]
+            self._end = self._size
+        self._rows[self._end] = row
+        self._end += 1
+
+    def samples(self) -> Floats:
+        """The samples remembered, oldest first; (len, columns)."""
+        return self._rows[self._end - len(self) : self._end]
+
+
+def _within_limits(values: Floats) -> Floats:
+    limits = np.array([_ACC_LIMIT_M_S2] * 3 + [_GYR_LIMIT_RAD_S] * (values.shape[1] - 3))
+    return np.clip(values, -limits, limits)

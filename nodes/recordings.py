@@ -1,0 +1,150 @@
+"""Recordings of a watch or phone: read from CSV files, written to them."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from nep_core.errors import RecordingError
+from nodes.recording_columns import Columns, guess_time_unit_s
+from nodes.recording_table import Floats, Table, check_size, read_table
+
+_NO_GESTURE = {"", "0", "none", "nothing"}
+_EARTH_M_S2 = (6.0, 14.0)  # a sensor whose usual |acceleration| is in here feels gravity
+
+
+@dataclass(frozen=True)
+class Recording:
+    """n samples of one sensor.
+
+    ``t`` (n,) is s from 0, never going back; ``acc`` (n, 3) is m/s²; ``gyr`` (n, 3) is rad/s or
+    None; ``labels`` names the gesture being made at each sample, "" where there is none.
+    """
+
+    source: str
+    t: Floats
+    acc: Floats
+    gyr: Floats | None
+    labels: list[str] | None
+    gravity_included: bool
+    person: str = ""
+    simulated: bool = False
+
+    @property
+    def rate_hz(self) -> float:
+        """Samples a second, gaps left out."""
+        steps = np.diff(self.t)
+        steps = steps[steps <= 3 * np.median(steps)] if len(steps) else steps
+        return float(1 / steps.mean()) if len(steps) and steps.mean() > 0 else 0.0
+
+
+def read_recordings(directory: Path) -> list[Recording]:
+    """Read every CSV file of a folder, in the order of their names; RecordingError says why not."""
+    if not directory.is_dir():
+        raise RecordingError(f"{directory} is not a folder of recordings.")
+    paths = sorted(path for path in directory.iterdir() if path.suffix.lower() == ".csv")
+    if not paths:
+        raise RecordingError(
+            f"The folder {directory} has no recordings.",
+            checklist=("Put recordings into it as files that end with .csv.",),
+        )
+    return [read_recording(path) for path in paths]
+
+
+def read_recording(path: Path) -> Recording:
+    """Read one CSV file; raises RecordingError with the file, the line and what to do."""
+    try:
+        check_size(path)
+        with path.open(encoding="utf-8-sig") as file:
+            return _recording(path.stem, read_table(path, file))
+    except UnicodeDecodeError as error:
+        raise RecordingError(
+            f"{path.name} is not a text file (UTF-8).",
+            checklist=("Save it as CSV with the encoding UTF-8.",),
+            details=str(error),
+        ) from error
+    except FileNotFoundError as error:
+        raise RecordingError(f"There is no recording {path}.") from error
+    except IsADirectoryError as error:
+        raise RecordingError(f"{path} is a folder, not a recording.") from error
+    except OSError as error:
+        raise RecordingError(f"{path} cannot be read: {error.strerror}.") from error
+
+
+def write_recording(path: Path, recording: Recording) -> None:
+    """Write a CSV file that ``read_recording`` reads back; the file is whole or as it was."""
+    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
+    try:
+        with unfinished.open("w", encoding="utf-8", newline="\n") as file:
+            file.writelines(_lines_of(recording))
+            file.flush()
+            os.fsync(file.fileno())
+        unfinished.replace(path)
+    except OSError as error:
+        raise RecordingError(f"{path} cannot be written: {error.strerror}.") from error
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def _recording(stem: str, table: Table) -> Recording:
+    person, gesture = _who_and_what(stem)
+    acc = table.numbers[:, 1:4]
+    return Recording(
+        source=stem,
+        t=_seconds(table.numbers[:, 0], table.columns),
+        acc=acc,
+        gyr=table.numbers[:, 4:7] if table.columns.gyr else None,
+        labels=_labels(table.gestures, gesture),
+        gravity_included=_feels_gravity(acc, table),
+        person=table.about.get("person", person if table.gestures else ""),
+        simulated=table.about.get("simulated") == "yes",
+    )
+
+
+def _seconds(times: Floats, columns: Columns) -> Floats:
+    unit_s = columns.time_unit_s or guess_time_unit_s(float(np.median(np.diff(times))))
+    seconds: Floats = (times - times[0]) * unit_s
+    return seconds
+
+
+def _feels_gravity(acc: Floats, table: Table) -> bool:
+    if "gravity_included" in table.about:
+        return table.about["gravity_included"] == "yes"
+    usual = float(np.median(np.linalg.norm(acc, axis=1)))
+    return not table.columns.gravity_removed and _EARTH_M_S2[0] < usual < _EARTH_M_S2[1]
+
+
+def _who_and_what(stem: str) -> tuple[str, str]:
+    """Person and gesture from a file name such as ``j_bounce_up``."""
+    person, underscore, gesture = stem.partition("_")
+    return (person, gesture) if underscore and gesture else ("", stem)
+
+
+def _labels(cells: list[str], gesture: str) -> list[str] | None:
+    if not cells:
+        return None
+    names = ["" if cell.lower() in _NO_GESTURE else cell for cell in cells]
+    return [gesture if name == "1" else name for name in names]
+
+
+def _lines_of(recording: Recording) -> Iterator[str]:
+    """The file's lines: what is known of the whole, the header, a line a sample."""
+    yield f"# person: {_one_line(recording.person)}\n"
+    yield f"# gravity_included: {'yes' if recording.gravity_included else 'no'}\n"
+    yield f"# simulated: {'yes' if recording.simulated else 'no'}\n"
+    gyr_names = ",gx,gy,gz" if recording.gyr is not None else ""
+    yield f"t_s,ax,ay,az{gyr_names}{',gesture' if recording.labels is not None else ''}\n"
+    parts = [recording.t[:, None], recording.acc]
+    table = np.hstack(parts if recording.gyr is None else [*parts, recording.gyr])
+    for at, row in enumerate(table):
+        label = f",{_one_line(recording.labels[at])}" if recording.labels is not None else ""
+        yield f"{row[0]:.6f}," + ",".join(f"{value:.6g}" for value in row[1:]) + f"{label}\n"
+
+
+def _one_line(text: str) -> str:
+    return re.sub(r'[\s,;"]+', "_", text)

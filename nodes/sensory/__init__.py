@@ -1,0 +1,1 @@
+"""Sensory nodes: they publish what sensors measure."""

@@ -1,0 +1,1 @@
+"""A kinematic human arm that wears a watch: gestures and everyday movement without hardware."""

@@ -1,0 +1,114 @@
+"""Readings of one sender as an even stream of samples: one clock, both sensors together."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+from nodes.recording_columns import guess_time_unit_s
+from nodes.sensory.lines import Reading, Vector
+
+_GYRO_LASTS_S = 0.5  # a rotation rate older than this is not joined to an acceleration any more
+_LONGEST_GAP_S = 30.0  # a sender's clock that jumps further was started anew,
+_LATEST_S = 1.0  # and so was one that goes back by more than readings overtake each other
+_SHORT_S = 0.001
+_RATE_OVER = 200  # samples
+_EARTH_M_S2 = (6.0, 14.0)
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One acceleration in m/s² at ``t`` s, with the rotation rate in rad/s where there is one."""
+
+    t: float
+    acc: Vector
+    gyr: Vector | None
+
+
+class SampleStream:
+    """Joins the readings of a sender, whose clock it follows where there is one."""
+
+    def __init__(self) -> None:
+        self._clock = _SenderClock()
+        self._gyr: Vector | None = None
+        self._gyr_t = 0.0
+        self._times: deque[float] = deque(maxlen=_RATE_OVER)
+        self._sizes: deque[float] = deque(maxlen=_RATE_OVER)
+        self._gravity_told = True
+        self._arrived_s: float | None = None
+
+    @property
+    def rate_hz(self) -> float:
+        """Samples a second as measured, 0 while too few have come."""
+        if len(self._times) < 10 or self._times[-1] <= self._times[0]:
+            return 0.0
+        return (len(self._times) - 1) / (self._times[-1] - self._times[0])
+
+    @property
+    def gravity_included(self) -> bool:
+        """Whether the sensor feels gravity: told by the sender, and usually near 9.81 m/s²."""
+        usual = sorted(self._sizes)[len(self._sizes) // 2] if self._sizes else 9.81
+        return self._gravity_told and _EARTH_M_S2[0] < usual < _EARTH_M_S2[1]
+
+    def samples(self, readings: list[Reading], arrived_s: float) -> list[Sample]:
+        """The samples that the readings of a packet make; late and repeated ones are left out.
+
+        Readings without a time of their own are spread over the time since the packet before.
+        """
+        before_s = arrived_s if self._arrived_s is None else self._arrived_s
+        self._arrived_s = arrived_s
+        step_s = (arrived_s - before_s) / max(1, len(readings))
+        made = [
+            self._sample(reading, before_s + step_s * number)
+            for number, reading in enumerate(readings, start=1)
+        ]
+        return [sample for sample in made if sample is not None]
+
+    def _sample(self, reading: Reading, arrived_s: float) -> Sample | None:
+        t = self._clock.seconds(reading, arrived_s)
+        if reading.gyr is not None:
+            self._gyr, self._gyr_t = reading.gyr, t
+        if reading.acc is None or (self._times and t <= self._times[-1]):
+            return None
+        self._times.append(t)
+        self._sizes.append(sum(axis * axis for axis in reading.acc) ** 0.5)
+        self._gravity_told = reading.gravity_included
+        fresh = self._gyr is not None and abs(t - self._gyr_t) < _GYRO_LASTS_S
+        return Sample(t, reading.acc, self._gyr if fresh else None)
+
+
+class _SenderClock:
+    """Seconds since the first reading: by the sender's stamps, else by when readings arrive."""
+
+    def __init__(self) -> None:
+        self._unit_s: float | None = None
+        self._zero_s: float | None = None  # the sender's time at our time 0
+        self._last_stamp = 0.0
+        self._last_s = 0.0
+        self._arrived_s: float | None = None
+
+    def seconds(self, reading: Reading, arrived_s: float) -> float:
+        """The time of a reading; a clock that was started anew goes on after the last time."""
+        since_s = arrived_s - (arrived_s if self._arrived_s is None else self._arrived_s)
+        self._arrived_s = arrived_s
+        if reading.stamp is None:
+            self._last_s += since_s
+            return self._last_s
+        stamp_s = reading.stamp * self._unit_of(reading.stamp, reading.stamp_unit_s)
+        self._last_stamp = reading.stamp
+        if self._zero_s is None or not self._is_near(stamp_s - self._zero_s):
+            self._zero_s = stamp_s - self._last_s - max(since_s, _SHORT_S)
+        t = stamp_s - self._zero_s
+        self._last_s = max(self._last_s, t)
+        return t
+
+    def _is_near(self, t: float) -> bool:
+        return -_LATEST_S < t - self._last_s < _LONGEST_GAP_S
+
+    def _unit_of(self, stamp: float, told_s: float | None) -> float:
+        if told_s is not None:
+            return told_s
+        if self._unit_s is None and self._zero_s is not None and stamp > self._last_stamp:
+            self._unit_s = guess_time_unit_s(stamp - self._last_stamp)
+            self._zero_s = self._last_stamp * self._unit_s - self._last_s
+        return self._unit_s or 1.0

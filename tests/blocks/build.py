@@ -1,0 +1,61 @@
+"""Build programs in tests: a few words instead of many edits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import AddGroup, SetField
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.places import InBody, InInput, InStack
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.values import FieldValue
+
+
+@dataclass
+class B:
+    """A block to be built: type, fields, plugged blocks, bodies, groups."""
+
+    type: str
+    fields: dict[str, FieldValue] = field(default_factory=dict)
+    inputs: dict[str, B] = field(default_factory=dict)
+    bodies: dict[str, list[B]] = field(default_factory=dict)
+    groups: dict[str, int] = field(default_factory=dict)
+
+
+def build(
+    language: Language,
+    *stacks: list[B],
+    page: str = "behaviour",
+    name: str = "Test",
+    variables: tuple[str, ...] = (),
+    editor: Editor | None = None,
+) -> Editor:
+    """An editor whose project has these stacks; variables have the ids v1, v2, ..."""
+    editor = editor or Editor(Project(name), language)
+    for variable in variables:
+        editor.add_variable(variable)
+    for number, stack in enumerate(stacks):
+        place = editor.new_stack(page, 40, 40 + 200 * number)
+        add(editor, stack[0], place)
+        for index, block in enumerate(stack[1:], start=1):
+            add(editor, block, InStack(place.stack, index))
+    return editor
+
+
+def add(editor: Editor, block: B, place) -> str:
+    block_id = editor.create(block.type, place)
+    definition = editor.language.definitions[block.type]
+    for group, count in block.groups.items():
+        have = editor.project.blocks[block_id].groups[group]
+        for index in range(have + 1, count + 1):
+            slots = definition.group_slots(group)
+            editor.apply(AddGroup(block_id, group, index, slots, {}))
+    for slot, value in block.fields.items():
+        editor.apply(SetField(block_id, slot, value))
+    for slot, plugged in block.inputs.items():
+        add(editor, plugged, InInput(block_id, slot))
+    for slot, chain in block.bodies.items():
+        for index, inner in enumerate(chain):
+            add(editor, inner, InBody(block_id, slot, index))
+    return block_id

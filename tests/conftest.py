@@ -1,0 +1,88 @@
+"""What all tests share: a real master on a free port, networks that are closed, real recordings."""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+import psutil
+import pytest
+
+from nep_core.default_network import set_default_network
+from nep_core.endpoints import MASTER_VARIABLE
+from nep_core.master import Master
+from nep_core.p2p import PeerNetwork
+
+PROJECT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture
+def shared_data() -> Path:
+    """The recordings of real people, which are not part of the project."""
+    folder = PROJECT.parent / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip("the real recordings (../shared/data) are not here")
+    return folder
+
+
+@pytest.fixture
+def master(monkeypatch: pytest.MonkeyPatch) -> Iterator[Master]:
+    """A running NEP Master, which this test and its child processes find."""
+    running = Master("tcp://127.0.0.1:*")
+    monkeypatch.setenv(MASTER_VARIABLE, running.endpoint)
+    yield running
+    running.close()
+
+
+@pytest.fixture
+def join(master: Master) -> Iterator[Callable[[str], PeerNetwork]]:
+    """Makes p2p networks that are closed at the end."""
+    networks: list[PeerNetwork] = []
+
+    def make(node: str) -> PeerNetwork:
+        networks.append(PeerNetwork(node, master=master.endpoint))
+        return networks[-1]
+
+    yield make
+    for network in networks:
+        network.close()
+
+
+@pytest.fixture
+def network(join: Callable[[str], PeerNetwork]) -> Iterator[PeerNetwork]:
+    """The test's own network, which is also the default one."""
+    own = join("test")
+    set_default_network(own)
+    yield own
+    set_default_network(None)
+
+
+@pytest.fixture(autouse=True)
+def leaves_no_child_processes() -> Iterator[None]:
+    """A test that leaves a process running fails, and the process is ended."""
+    before = set(psutil.Process().children())
+    yield
+    left = [child for child in set(psutil.Process().children()) - before if child.is_running()]
+    _, left = psutil.wait_procs(left, timeout=3)
+    names = [" ".join(child.cmdline()) for child in left]
+    for child in left:
+        child.kill()
+    assert not names, f"still running: {names}"
+
+
+@pytest.fixture
+def free_port() -> int:
+    """A port that nobody used a moment ago, with the next one free too."""
+    while True:
+        with socket.socket() as first, socket.socket() as second:
+            first.bind(("127.0.0.1", 0))
+            port = int(first.getsockname()[1])
+            try:
+                second.bind(("127.0.0.1", port + 1))
+            except (OSError, OverflowError):
+                continue
+            return port

@@ -1,0 +1,196 @@
+"""dev.py: what it finds missing, what it advises, and when it makes the environment again."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import dev
+
+ROOT = Path(dev.__file__).parent
+QT_PACKAGES = "libgl1 libegl1 libglib2.0-0 libxkbcommon0 libdbus-1-3 libfontconfig1"
+
+
+def nothing_loads(library: str) -> object:
+    raise OSError(library)
+
+
+def test_a_bare_debian_lacks_venv_and_the_six_qt_libraries() -> None:
+    missing = dev.missing_packages(load=nothing_loads, find=lambda module: None)
+
+    assert missing == [dev.venv_package(), *QT_PACKAGES.split()]
+
+
+def test_what_is_there_is_not_asked_for_again() -> None:
+    def only_glib_is_missing(library: str) -> object:
+        return nothing_loads(library) if "glib" in library else object()
+
+    assert dev.missing_packages(load=only_glib_is_missing, find=str) == ["libglib2.0-0"]
+
+
+@pytest.mark.parametrize(
+    ("machine", "may_install"),
+    [
+        (dev.Machine(has_apt=True, rights="root"), True),
+        (dev.Machine(has_apt=True, rights="sudo"), True),
+        (dev.Machine(has_apt=True, rights="sudo asks"), False),
+        (dev.Machine(has_apt=True, rights="none"), False),
+        (dev.Machine(has_apt=False, rights="root"), False),
+    ],
+)
+def test_packages_are_installed_only_where_nobody_must_be_asked(
+    machine: dev.Machine, may_install: bool
+) -> None:
+    assert machine.may_install is may_install
+
+
+@pytest.mark.parametrize(
+    ("rights", "command"),
+    [
+        ("sudo asks", "sudo apt-get update && sudo apt-get install --yes libgl1 libegl1"),
+        ("none", 'su -c "apt-get update && apt-get install --yes libgl1 libegl1"'),
+        ("root", "apt-get update && apt-get install --yes libgl1 libegl1"),
+    ],
+)
+def test_the_advice_is_the_exact_command_to_type(rights: str, command: str) -> None:
+    advice = dev.advice(["libgl1", "libegl1"], dev.Machine(has_apt=True, rights=rights))
+
+    assert advice.splitlines()[-1] == f"  {command}"
+
+
+def test_without_apt_the_libraries_are_named() -> None:
+    machine = dev.Machine(has_apt=False, rights="root")
+
+    advice = dev.advice(["python3-venv", "libgl1", "libegl1"], machine)
+
+    assert "Python's venv, libGL.so.1, libEGL.so.1" in advice
+
+
+def test_apt_lists_are_fetched_only_when_the_packages_cannot_be_had(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    steps: list[list[str]] = []
+
+    def step(command: list[str]) -> str:
+        steps.append(command)
+        return "Unable to locate package libgl1" if len(steps) == 1 else ""
+
+    monkeypatch.setattr(dev, "step", step)
+    dev.install_packages(["libgl1"], dev.Machine(has_apt=True, rights="sudo"))
+
+    assert all(command[:2] == ["sudo", "-n"] for command in steps)
+    verbs = [next(word for word in c if word in ("install", "update")) for c in steps]
+    assert verbs == ["install", "update", "install"]
+
+
+@pytest.mark.parametrize("version", [(3, 9), (3, 10), (3, 14)])
+def test_a_python_that_does_not_fit_is_told_which_do(version: tuple[int, int]) -> None:
+    with pytest.raises(dev.SetupError, match=r"needs Python 3\.11 or 3\.12 or 3\.13; .*") as found:
+        dev.check_python(version, lambda name: name if name == "python3.12" else None)
+
+    assert "Type: python3.12 " in str(found.value)
+
+
+@pytest.mark.parametrize("version", [(3, 11), (3, 12), (3, 13)])
+def test_the_pythons_of_pyproject_are_welcome(version: tuple[int, int]) -> None:
+    dev.check_python(version, lambda name: None)
+
+
+@pytest.mark.parametrize(
+    ("changes", "has_python", "to_do"),
+    [
+        ({}, True, "nothing"),
+        ({}, False, "make"),
+        ({"project": "another pyproject.toml"}, True, "update"),
+        ({"python": "3.9"}, True, "make"),
+        ({"folder": "before it was moved"}, True, "make"),
+    ],
+)
+def test_the_environment_is_made_again_only_when_it_does_not_fit(
+    changes: dict[str, str], has_python: bool, to_do: str
+) -> None:
+    wanted = dev.wanted_stamp(ROOT)
+
+    assert dev.work_to_do(wanted | changes, wanted, has_python=has_python) == to_do
+
+
+@pytest.mark.parametrize("content", [None, b"", b"{", b"[1]", b"\xff\xfe"])
+def test_a_half_made_environment_is_made_again(tmp_path: Path, content: bytes | None) -> None:
+    stamp_file = tmp_path / "stamp.json"
+    if content is not None:
+        stamp_file.write_bytes(content)
+
+    found = dev.read_stamp(stamp_file)
+
+    assert dev.work_to_do(found, dev.wanted_stamp(ROOT), has_python=True) == "make"
+
+
+@pytest.mark.parametrize(
+    ("system", "python"),
+    [("Windows", "Scripts/python.exe"), ("Darwin", "bin/python"), ("Linux", "bin/python")],
+)
+def test_every_system_gets_an_environment_and_hears_what_is_not_done_for_it(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    system: str,
+    python: str,
+) -> None:
+    commands: list[str] = []
+
+    def step(command: list[str]) -> str:
+        (tmp_path / ".venv").mkdir(exist_ok=True)
+        commands.append(" ".join(command))
+        return ""
+
+    monkeypatch.setattr(dev, "step", step)
+    monkeypatch.setattr(dev.platform, "system", lambda: system)
+    (tmp_path / "pyproject.toml").touch()
+
+    made = dev.make_environment(tmp_path)
+
+    assert made == tmp_path / ".venv" / python
+    assert [" venv --clear " in commands[0], " pip install " in commands[1]] == [True, True]
+    assert ("installs no system software" in capsys.readouterr().err) is (system != "Linux")
+    assert dev.read_stamp(tmp_path / ".venv" / "nep-studio-stamp.json")["folder"] == str(tmp_path)
+
+
+def test_lint_checks_format_style_and_types_and_run_plays_the_story() -> None:
+    assert [program[0] for program in dev.modules([])["lint"]] == ["ruff", "ruff", "mypy"]
+    assert dev.modules([])["run"] == [["nep_studio", *dev.STORY]]
+    assert dev.modules(["code", "a.nep"])["run"] == [["nep_studio", "code", "a.nep"]]
+
+
+def run_dev(*arguments: str, folder: Path = ROOT, **more: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, folder / "dev.py", *arguments],
+        capture_output=True,
+        text=True,
+        env=os.environ | more,
+    )
+
+
+def test_without_a_command_it_helps_and_an_unknown_one_is_refused() -> None:
+    assert run_dev().stdout == dev.HELP + "\n"
+
+    refused = run_dev("tset")
+
+    assert refused.returncode == 2
+    assert refused.stdout == ""
+    assert "dev.py cannot do this: tset" in refused.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux" or bool(dev.missing_packages()), reason="cannot start")
+def test_without_packages_to_be_had_it_says_what_to_try_and_leaves_no_stamp(tmp_path: Path) -> None:
+    shutil.copy(ROOT / "dev.py", tmp_path)
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+
+    ended = run_dev("setup", folder=tmp_path, PIP_NO_INDEX="1", PIP_CONFIG_FILE=os.devnull)
+
+    assert ended.returncode == 1
+    assert ended.stderr.endswith(dev.PIP_FAILED + "\n")
+    assert "Traceback" not in ended.stderr
+    assert not (tmp_path / ".venv" / "nep-studio-stamp.json").exists()

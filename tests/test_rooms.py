@@ -1,0 +1,204 @@
+"""The rooms of the design: who may import whom, read from the source of every module."""
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+import dev
+
+ROOT = Path(dev.__file__).parent
+
+
+@dataclass(frozen=True)
+class Room:
+    """What the modules of one folder may import beside the standard library."""
+
+    ours: tuple[str, ...] = ()
+    others: tuple[str, ...] = ()
+
+
+TALK = ("zmq", "msgspec", "psutil", "platformdirs")
+ROOMS = {
+    "dev": Room(),
+    "nep_core": Room(("nep_core",), TALK),
+    "nodes": Room(("nodes", "nep_core"), (*TALK, "numpy")),
+    "nep_studio.blocks": Room(("nep_studio.blocks",), ("msgspec",)),
+    "nep_studio": Room(
+        ("nep_studio", "nep_studio.blocks", "nep_core"), ("msgspec", "PySide6.QtCore")
+    ),
+    "nep_studio.ui": Room(
+        ("nep_studio.ui", "nep_studio", "nep_studio.blocks", "nodes", "nep_core"),
+        (*TALK, "numpy", "PySide6", "pyqtgraph"),
+    ),
+}
+"""The arrows of the design; a module is in the room with the longest name that fits."""
+
+TRAINING = "nodes.perceptual.recognition.train"
+LEARNING = ("sklearn", "scipy")
+"""What modules named ``train...`` may import, and only inside a function."""
+
+
+@dataclass(frozen=True)
+class Import:
+    """One name that a module imports, in full, and where."""
+
+    name: str
+    line: int
+    is_lazy: bool
+
+
+def is_within(name: str, package: str) -> bool:
+    return name == package or name.startswith(package + ".")
+
+
+def room_of(name: str) -> str | None:
+    """Return the room of a module or of a name in it; None when it is not ours."""
+    fitting = [room for room in ROOMS if is_within(name, room)]
+    return max(fitting, key=len, default=None)
+
+
+def imported_names(node: ast.AST, package: str) -> list[str]:
+    """Return the full names that a statement or an ``import_module("literal")`` imports."""
+    match node:
+        case ast.Import():
+            return [alias.name for alias in node.names]
+        case ast.ImportFrom():
+            above = package.split(".")[: len(package.split(".")) - node.level + 1]
+            start = ".".join([*(above if node.level else []), *filter(None, [node.module])])
+            return [f"{start}.{alias.name}" for alias in node.names]
+        case ast.Call(
+            func=ast.Attribute(attr="import_module") | ast.Name(id="import_module" | "__import__"),
+            args=[ast.Constant(value=str(name)), *_],
+        ):
+            return [name]
+    return []
+
+
+def imports_of(source: str, package: str) -> Iterator[Import]:
+    """Give every import of a module, also those inside functions."""
+    waiting: list[tuple[ast.AST, bool]] = [(ast.parse(source), False)]
+    while waiting:
+        node, is_lazy = waiting.pop()
+        for name in imported_names(node, package):
+            yield Import(name, getattr(node, "lineno", 0), is_lazy)
+        is_lazy = is_lazy or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+        waiting += [(child, is_lazy) for child in ast.iter_child_nodes(node)]
+
+
+def is_allowed(module: str, found: Import) -> bool:
+    """Whether the design has an arrow from this module's room to what it imports."""
+    room = ROOMS[room_of(module) or ""]
+    if found.name.partition(".")[0] in sys.stdlib_module_names:
+        return True
+    if room_of(found.name):
+        return room_of(found.name) in room.ours
+    if module.startswith(TRAINING) and any(is_within(found.name, it) for it in LEARNING):
+        return found.is_lazy
+    return any(is_within(found.name, other) for other in room.others)
+
+
+def wrong_arrows(root: Path) -> list[str]:
+    """Return every import that leaves its room by a way that the design does not have."""
+    wrong = []
+    for path in sorted(root.rglob("*.py")):
+        parts = path.relative_to(root).with_suffix("").parts
+        module = ".".join(parts).removesuffix(".__init__")
+        if room_of(module) is None:
+            continue
+        package = module if path.name == "__init__.py" else ".".join(parts[:-1])
+        found = imports_of(path.read_text(encoding="utf-8"), package)
+        wrong += [f"{module}:{it.line} {it.name}" for it in found if not is_allowed(module, it)]
+    return wrong
+
+
+def test_every_import_follows_an_arrow_of_the_design() -> None:
+    assert wrong_arrows(ROOT) == []
+
+
+@pytest.mark.parametrize(
+    ("place", "source", "name"),
+    [
+        ("dev.py", "import numpy", "numpy"),
+        ("nep_core/robot.py", "import numpy.linalg as la", "numpy.linalg"),
+        ("nep_core/robot.py", "from nodes import resources", "nodes.resources"),
+        ("nep_core/robot.py", "from ..nodes import action", "nodes.action"),
+        ("nep_core/robot.py", "def f():\n    import PySide6", "PySide6"),
+        ("nep_core/cli/__init__.py", "import nep_studio.paths", "nep_studio.paths"),
+        ("nodes/action/nao.py", "from nep_studio import paths", "nep_studio.paths"),
+        ("nodes/action/nao.py", "import sklearn", "sklearn"),
+        ("nodes/perceptual/recognition/gmr.py", "def f():\n    import scipy", "scipy"),
+        ("nodes/perceptual/recognition/training.py", "import sklearn.tree", "sklearn.tree"),
+        ("nep_studio/blocks/edits.py", "import nep_core.errors", "nep_core.errors"),
+        ("nep_studio/blocks/edits.py", "from .. import session", "nep_studio.session"),
+        ("nep_studio/blocks/edits.py", "from PySide6 import QtCore", "PySide6.QtCore"),
+        ("nep_studio/session.py", "from PySide6.QtGui import QImage", "PySide6.QtGui.QImage"),
+        ("nep_studio/session.py", "import PySide6", "PySide6"),
+        ("nep_studio/session.py", "from . import ui", "nep_studio.ui"),
+        ("nep_studio/session.py", "from nodes.action import nao", "nodes.action.nao"),
+        ("nep_studio/session.py", 'x.import_module("nodes.action.nao")', "nodes.action.nao"),
+        ("nep_studio/ui/app.py", "import tests.fakes", "tests.fakes"),
+        ("nep_studio/ui/app.py", "import sklearn", "sklearn"),
+    ],
+)
+def test_a_planted_wrong_arrow_is_found(tmp_path: Path, place: str, source: str, name: str) -> None:
+    path = tmp_path / place
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(source)
+
+    [wrong] = wrong_arrows(tmp_path)
+
+    assert wrong.endswith(f" {name}")
+
+
+@pytest.mark.parametrize(
+    ("place", "source"),
+    [
+        ("nep_core/robot.py", "from . import messages\nimport zmq.utils, msgspec, json"),
+        ("nodes/action/nao.py", "from nep_core.node import Node\nimport numpy as np"),
+        ("nodes/perceptual/recognition/training.py", "def f():\n    from sklearn import tree"),
+        ("nep_studio/blocks/generate/names.py", "from ..edits import Edit\nimport msgspec"),
+        ("nep_studio/session.py", "from nep_studio.blocks import edits\nimport nep_core"),
+        ("nep_studio/session.py", "from PySide6.QtCore import QObject"),
+        ("nep_studio/ui/app.py", "import nodes, pyqtgraph\nfrom PySide6.QtGui import QImage"),
+        ("tests/test_any.py", "import sklearn"),
+    ],
+)
+def test_the_arrows_of_the_design_are_allowed(tmp_path: Path, place: str, source: str) -> None:
+    path = tmp_path / place
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(source)
+
+    assert wrong_arrows(tmp_path) == []
+
+
+LOAD_ALL = """
+import importlib, pkgutil, sys
+package = importlib.import_module({package!r})
+for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+    if not module.name.endswith("__main__"):
+        importlib.import_module(module.name)
+print(*sorted(name for name in {slow!r} if name in sys.modules))
+"""
+
+
+@pytest.mark.parametrize(
+    ("package", "slow"),
+    [
+        ("nep_core", ("numpy", "sklearn", "scipy", "PySide6", "pyqtgraph")),
+        ("nep_studio.blocks", ("numpy", "sklearn", "scipy", "PySide6", "pyqtgraph", "zmq")),
+        ("nodes", ("sklearn", "scipy", "PySide6", "pyqtgraph")),
+    ],
+)
+def test_no_module_of_a_quick_room_loads_a_slow_library(package: str, slow: tuple[str]) -> None:
+    code = LOAD_ALL.format(package=package, slow=slow)
+
+    child = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
+    )
+
+    assert child.stdout.strip() == ""
