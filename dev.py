@@ -173,7 +173,8 @@ def install_packages(missing: list[str], machine: Machine) -> None:
     if step(install):
         say("Fetching the package lists of apt-get ...")
         step([*apt, "update"])
-        say(step(install))
+        if failure := step(install):
+            say(failure)
 
 
 def provide_packages(*, is_qt_needed: bool) -> None:

@@ -4,7 +4,8 @@ The authors published the mean acceleration of their five gestures (NEP, 2018: a
 gravity included). Measured on simulated people who are used for nothing else:
 the correlation of the curves after alignment in time (dynamic time warping, a band of 15 %), the
 angle between the directions of gravity at five phases, and whether the extremes of the three
-axes come in the same order (rank correlation of their six instants).
+axes come in the same order (rank correlation of their six instants). The key poses were made after
+these same curves: the figures say how closely the model follows them, not that it foretells people.
 """
 
 from __future__ import annotations
@@ -37,12 +38,18 @@ def _rows(gesture: str) -> list[dict[str, Any]]:
     theirs = np.loadtxt(MODELS / f"{gesture}_Mu.txt")
     ours = mean_curve(gesture, len(theirs))
     correlation = aligned_correlation(ours, theirs)
-    angle = float(np.median(gravity_angles_deg(ours, theirs)))
+    angles = gravity_angles_deg(ours, theirs)
+    angle = float(np.median(angles))
     order = peak_order(ours, theirs)
     return [
         _row(gesture, "correlation", correlation, "", 1.0, correlation >= _GOALS["correlation"]),
         _row(gesture, "gravity angle", angle, "degrees", 0.0, angle <= _GOALS["gravity angle"]),
         _row(gesture, "order of peaks", order, "", 1.0, order >= _GOALS["order of peaks"]),
+        {
+            "name": f"simulated {gesture}: gravity angle, worst of five phases",
+            "value": round(max(angles), 1),
+            "unit": "degrees",
+        },
     ]
 
 
@@ -51,7 +58,7 @@ def _row(
 ) -> dict[str, Any]:
     limit = "at most" if measure == "gravity angle" else "at least"
     return {
-        "name": f"virtual watch (simulated): {gesture}, {measure} beside the authors' curve",
+        "name": f"simulated {gesture}: {measure} with the authors'",
         "value": round(value, 3),
         "unit": unit,
         "reference": reference,

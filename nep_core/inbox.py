@@ -24,6 +24,10 @@ BACKLOG = 10_000
 """Frames kept for a subscriber that does not read; the oldest are dropped."""
 
 
+LAST_WORDS_S = 1.0
+"""How long a publisher that has left is still heard: disconnecting drops what is on its way."""
+
+
 class Inbox:
     """One SUB socket; at any time one thread holds its lock and uses it."""
 
@@ -43,7 +47,8 @@ class Inbox:
         self._poller.register(self._wake.fileno(), zmq.POLLIN)
         self._backlog: deque[bytes] = deque()
         self._commands: deque[Callable[[], None]] = deque()
-        self._endpoints: set[str] = set()
+        self._wanted: set[str] = set()
+        self._leaving: dict[str, float] = {}
         self._publishers: set[str] = set()
         self.closed = False
 
@@ -82,6 +87,8 @@ class Inbox:
         try:
             self._run_commands()
             self._drain()
+            if self._leaving and not self.closed:
+                self._disconnect_left()
         finally:
             self._lock.release()
 
@@ -125,11 +132,19 @@ class Inbox:
             self._commands.popleft()()
 
     def _connect_now(self, endpoints: set[str]) -> None:
-        for endpoint in self._endpoints - endpoints:
+        now_s = time.monotonic()
+        for endpoint in self._wanted - endpoints:
+            self._leaving[endpoint] = now_s + LAST_WORDS_S
+        for endpoint in endpoints:
+            if endpoint not in self._wanted and self._leaving.pop(endpoint, None) is None:
+                self._socket.connect(endpoint)
+        self._wanted = set(endpoints)
+
+    def _disconnect_left(self) -> None:
+        now_s = time.monotonic()
+        for endpoint in [e for e, until_s in self._leaving.items() if until_s < now_s]:
+            del self._leaving[endpoint]
             self._socket.disconnect(endpoint)
-        for endpoint in endpoints - self._endpoints:
-            self._socket.connect(endpoint)
-        self._endpoints = set(endpoints)
 
     def _receive(self) -> bytes | None:
         while True:

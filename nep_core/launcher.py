@@ -6,14 +6,13 @@ import logging
 import os
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from nep_core.endpoints import MASTER_VARIABLE, master_endpoint
 from nep_core.errors import NameTaken, NodeStartError
-from nep_core.manifest import Manifest, NodeCatalog
+from nep_core.manifest import Manifest, NodeCatalog, Value
 from nep_core.messages import NODE_STATE, NodeState
 from nep_core.network import Network
 from nep_core.outcome import Outcome
@@ -36,6 +35,7 @@ class LaunchedNode:
     name: str
     manifest: Manifest | None
     command: list[str]
+    restart_on_error: bool = True
     process: ChildProcess | None = None
     started_s: float = 0.0
     restarts: int = 0
@@ -79,7 +79,6 @@ class Launcher:
         folders: tuple[Path, ...] | None = None,
         logs: Path | None = None,
         master: str | None = None,
-        network: Network | None = None,
         on_end: Report | None = None,
     ) -> None:
         self.catalog = NodeCatalog(folders or node_folders())
@@ -93,25 +92,45 @@ class Launcher:
         }
         self._on_end = on_end
         self._lock = threading.RLock()
-        self._states = Subscriber(
-            NODE_STATE, NodeState, network=network, callback=self._on_node_state
-        )
+        self._states: Subscriber[NodeState] | None = None
 
-    def start(self, node: str, name: str = "", **parameters: Any) -> LaunchedNode:
+    def hear(self, network: Network | None = None) -> None:
+        """Hear on ``network`` (default: this program's) which nodes are ready."""
+        if self._states is None:
+            self._states = Subscriber(
+                NODE_STATE, NodeState, network=network, callback=self._on_node_state
+            )
+
+    def start(self, node: str, name: str = "", **parameters: Value) -> LaunchedNode:
+        """Start "type/name" under ``name``, as launch()."""
+        return self.launch(node, name, parameters)
+
+    def launch(
+        self,
+        node: str,
+        name: str = "",
+        parameters: Mapping[str, Value] | None = None,
+        *,
+        restart_on_error: bool = True,
+    ) -> LaunchedNode:
         """Start "type/name" under ``name``; does not wait until it is ready.
 
-        Raises NodeNotFound, ManifestError, ParameterError, NameTaken, NodeStartError.
+        ``restart_on_error=False``: start it again only when it was killed. Raises NodeNotFound,
+        ManifestError, ParameterError, NameTaken, NodeStartError.
         """
+        self.hear()
         manifest = self.catalog.find(node)
         name = name or manifest.name
-        manifest.read_parameters(parameters)  # a wrong one is told here, not in the node's log
-        settings = [f"{key}={value}" for key, value in parameters.items()]
+        given = dict(parameters or {})
+        manifest.read_parameters(given)  # a wrong one is told here, not in the node's log
+        settings = [f"{key}={value}" for key, value in given.items()]
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
-            return self._launch(LaunchedNode(name, manifest, [*command, "--name", name, *settings]))
-        command = program_command("node", manifest.path, "--name", name, *settings)
-        return self._launch(LaunchedNode(name, manifest, command))
+            command += ["--name", name, *settings]
+        else:
+            command = program_command("node", manifest.path, "--name", name, *settings)
+        return self._launch(LaunchedNode(name, manifest, command, restart_on_error))
 
     def start_command(self, name: str, command: list[str]) -> LaunchedNode:
         """Start and supervise a program that has no manifest, such as the master."""
@@ -134,7 +153,8 @@ class Launcher:
                 launched.process.ask_to_stop()
         for name in list(self.nodes):
             self.stop(name)
-        self._states.close()
+        if self._states is not None:
+            self._states.close()
 
     def __enter__(self) -> Launcher:
         return self
@@ -168,18 +188,20 @@ class Launcher:
     def _ended(self, launched: LaunchedNode, outcome: Outcome) -> None:
         if time.monotonic() - launched.started_s > HEALTHY_S:
             launched.restarts = 0
-        again = (
-            not launched.stopping
-            and not outcome.was_successful
-            and launched.restarts < MOST_RESTARTS
-            and (launched.ready.is_set() or launched.restarts > 0 or outcome.code < 0)
-        )
+        again = self._deserves_another(launched, outcome)
         if not again:
             launched.ended.set()
         if self._on_end is not None:
             self._on_end(launched, outcome, again)
         if again:
             self._restart(launched)
+
+    def _deserves_another(self, launched: LaunchedNode, outcome: Outcome) -> bool:
+        if launched.stopping or outcome.was_successful or launched.restarts >= MOST_RESTARTS:
+            return False
+        # A node that ends with an error before it was ever ready has wrong settings.
+        has_run = launched.ready.is_set() or launched.restarts > 0
+        return outcome.code < 0 or (has_run and launched.restart_on_error)
 
     def _restart(self, launched: LaunchedNode) -> None:
         time.sleep(FIRST_PAUSE_S * 2**launched.restarts)

@@ -59,7 +59,7 @@ class launcher:  # noqa: N801  the paper's name
         """Start a node and wait until it is ready; parameters in the order of its manifest."""
         manifest = self._launcher.catalog.find(f"{type_node}/{node_name}")
         settings = dict(zip(manifest.parameters, parameters, strict=False))
-        launched = self._launcher.start(manifest.id, node_name, **settings)
+        launched = self._launcher.launch(manifest.id, node_name, settings)
         launched.wait_ready()
         return launched
 

@@ -121,8 +121,8 @@ class ChildProcess:
 
     def _read(self) -> None:
         assert self._popen.stdout is not None
-        with self._log_file.open("wb") as kept:
-            for line in self._popen.stdout:
+        with self._popen.stdout as output, self._log_file.open("wb") as kept:
+            for line in output:
                 self._last_lines.append(line.decode(errors="replace").rstrip())
                 if kept.tell() < LOG_BYTES:
                     kept.write(line)

@@ -1,6 +1,7 @@
 """The rooms of the design: who may import whom, read from the source of every module."""
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -38,9 +39,9 @@ ROOMS = {
 }
 """The arrows of the design; a module is in the room with the longest name that fits."""
 
-TRAINING = "nodes.perceptual.recognition.train"
 LEARNING = ("sklearn", "scipy")
-"""What modules named ``train...`` may import, and only inside a function."""
+TRAINING_ROOM, TRAINING = "nodes.perceptual.recognition", re.compile("_*(train|fit)")
+"""Where the libraries of learning may be imported: only inside functions of such names."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Import:
 
     name: str
     line: int
-    is_lazy: bool
+    function: str  # the function that it is in; empty at the top of the module
 
 
 def is_within(name: str, package: str) -> bool:
@@ -81,13 +82,14 @@ def imported_names(node: ast.AST, package: str) -> list[str]:
 
 def imports_of(source: str, package: str) -> Iterator[Import]:
     """Give every import of a module, also those inside functions."""
-    waiting: list[tuple[ast.AST, bool]] = [(ast.parse(source), False)]
+    waiting: list[tuple[ast.AST, str]] = [(ast.parse(source), "")]
     while waiting:
-        node, is_lazy = waiting.pop()
+        node, function = waiting.pop()
         for name in imported_names(node, package):
-            yield Import(name, getattr(node, "lineno", 0), is_lazy)
-        is_lazy = is_lazy or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
-        waiting += [(child, is_lazy) for child in ast.iter_child_nodes(node)]
+            yield Import(name, getattr(node, "lineno", 0), function)
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            function = node.name
+        waiting += [(child, function) for child in ast.iter_child_nodes(node)]
 
 
 def is_allowed(module: str, found: Import) -> bool:
@@ -97,8 +99,8 @@ def is_allowed(module: str, found: Import) -> bool:
         return True
     if room_of(found.name):
         return room_of(found.name) in room.ours
-    if module.startswith(TRAINING) and any(is_within(found.name, it) for it in LEARNING):
-        return found.is_lazy
+    if is_within(module, TRAINING_ROOM) and any(is_within(found.name, it) for it in LEARNING):
+        return bool(TRAINING.match(found.function))
     return any(is_within(found.name, other) for other in room.others)
 
 
@@ -131,7 +133,7 @@ def test_every_import_follows_an_arrow_of_the_design() -> None:
         ("nep_core/cli/__init__.py", "import nep_studio.paths", "nep_studio.paths"),
         ("nodes/action/nao.py", "from nep_studio import paths", "nep_studio.paths"),
         ("nodes/action/nao.py", "import sklearn", "sklearn"),
-        ("nodes/perceptual/recognition/gmr.py", "def f():\n    import scipy", "scipy"),
+        ("nodes/perceptual/recognition/gmr.py", "def match():\n    import scipy", "scipy"),
         ("nodes/perceptual/recognition/training.py", "import sklearn.tree", "sklearn.tree"),
         ("nep_studio/blocks/edits.py", "import nep_core.errors", "nep_core.errors"),
         ("nep_studio/blocks/edits.py", "from .. import session", "nep_studio.session"),
@@ -160,7 +162,7 @@ def test_a_planted_wrong_arrow_is_found(tmp_path: Path, place: str, source: str,
     [
         ("nep_core/robot.py", "from . import messages\nimport zmq.utils, msgspec, json"),
         ("nodes/action/nao.py", "from nep_core.node import Node\nimport numpy as np"),
-        ("nodes/perceptual/recognition/training.py", "def f():\n    from sklearn import tree"),
+        ("nodes/perceptual/recognition/gmr.py", "def fit():\n    from sklearn import mixture"),
         ("nep_studio/blocks/generate/names.py", "from ..edits import Edit\nimport msgspec"),
         ("nep_studio/session.py", "from nep_studio.blocks import edits\nimport nep_core"),
         ("nep_studio/session.py", "from PySide6.QtCore import QObject"),

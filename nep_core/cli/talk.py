@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import time
 
 import msgspec
 
@@ -52,13 +51,15 @@ def _launch(options: argparse.Namespace) -> int:
     def told(launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         print(f"{outcome}{'; it is started again' if again else ''}.", flush=True)
 
-    with PeerNetwork(master=options.master) as network:
-        launcher = Launcher(network=network, master=network.master, on_end=told)
-        with launcher:
-            node = f"{options.type}/{options.name}"
-            launched = launcher.start(node, **settings(options.settings))
-            launched.wait_ready()
-            print(f"{launched.name} is ready. Ctrl-C stops it.", flush=True)
-            while not launched.ended.is_set():
-                time.sleep(0.1)
+    with (
+        PeerNetwork(master=options.master) as network,
+        Launcher(master=network.master, on_end=told) as launcher,
+    ):
+        launcher.hear(network)
+        launched = launcher.launch(
+            f"{options.type}/{options.name}", parameters=settings(options.settings)
+        )
+        launched.wait_ready()
+        print(f"{launched.name} is ready. Ctrl-C stops it.", flush=True)
+        launched.ended.wait()
     return 0

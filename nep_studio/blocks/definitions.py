@@ -29,7 +29,9 @@ Shape = Literal["hat", "statement", "c", "cap", "reporter", "boolean"]
 
 FLAGS = {
     "takes_time": "the program waits at this block for a while",
-    "loop": "its body is repeated, so that it needs a pause inside",
+    "loop": "its body is repeated",
+    "needs_pause": "its body is repeated without end, so that it must take time",
+    "apart": "its bodies are functions of their own",
     "last": "nothing after this block is ever reached",
     "stands": "the robot must stand",
     "posture": "the choice in slot `posture` is the robot's posture from then on",

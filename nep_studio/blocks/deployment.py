@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from .language import Language
-from .program import ALL_ROBOTS, Block, Project
+from .program import Block, Project
 from .values import FieldValue, Setting
 
 ROBOT_BLOCK = "robots.robot"
@@ -57,12 +57,11 @@ def node_entries(project: Project, language: Language) -> tuple[NodeEntry, ...]:
 
 
 def robots_used(project: Project, language: Language) -> dict[str, str]:
-    """The robots that rules name, each with the first block that does; all robots are not one."""
+    """The robots that rules name, each with the first block that does; "*" is all of them."""
     used: dict[str, str] = {}
     for block, key in _slots_of_kind(project, language, "robot"):
         name = str(language.definitions[block.type].value(block, key))
-        if name != ALL_ROBOTS:
-            used.setdefault(name, block.id)
+        used.setdefault(name, block.id)
     return used
 
 

@@ -19,6 +19,7 @@ from .edits import (
     CreateBlocks,
     Edit,
     MoveBlocks,
+    MoveStack,
     RemoveGroup,
     RenameProject,
     RenameVariable,
@@ -29,7 +30,7 @@ from .errors import EditRefused
 from .history import History
 from .language import Language
 from .places import InBody, InInput, InStack, NewStack, Place
-from .program import Block, Project
+from .program import FARTHEST, Block, Project
 from .values import why_not_name, why_not_text
 
 
@@ -82,6 +83,8 @@ class Editor:
             return self._why_not_group(edit)
         if isinstance(edit, SetComment):
             return why_not_text(edit.comment)
+        if isinstance(edit, MoveStack) and not _is_near(edit.x, edit.y):
+            return "This is too far outside the page."
         if isinstance(edit, RenameProject):
             return why_not_name(edit.name)
         if isinstance(edit, AddVariable | RenameVariable):
@@ -105,11 +108,15 @@ class Editor:
     def _why_not_here(self, roots: list[Block], place: Place) -> str | None:
         """Why these blocks cannot be put, one after the other, into a place."""
         definitions = self.language.definitions
+        if isinstance(place, NewStack) and not _is_near(place.x, place.y):
+            return "This is too far outside the page."
         if isinstance(place, InInput):
             owner = self.project.blocks.get(place.block)
             if owner is None:
                 return "This block is not there any more."
             return why_not_plugged(owner, place.slot, roots[0], definitions)
+        if (reason := self._why_not_page(roots, place)) is not None:
+            return reason
         above, below = self._neighbours({block.id for block in roots}, place)
         if isinstance(place, InBody) and place.block in self.project.blocks:
             owner = self.project.blocks[place.block]
@@ -124,6 +131,21 @@ class Editor:
                 self._definition(below), first_in_stack=False
             )
         return reason
+
+    def _why_not_page(self, roots: list[Block], place: Place) -> str | None:
+        project = self.project
+        if isinstance(place, NewStack):
+            page = place.page
+        elif isinstance(place, InStack) and place.stack in project.stacks:
+            page = project.page_of(place.stack)
+        elif isinstance(place, InBody) and place.block in project.blocks:
+            page = project.page_of(project.stack_of(place.block).id)
+        else:
+            return None
+        for definition in map(self._definition, roots):
+            if definition is not None and definition.page != page:
+                return f"This block belongs on the page {definition.page}."
+        return None
 
     def _neighbours(self, moved: set[str], place: Place) -> tuple[Block | None, Block | None]:
         """The blocks that will be directly above and below a place."""
@@ -164,3 +186,7 @@ class Editor:
 
     def _definition(self, block: Block) -> Definition | None:
         return self.language.definitions.get(block.type)
+
+
+def _is_near(x: float, y: float) -> bool:
+    return abs(x) <= FARTHEST and abs(y) <= FARTHEST

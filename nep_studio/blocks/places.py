@@ -61,7 +61,7 @@ def place_of(project: Project, first: str, count: int) -> Place:
 def put(project: Project, roots: list[str], place: Place) -> None:
     """Put blocks that are in no place now into one; edits.py has checked that it is free."""
     if isinstance(place, NewStack):
-        stack = Stack(place.stack, place.x, place.y, list(roots))
+        stack = Stack(place.stack, float(place.x), float(place.y), list(roots))
         project.pages[place.page].insert(place.position, stack)
         project.stacks[stack.id] = stack
         project.id_seen(stack.id)

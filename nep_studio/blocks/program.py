@@ -16,6 +16,9 @@ from .values import FieldValue
 
 PAGES = ("behaviour", "robots", "nodes")
 
+FARTHEST = 1e6
+"""How far from the page's corner a stack can lie, in canvas units."""
+
 ALL_ROBOTS = "*"
 """The value of a robot field that means every robot of the Robots page."""
 

@@ -7,7 +7,6 @@ each value is checked. Nothing is read by recursion but the JSON itself, which m
 from __future__ import annotations
 
 import re
-from collections import ChainMap
 from collections.abc import Container
 from typing import Any
 
@@ -15,13 +14,12 @@ import msgspec
 
 from .errors import ProjectFileError
 from .language import Language
-from .program import PAGES, Block, Parent, Project, Stack, Variable
+from .program import FARTHEST, PAGES, Block, Parent, Project, Stack, Variable
 from .reading_rules import why_not_language
 from .values import why_not_name, why_not_text
 from .writing import FORMAT, VERSION
 
 DEEPEST_EXTRA = 100
-FARTHEST = 1e6
 _ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
 _TYPE = re.compile(r"[A-Za-z0-9_.-]{1,128}")
 _KNOWN_KEYS = frozenset(Block.__struct_fields__) - {"extra"}
@@ -192,11 +190,13 @@ def _new_id(project: Project, some_id: str, taken: Container[str]) -> None:
 
 
 def _read_pages(project: Project, pages: dict[str, list[Stack]]) -> None:
+    taken = set(project.blocks)
     for page, stacks in pages.items():
         if page not in PAGES:
             raise _Fault(f"there is no page “{page[:40]}”: {', '.join(PAGES)} are the pages.")
         for stack in stacks:
-            _new_id(project, stack.id, ChainMap(project.stacks, project.blocks))
+            _new_id(project, stack.id, taken)
+            taken.add(stack.id)
             if not all(abs(place) <= FARTHEST for place in (stack.x, stack.y)):
                 raise _Fault(f"stack {stack.id} lies too far outside.")
             if stack.body:

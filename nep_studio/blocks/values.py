@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import keyword
-import math
 import re
 from collections.abc import Callable, Mapping
 
@@ -57,7 +56,7 @@ def why_not_number(value: object) -> str | None:
     """Why ``value`` is not a number that a program can use."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return f"A number is needed here, not {_told(value)}."
-    if not math.isfinite(value):
+    if value != value:  # not a number; math.isnan fails for large integers
         return "This number is not a number that can be counted with."
     if abs(value) > LARGEST_NUMBER:
         return f"This number is too large: {LARGEST_NUMBER:,} at most."

@@ -32,7 +32,7 @@ def run(
     recordings = _read(Path(recording), start_s)
     publisher = node.publisher(IMU)
     duration_s = sum(float(played.t[-1]) for played in recordings)
-    node.ready(f"{duration_s:.0f} seconds recorded in {len(recordings)} files")
+    node.ready(f"{duration_s:.0f} seconds to play")
     clock_s = 0.0
     for played in cycle(recordings) if loop else recordings:
         if node.stopping:

@@ -9,7 +9,6 @@ from nep_core.messages import GESTURE_REQUEST, IMU, GestureRequest, Imu
 from nep_core.node import Node
 from nodes.sensory.arm.gestures import Gesture, gesture_named
 from nodes.sensory.arm.live import LivePerson
-from nodes.sensory.arm.performer import Samples
 from nodes.sensory.batches import rows
 from nodes.sensory.schedule import Schedule, read_schedule
 
@@ -77,7 +76,7 @@ class _Watch:
 
     def batch(self, count: int) -> Imu:
         """The next samples as a message; tells when a gesture begins and ends."""
-        samples: Samples = self._wearer.samples(count)
+        samples = self._wearer.samples(count)
         self._tell(samples.labels[-1])
         return Imu(
             source=f"simulated person {self._wearer.number}",

@@ -262,9 +262,9 @@ def test_without_a_master_the_sentence_says_how_to_start_one(
     free_port: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("nep_core.master_client.ANSWER_S", 0.2)
-    with PeerNetwork("lonely", master=f"tcp://127.0.0.1:{free_port}") as network:
-        with pytest.raises(MasterNotFound) as raised:
-            Publisher("/x", network=network)
+    nobody = f"tcp://127.0.0.1:{free_port}"
+    with PeerNetwork("lonely", master=nobody) as network, pytest.raises(MasterNotFound) as raised:
+        Publisher("/x", network=network)
 
     assert any("nep master" in step for step in raised.value.checklist)
 

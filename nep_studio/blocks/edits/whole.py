@@ -21,7 +21,7 @@ class MoveStack(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         if stack is None:
             raise EditRefused("This stack is not there any more.")
         old = MoveStack(self.stack, stack.x, stack.y)
-        stack.x, stack.y = self.x, self.y
+        stack.x, stack.y = float(self.x), float(self.y)
         project.touch(self.stack)
         return old
 

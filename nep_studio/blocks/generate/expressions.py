@@ -84,7 +84,7 @@ class Expressions:
     def value(self, block: Block) -> ast.expr:
         """What a reporter block gives."""
         definition = self.definition(block)
-        cost = 1 + sum(block.groups.values())
+        cost = value_cost(block)
         self._depth += cost
         if self._depth > DEEPEST_VALUE:
             raise CodeRefused(
@@ -161,6 +161,11 @@ class Expressions:
         return constant(value)
 
 
+def value_cost(block: Block) -> int:
+    """How many levels a value block adds: the items of a join are in each other in Python."""
+    return 1 + sum(block.groups.values())
+
+
 def constant(value: FieldValue | None) -> ast.expr:
     """A constant of a field; a negative number is a sign and a number, or ``**`` binds wrongly."""
     if isinstance(value, int | float) and math.copysign(1, value) < 0:
@@ -183,10 +188,12 @@ def method_call(
 
 
 def whole(node: ast.expr) -> ast.expr:
-    """Make sure that a number is whole: anything but a whole constant goes through int()."""
+    """Make sure that a number is whole: what is not known to be goes through int()."""
     number = node.operand if isinstance(node, ast.UnaryOp) else node
     if isinstance(number, ast.Constant) and isinstance(number.value, int):
         return node
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        return node  # random.randint, the only method among values
     return call("int", node)
 
 

@@ -11,7 +11,7 @@ import ast
 import math
 from collections.abc import Callable
 
-_LAMBDA, _OR, _AND, _NOT, _COMPARE, _SUM, _TERM, _SIGN, _POWER, _ATOM = range(10)
+_LAMBDA, _OR, _AND, _NOT, _COMPARE, _SUM, _TERM, _SIGN, _POWER, _ATOM, _TARGET = range(11)
 
 _BINARY: dict[type[ast.operator], tuple[str, int]] = {
     ast.Add: (" + ", _SUM),
@@ -53,25 +53,26 @@ def _constant(node: ast.Constant) -> tuple[str, int]:
     value = node.value
     if isinstance(value, int | float) and (not math.isfinite(value) or math.copysign(1, value) < 0):
         raise ValueError(f"{value} must be written with a sign of its own")
-    return literal(value), _ATOM
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return literal(value), _ATOM if is_number else _TARGET  # a dot after a number is its point
 
 
 def _name(node: ast.Name) -> tuple[str, int]:
-    return node.id, _ATOM
+    return node.id, _TARGET
 
 
 def _attribute(node: ast.Attribute) -> tuple[str, int]:
-    return f"{show(node.value, _ATOM)}.{node.attr}", _ATOM
+    return f"{show(node.value, _TARGET)}.{node.attr}", _TARGET
 
 
 def _call(node: ast.Call) -> tuple[str, int]:
     arguments = [show(argument) for argument in node.args]
     arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
-    return f"{show(node.func, _ATOM)}({', '.join(arguments)})", _ATOM
+    return f"{show(node.func, _TARGET)}({', '.join(arguments)})", _TARGET
 
 
 def _list(node: ast.List) -> tuple[str, int]:
-    return f"[{', '.join(map(show, node.elts))}]", _ATOM
+    return f"[{', '.join(map(show, node.elts))}]", _TARGET
 
 
 def _binary(node: ast.BinOp) -> tuple[str, int]:

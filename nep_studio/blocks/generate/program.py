@@ -90,10 +90,11 @@ class ProgramGenerator:
         listed = [entry.name for entry in robot_entries(self._project, self._language)]
         used = frozenset[str]().union(*(self._robots_in(*item) for item in chains.items()))
         table = NameTable()
-        robots = {ALL_ROBOTS: table.give("all_robots", "robot")}
-        for name in [*listed, *sorted(used)]:
+        robots: dict[str, str] = {}
+        for name in [*listed, *sorted(used - {ALL_ROBOTS}), ALL_ROBOTS]:
             if name not in robots:
-                robots[name] = table.give(name.lower(), "robot")
+                text = "all_robots" if name == ALL_ROBOTS else name.lower()
+                robots[name] = table.give(text, "robot")
         variables = {v.id: table.give(v.name, "variable") for v in self._project.variables}
         return ProgramNames(robots, variables)
 

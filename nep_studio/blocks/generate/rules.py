@@ -74,6 +74,12 @@ class RuleWriter:
     def _block(self, chain: _Frame, block: Block) -> _Frame:
         self._comment(block, _MARGINS[chain.indent])
         definition = self._code.definition(block)
+        if definition.page != "behaviour":
+            raise CodeRefused(
+                f"This block belongs on the page {definition.page}, not under a rule.",
+                block=block.id,
+                checklist=(f"Move it to the page {definition.page}.",),
+            )
         if definition.call is not None:
             pieces: Sequence[Piece] = (show(self._code.call(block, definition.call)),)
         else:

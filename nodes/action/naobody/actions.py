@@ -77,9 +77,16 @@ class Leds(msgspec.Struct, frozen=True):
     seconds: FadeTime = 0.0
 
 
-Action = Say | Do | Imitate | Play | Walk | Turn | Look | Leds
+class Stop(msgspec.Struct, frozen=True):
+    """End the action with this request id, or all of them: at once, nothing can delay it."""
 
-ACTIONS: dict[str, type[Action]] = {
+    request: str = ""
+
+
+Action = Say | Do | Imitate | Play | Walk | Turn | Look | Leds
+"""What takes its time, and limbs."""
+
+ACTIONS: dict[str, type[Action | Stop]] = {
     "say": Say,
     "do": Do,
     "imitate": Imitate,
@@ -88,19 +95,17 @@ ACTIONS: dict[str, type[Action]] = {
     "turn": Turn,
     "look": Look,
     "leds": Leds,
+    "stop": Stop,
 }
-STOP = "stop"
-"""The one action that is no command: it ends all commands, and nothing can delay it."""
 
 
-def read_action(name: str, args: dict[str, Any]) -> Action:
+def read_action(name: str, args: dict[str, Any]) -> Action | Stop:
     """Return a named action with its arguments checked; arguments it does not know are ignored.
 
     Raises ActionFailed with a sentence that names what is possible.
     """
     if name not in ACTIONS:
-        known = ", ".join([*ACTIONS, STOP])
-        raise ActionFailed(f'There is no action "{name}". Possible actions: {known}.')
+        raise ActionFailed(f'There is no action "{name}". Possible actions: {", ".join(ACTIONS)}.')
     kind = ACTIONS[name]
     try:
         action = msgspec.convert(args, kind)
@@ -118,7 +123,7 @@ def _plain(error: msgspec.ValidationError) -> str:
     return f"{place.rstrip('`')}: {what}." if place else f"{what}."
 
 
-def _takes(kind: type[Action]) -> str:
+def _takes(kind: type[Action | Stop]) -> str:
     fields = [
         field.name if field.required else f"{field.name} (may be left out)"
         for field in msgspec.structs.fields(kind)

@@ -79,7 +79,7 @@ class Animations:
 
 
 def load_animations(folder: Path, body: Body) -> Animations:
-    """Read every ``*.toml`` of a folder. Raises NodeStartError that names the file and the place."""
+    """Read every ``*.toml`` of a folder. Raises NodeStartError, which names file and place."""
     found = {}
     for path in sorted(folder.glob("*.toml")):
         found[path.stem] = load_animation(path, body)
@@ -87,7 +87,7 @@ def load_animations(folder: Path, body: Body) -> Animations:
 
 
 def load_animation(path: Path, body: Body) -> Animation:
-    """Read one animation. Raises NodeStartError that names the file and the place."""
+    """Read one animation. Raises NodeStartError, which names file and place."""
     try:
         file = msgspec.toml.decode(path.read_bytes(), type=_AnimationFile)
     except (OSError, msgspec.DecodeError, UnicodeDecodeError) as error:
@@ -131,8 +131,8 @@ def _problem_of_keys(joint: _JointKeys) -> str:
     numbers = [*joint.times, *joint.keys, *(n for handle in joint.handles or () for n in handle)]
     if not all(math.isfinite(number) for number in numbers):
         return "a number is infinite or not a number"
-    if joint.times[0] < 0.0 or any(late <= early for early, late in pairwise(joint.times)):
-        return "the times do not rise"
+    if any(late <= early for early, late in pairwise((0.0, *joint.times))):
+        return "the times must be above 0 and rise"
     return ""
 
 

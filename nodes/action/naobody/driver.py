@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Literal, NamedTuple, Protocol
 
 from nep_core.messages import RobotState
@@ -47,8 +48,8 @@ class Driver(Protocol):
     def start(self, command_id: str, action: Action) -> None:
         """Begin an action; ``step`` tells when it has ended."""
 
-    def stop(self) -> None:
-        """End every action at once; none of them is told by ``step`` any more."""
+    def stop(self, command_ids: Collection[str]) -> None:
+        """End some actions at once; ``step`` does not tell of them any more."""
 
     def step(self, now_s: float) -> list[Ended]:
         """Go on to a time. Returns early, as soon as a command ends: call until it is empty."""

@@ -78,12 +78,20 @@ def keyframe_motion(body: Body, pose: Angles, keyframes: Keyframes) -> Motion:
     return _allowed(body, pose, columns, _sampled(body, pose, keyframes, TICK_S), notes)
 
 
-def braking(body: Body, pose: Angles, speed_rad_s: Angles) -> Motion:
-    """Return how every joint comes to rest from its present speed, evenly, without a jerk."""
+def braking(body: Body, pose: Angles, speed_rad_s: Angles, columns: Sequence[int]) -> Motion:
+    """Return how some joints come to rest in BRAKING_S (pose and speeds: of every joint)."""
+    allowed, _ = body.clamped(pose + braking_way_s()[:, None] * speed_rad_s)
+    return Motion(tuple(columns), allowed[:, list(columns)])
+
+
+def braking_way_s() -> Angles:
+    """Return how far something goes at each tick while it brakes, per unit of its first speed.
+
+    The speed falls as (1 - s)², s being the part of BRAKING_S that has passed.
+    """
     s = ticks(BRAKING_S, TICK_S) / BRAKING_S
-    way = (1.0 - (1.0 - s) ** 3) / 3.0 * BRAKING_S
-    allowed, _ = body.clamped(pose + way[:, None] * speed_rad_s)
-    return Motion(tuple(range(len(pose))), allowed)
+    way_s: Angles = (1.0 - (1.0 - s) ** 3) / 3.0 * BRAKING_S
+    return way_s
 
 
 def _allowed(

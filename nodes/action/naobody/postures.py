@@ -17,7 +17,7 @@ def posture_name(body: Body, word: str) -> str:
     for name in body.postures:
         if _plain(name) == plain:
             return name
-    known = ", ".join(f"posture_{name[0].lower()}{name[1:]}" for name in body.postures)
+    known = ", ".join(_word(name) for name in body.postures)
     raise ActionFailed(f'There is no posture "{word}". Possible postures: {known}.')
 
 
@@ -44,6 +44,10 @@ def _way_back(came_from: dict[str, str | None], goal: str) -> list[str]:
         here = came_from[here]
     path.reverse()
     return path[1:] or [goal]
+
+
+def _word(name: str) -> str:
+    return "posture" + "".join(f"_{c.lower()}" if c.isupper() else c for c in name)
 
 
 def _plain(word: str) -> str:

@@ -50,15 +50,9 @@ class Schedule:
         return ready
 
     def end(self, command_id: str) -> None:
-        """Free the limbs of a running command."""
-        del self._running[command_id]
-
-    def clear(self) -> list[Command]:
-        """Forget every command, and return those that were running or waiting."""
-        forgotten = [*self._running.values(), *self._waiting]
-        self._running.clear()
-        self._waiting.clear()
-        return forgotten
+        """Forget a command, running or waiting; its limbs are free."""
+        self._running.pop(command_id, None)
+        self._waiting = [command for command in self._waiting if command.id != command_id]
 
     def _ready(self) -> Iterator[Command]:
         taken: set[Limb] = set()

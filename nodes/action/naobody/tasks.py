@@ -7,7 +7,7 @@ Closing it leaves the robot as it is. It raises ActionFailed when the robot cann
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Iterable
+from collections.abc import Collection, Generator
 
 import numpy as np
 
@@ -19,7 +19,14 @@ from nodes.action.naobody.body import Angles
 from nodes.action.naobody.gait import plan_walk
 from nodes.action.naobody.keyframes import Keyframes
 from nodes.action.naobody.limbs import MOVING, Limb
-from nodes.action.naobody.motion import TICK_S, Motion, braking, keyframe_motion, move
+from nodes.action.naobody.motion import (
+    TICK_S,
+    Motion,
+    braking,
+    braking_way_s,
+    keyframe_motion,
+    move,
+)
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.postures import posture_name, posture_path
 from nodes.action.naobody.speech import speaking_time_s
@@ -95,7 +102,10 @@ def play(robot: VirtualRobot, animation: Animation, keyframes: Keyframes | None 
 
 
 def walk(robot: VirtualRobot, forward_m: float, left_m: float, turn: float) -> Task:
-    """Walk over the floor, or turn by ``turn`` rad, with steps. Raises ActionFailed if not standing."""
+    """Walk over the floor with steps, turning by ``turn`` rad on the way.
+
+    Raises ActionFailed when the robot does not stand.
+    """
     if robot.family in DOES_NOT_STAND:
         raise ActionFailed(
             f"{robot.name} {DOES_NOT_STAND[robot.family]}: it must stand before it can walk. "
@@ -138,10 +148,20 @@ def light(robot: VirtualRobot, group: str, colour: int, seconds: float) -> Task:
     return ""
 
 
-def come_to_rest(robot: VirtualRobot, speed_rad_s: Angles) -> Task:
-    """Brake every joint after a stop; a standing robot also puts its feet back under itself."""
-    yield from _play_motion(robot, braking(robot.body, robot.angles, speed_rad_s))
-    if robot.family == "standing":
+def come_to_rest(
+    robot: VirtualRobot, limbs: Collection[Limb], joint_speed: Angles, base_speed: Angles
+) -> Task:
+    """Brake some limbs from the speeds they have: every joint's (rad/s), the base's (m/s, rad/s).
+
+    A standing robot that stops its legs also puts its feet back under itself.
+    """
+    motion = braking(robot.body, robot.angles, joint_speed, robot.body.columns(limbs))
+    start = robot.base
+    for part, _ in zip(braking_way_s(), _play_motion(robot, motion), strict=True):
+        if Limb.LEGS in limbs:
+            robot.base = start + part * base_speed
+        yield
+    if Limb.LEGS in limbs and robot.family == "standing":
         yield from _go(robot, robot.posture, {Limb.LEGS})
     return ""
 
@@ -153,7 +173,7 @@ def _act(robot: VirtualRobot, keyframes: Keyframes) -> Task:
     return "; ".join(motion.notes)
 
 
-def _go(robot: VirtualRobot, posture: str, limbs: Iterable[Limb]) -> Task:
+def _go(robot: VirtualRobot, posture: str, limbs: Collection[Limb]) -> Task:
     body = robot.body
     columns = body.columns(limbs)
     goal = body.posture_angles(posture)
@@ -203,7 +223,9 @@ def _moved(base: Angles, way: Angles) -> Angles:
     """Return the base after going a way (m, m, rad) that is relative to it."""
     forward, left, turn = way
     cosine, sine = math.cos(base[2]), math.sin(base[2])
-    return base + np.array([forward * cosine - left * sine, forward * sine + left * cosine, turn])
+    x, y = forward * cosine - left * sine, forward * sine + left * cosine
+    moved: Angles = base + np.array([x, y, turn])
+    return moved
 
 
 def _as_far_as_it_goes(head: Angles) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +53,10 @@ class Windows:
 
     def __len__(self) -> int:
         return len(self.lengths)
+
+    def where(self, chosen: NDArray[Any]) -> Windows:
+        """The chosen windows only."""
+        return Windows(self.signals[chosen], self.features[chosen], self.lengths[chosen])
 
 
 def cut_windows(samples: Floats, last: Integers, lengths: Integers) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,14 +88,17 @@ def fitting(gestures: Sequence[Gesture], lengths: Integers) -> NDArray[np.bool_]
     return fits
 
 
-def scan(passage: Passage, lengths: Integers, channels: Channels) -> Scan | None:
-    """All windows of a passage; None when it is too short for any."""
+def is_long_enough(passage: Passage, lengths: Integers) -> bool:
+    """Whether the shortest window fits into a passage."""
+    return len(passage.samples) >= lengths[0]
+
+
+def scan(passage: Passage, lengths: Integers, channels: Channels) -> Scan:
+    """All windows of a passage that is long enough."""
     hops = np.arange(lengths[0] - 1, len(passage.samples), HOP)
     hop, which = (grid.ravel() for grid in np.indices((len(hops), len(lengths))))
     inside = hops[hop] >= lengths[which] - 1
     hop, which = hop[inside], which[inside]
-    if not len(hop):
-        return None
     last, length = hops[hop], lengths[which]
     raw = cut_windows(passage.samples[:, : channels.columns], last, length)
     return Scan(
@@ -106,13 +109,3 @@ def scan(passage: Passage, lengths: Integers, channels: Channels) -> Scan | None
         passage.start_s + last / RATE_HZ,
         describe(raw, length, channels),
     )
-
-
-def scan_all(
-    passages: Sequence[Passage], lengths: Integers, channels: Channels
-) -> Iterator[Scan]:
-    """The scans of the passages that are long enough."""
-    for passage in passages:
-        found = scan(passage, lengths, channels)
-        if found is not None:
-            yield found

@@ -45,7 +45,7 @@ def person_numbered(number: int) -> Person:
         number=number,
         body=_body(rng, size),
         sensor=_sensor(rng, left_wrist=number % 10 == 9),
-        pace=float(np.clip(rng.normal(1.0, 0.10), 0.78, 1.25)),
+        pace=float(np.clip(rng.normal(1.0, 0.08), 0.85, 1.18)),
         reach=float(np.clip(rng.normal(1.0, 0.06), 0.85, 1.15)),
         tremor=tuple(_tremor(rng)),
     )

@@ -1,24 +1,19 @@
-"""A master in this process, and nodes in processes of their own."""
+"""Sensory nodes in processes of their own, and a program that hears what they say."""
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
 import pytest
 
-from nep_core.endpoints import MASTER_VARIABLE
-from nep_core.master import Master
 from nep_core.messages import IMU, NODE_STATE, Imu, NodeState
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
-
-T = TypeVar("T")
 
 NODES = Path(__file__).resolve().parents[3] / "nodes"
 START = """
@@ -31,20 +26,19 @@ sys.exit(run_node(read_manifest(Path(sys.argv[1])), sys.argv[2], ast.literal_eva
 
 
 class Listener:
-    """A program that hears what sensory nodes say."""
+    """Starts sensory nodes, and hears their samples and states."""
 
-    def __init__(self, master: str) -> None:
-        self.master = master
-        self.network = PeerNetwork("listener", master=master)
-        self.imu = Subscriber(IMU, Imu, network=self.network)
-        self.states = Subscriber(NODE_STATE, NodeState, network=self.network)
+    def __init__(self, network: PeerNetwork) -> None:
+        self.network = network
+        self.imu = Subscriber(IMU, Imu, network=network)
+        self.states = Subscriber(NODE_STATE, NodeState, network=network)
         self.nodes: list[subprocess.Popen[str]] = []
 
     def start(self, name: str, **parameters: object) -> subprocess.Popen[str]:
         manifest = str(NODES / "sensory" / f"{name}.toml")
+        own_name = f"{name}_{len(self.nodes)}"
         node = subprocess.Popen(
-            [sys.executable, "-c", START, manifest, name, repr(parameters)],
-            env={**os.environ, MASTER_VARIABLE: self.master},
+            [sys.executable, "-c", START, manifest, own_name, repr(parameters)],
             stdin=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             text=True,
@@ -55,35 +49,52 @@ class Listener:
     def publisher(self, topic: str) -> Publisher:
         return Publisher(topic, network=self.network, wait_for_subscribers=1)
 
-    def state(self, event: str, words: str = "", timeout_s: float = 10.0) -> NodeState:
+    def state(self, event: str, words: str = "") -> NodeState:
         """The next state of this kind with these words in it."""
-        return first(
-            self.states, lambda s: s.event == event and words in s.description, timeout_s
-        )
+        states = until(self.states, lambda s: s.event == event and words in s.description)
+        return states[-1]
+
+    def batches_until(self, wanted: Callable[[Imu], bool]) -> list[Imu]:
+        """All batches up to the first that is wanted."""
+        return until(self.imu, wanted)
+
+    def batches_for(self, seconds: float) -> list[Imu]:
+        """What arrives in this time; what came before is left out."""
+        return heard_for(self.imu, seconds)
+
+    def states_for(self, seconds: float) -> list[NodeState]:
+        return heard_for(self.states, seconds)
 
     def close(self) -> None:
         for node in self.nodes:
             node.terminate()
         for node in self.nodes:
             node.communicate(timeout=5)
-        self.network.close()
 
 
-def first(subscriber: Subscriber[T], wanted: Callable[[T], bool], timeout_s: float = 10.0) -> T:
-    """The next message that is wanted; fails with all that came instead."""
-    end_s, others = time.monotonic() + timeout_s, []
+def until(subscriber: Subscriber[Any], wanted: Callable[[Any], bool]) -> list[Any]:
+    """All messages up to the first that is wanted; fails when it does not come."""
+    end_s, heard = time.monotonic() + 10, []
     while (left_s := end_s - time.monotonic()) > 0:
         message = subscriber.receive(left_s)
-        if message is not None and wanted(message):
-            return message
-        others.append(message)
-    pytest.fail(f"nothing that was wanted came, but {others[-5:]}")
+        if message is not None:
+            heard.append(message)
+            if wanted(message):
+                return heard
+    pytest.fail(f"what was wanted did not come, but {heard[-5:]}")
+
+
+def heard_for(subscriber: Subscriber[Any], seconds: float) -> list[Any]:
+    subscriber.pending()
+    end_s, heard = time.monotonic() + seconds, []
+    while (left_s := end_s - time.monotonic()) > 0:
+        if (message := subscriber.receive(left_s)) is not None:
+            heard.append(message)
+    return heard
 
 
 @pytest.fixture
-def listener() -> Iterator[Listener]:
-    master = Master("tcp://127.0.0.1:*")
-    listener = Listener(master.endpoint)
+def listener(join: Callable[[str], PeerNetwork]) -> Iterator[Listener]:
+    listener = Listener(join("listener"))
     yield listener
     listener.close()
-    master.close()

@@ -59,3 +59,35 @@ def add(editor: Editor, block: B, place) -> str:
         for index, inner in enumerate(chain):
             add(editor, inner, InBody(block_id, slot, index))
     return block_id
+
+
+def karate(language: Language) -> Editor:
+    """The karate greeting: a rule that starts, and one with two parallel parts."""
+    counted = B(
+        "text.join", {"item.1": "Karate number "}, {"item.2": B("variable.get", {"variable": "v1"})}
+    )
+    return build(
+        language,
+        [
+            B("event.started"),
+            B("robot.do"),
+            B("variable.set", {"variable": "v1"}),
+            B("robot.say", {"text": "Show me karate", "gesture": "explain"}),
+        ],
+        [
+            B("event.gesture"),
+            B("robot.say", {"text": "Impressive!"}),
+            B(
+                "control.together",
+                bodies={
+                    "do.1": [B("robot.play", {"animation": "karate"})],
+                    "do.2": [
+                        B("variable.change", {"variable": "v1"}),
+                        B("robot.say", inputs={"text": counted}),
+                    ],
+                },
+            ),
+        ],
+        name="Karate greeting",
+        variables=("times",),
+    )

@@ -1,0 +1,24 @@
+"""Everything that can be told about a program before it runs, in plain words."""
+
+from __future__ import annotations
+
+from ..language import Language
+from ..program import Project
+from .blocks import check_blocks
+from .deployment import check_deployment
+from .flow import check_flow
+from .limits import check_limits
+from .problem import Fix, Problem
+from .rules import check_rules
+
+_CHECKS = (check_rules, check_blocks, check_limits, check_flow, check_deployment)
+
+
+def check(project: Project, language: Language) -> list[Problem]:
+    """The problems of a program, errors first."""
+    problems = [problem for find in _CHECKS for problem in find(project, language)]
+    order = {"error": 0, "warning": 1, "info": 2}
+    return sorted(problems, key=lambda problem: order[problem.severity])
+
+
+__all__ = ["Fix", "Problem", "check"]

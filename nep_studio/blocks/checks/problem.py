@@ -1,0 +1,35 @@
+"""A problem of a program as data: what is wrong, where, and what to do about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+Severity = Literal["error", "warning", "info"]
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """Something that the studio can do about a problem: its name, its button, what it needs."""
+
+    name: str
+    label: str
+    data: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """What is wrong with a program.
+
+    An ``error`` keeps the program from running, a ``warning`` does not, ``info`` is good to know.
+    ``kind`` is the same for all problems of a sort; ``block`` is empty when no block is meant.
+    """
+
+    severity: Severity
+    kind: str
+    page: str
+    block: str
+    sentence: str
+    checklist: tuple[str, ...] = ()
+    fix: Fix | None = None

@@ -1,0 +1,71 @@
+"""Checks of rules: nothing starts, two rules for the same thing, blocks under no rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..deployment import GESTURE_STATE, rules
+from ..language import Language
+from ..program import Block, Project
+from ..text import sentence
+from .problem import Problem
+
+
+def check_rules(project: Project, language: Language) -> Iterator[Problem]:
+    """Problems of how stacks begin."""
+    chains = list(rules(project, language))
+    if not chains:
+        yield Problem(
+            "error",
+            "no_rule",
+            "behaviour",
+            "",
+            "Nothing starts this program: it has no “when” block.",
+            ("Drag a “when” block from the palette onto the page Behaviour.",),
+        )
+    yield from _same_trigger(project, language, chains)
+    yield from _loose(project, language)
+
+
+def _same_trigger(
+    project: Project, language: Language, chains: list[list[str]]
+) -> Iterator[Problem]:
+    first: dict[str, str] = {}
+    for chain in chains:
+        hat = project.blocks[chain[0]]
+        if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
+            yield Problem(
+                "warning",
+                "same_trigger",
+                "behaviour",
+                hat.id,
+                f"Two rules begin with “{sentence(project, language, hat.id)}”. Both will run.",
+                ("Put the blocks of both rules under one.", "Or let one wait for something else."),
+            )
+
+
+def _trigger(language: Language, hat: Block) -> str:
+    """What a rule waits for; a gesture is the human state that its node tells."""
+    definition = language.definitions[hat.type]
+    for slot in definition.slots.values():
+        if slot.kind.name == "gesture":
+            return f"{GESTURE_STATE}{definition.value(hat, slot.name)}"
+        if slot.kind.name == "state":
+            return str(definition.value(hat, slot.name))
+    return f"block {hat.type}"
+
+
+def _loose(project: Project, language: Language) -> Iterator[Problem]:
+    for stack in project.pages["behaviour"]:
+        first = project.blocks[stack.body[0]]
+        definition = language.definitions.get(first.type)
+        if definition is not None and definition.shape != "hat" and definition.page == "behaviour":
+            yield Problem(
+                "info",
+                "loose_block",
+                "behaviour",
+                first.id,
+                f"“{sentence(project, language, first.id)}” is under no “when” block "
+                "and will not run.",
+                ("Drag it under a “when” block, or leave it here for later.",),
+            )

@@ -1,0 +1,63 @@
+"""A block as a sentence in plain text: for problems, for the screen reader, for typing a block."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .language import Language
+from .program import ALL_ROBOTS, Block, Project
+from .sentence import Group, Part, Slot
+from .values import FieldValue
+
+LONGEST = 120
+_DEEPEST = 4
+_EMPTY = "…"
+
+
+def sentence(project: Project, language: Language, block_id: str) -> str:
+    """What a block says, as "NAO says Impressive! with no gesture"; what is too long is cut."""
+    text = _sentence(project, language, project.blocks[block_id], 0)
+    return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
+
+
+def _sentence(project: Project, language: Language, block: Block, depth: int) -> str:
+    definition = language.definitions.get(block.type)
+    if definition is None:
+        return f"unknown block {block.type}"
+    if depth > _DEEPEST:
+        return _EMPTY
+    words = []
+    for part, number in _parts(definition.parts, block):
+        if isinstance(part, str):
+            words.append(part)
+            continue
+        key = f"{part.name}.{number}" if number else part.name
+        if key in block.inputs:
+            plugged = project.blocks[block.inputs[key]]
+            words.append(_sentence(project, language, plugged, depth + 1))
+        elif part.kind.name != "body":
+            words.append(_field(project, language, part, definition.value(block, key)))
+    return " ".join(word for word in words if word).replace(" ,", ",")
+
+
+def _parts(parts: tuple[Part, ...], block: Block) -> Iterator[tuple[str | Slot, int]]:
+    """The words and slots of a sentence, groups as often as they are there, numbered from 1."""
+    for part in parts:
+        if isinstance(part, Group):
+            for number in range(1, block.groups.get(part.name, 0) + 1):
+                yield from ((inner, number) for inner in part.parts)
+        else:
+            yield part, 0
+
+
+def _field(project: Project, language: Language, slot: Slot, value: FieldValue | None) -> str:
+    if isinstance(value, dict):
+        return ", ".join(f"{name}={setting}" for name, setting in value.items())
+    if slot.kind.name == "variable":
+        variable = project.variable(str(value))
+        return variable.name if variable is not None else _EMPTY
+    if slot.kind.name == "robot" and value == ALL_ROBOTS:
+        return "all robots"
+    if value is None or value == "":
+        return _EMPTY
+    return language.choices_of(slot).get(str(value), str(value))

@@ -1,0 +1,125 @@
+"""Which nodes a project needs: those on its pages, and those that its rules cannot do without."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from nep_studio.blocks.deployment import (
+    NodeEntry,
+    RobotEntry,
+    gestures_recognised,
+    gestures_used,
+    node_entries,
+    robot_entries,
+    robots_used,
+)
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import Project
+
+VIRTUAL_WATCH = "sensory/virtual_watch"
+REPLAY = "sensory/replay"
+GESTURE = "perceptual/gesture"
+
+Setting = str | float | int | bool
+
+
+@dataclass(frozen=True)
+class PlannedNode:
+    """A node to start, and why, in words; ``block_id`` is its block, if it has one."""
+
+    node: str
+    name: str
+    parameters: Mapping[str, Setting] = field(default_factory=dict)
+    reason: str = ""
+    block_id: str = ""
+
+    @property
+    def is_sensory(self) -> bool:
+        """Whether it measures; such nodes start last, so that nothing they say is missed."""
+        return self.node.startswith("sensory/")
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the person who runs the project decides: a recording, addresses of robots by name."""
+
+    recording: Path | None = None
+    speed: float = 1.0
+    addresses: Mapping[str, str] = field(default_factory=dict)
+
+
+def plan(project: Project, language: Language, choices: Choices, folder: Path) -> list[PlannedNode]:
+    """The nodes to start; files in their settings are looked for in ``folder``, the project's."""
+    listed = node_entries(project, language)
+    robots = _robots(project, language, choices)
+    nodes = [_listed(entry, folder) for entry in listed]
+    names = {node.name for node in nodes}
+    nodes += [robot for robot in robots if robot.name not in names]
+    nodes += _missing_gestures(project, language, listed)
+    return _with_a_watch(nodes, choices)
+
+
+def _robots(project: Project, language: Language, choices: Choices) -> list[PlannedNode]:
+    entries = {entry.name: entry for entry in robot_entries(project, language)}
+    nodes = [_robot(entry, choices, language.profile.node) for entry in entries.values()]
+    for name, block in robots_used(project, language).items():
+        if name not in entries:
+            entry = RobotEntry(name, "virtual", "", block)
+            nodes.append(_robot(entry, choices, language.profile.node, "a rule speaks to it"))
+    return nodes
+
+
+def _robot(entry: RobotEntry, choices: Choices, node: str, reason: str = "") -> PlannedNode:
+    address = choices.addresses.get(entry.name, entry.address)
+    driver = "naoqi" if entry.name in choices.addresses else entry.driver
+    settings: dict[str, Setting] = {"robot": entry.name, "driver": driver, "address": address}
+    return PlannedNode(node, entry.name, settings, reason, entry.block_id)
+
+
+def _listed(entry: NodeEntry, folder: Path) -> PlannedNode:
+    settings = {key: _found(value, folder) for key, value in entry.parameters.items()}
+    return PlannedNode(entry.node, entry.name, settings, "", entry.block_id)
+
+
+def _found(value: Setting, folder: Path) -> Setting:
+    """A file name as a path, when there is such a file in the project's folder."""
+    if not isinstance(value, str) or not value or "\0" in value or len(value) > 255:
+        return value
+    return str(folder / value) if (folder / value).is_file() else value
+
+
+def _missing_gestures(
+    project: Project, language: Language, listed: tuple[NodeEntry, ...]
+) -> list[PlannedNode]:
+    known = language.choices.get("gestures", {})
+    missing = [
+        gesture
+        for gesture in gestures_used(project, language)
+        if gesture in known and gesture not in gestures_recognised(listed)
+    ]
+    reason = "a rule waits for this gesture"
+    return [PlannedNode(GESTURE, gesture, {"gesture": gesture}, reason) for gesture in missing]
+
+
+def _with_a_watch(nodes: list[PlannedNode], choices: Choices) -> list[PlannedNode]:
+    """Give the gesture nodes something to look at: the recording, else a watch."""
+    if choices.recording is not None:
+        settings: dict[str, Setting] = {
+            "recording": str(choices.recording),
+            "speed": choices.speed,
+            "quit_at_end": True,
+        }
+        others = [node for node in nodes if not node.is_sensory]
+        return [*others, PlannedNode(REPLAY, "recording", settings, "it was asked for")]
+    gestures = [
+        str(node.parameters["gesture"])
+        for node in nodes
+        if node.node == GESTURE and node.parameters.get("gesture")
+    ]
+    if gestures and not any(node.is_sensory for node in nodes):
+        schedule = {"gestures": ", ".join(gestures)}
+        reason = "somebody must make the gestures"
+        return [*nodes, PlannedNode(VIRTUAL_WATCH, "virtual_watch", schedule, reason)]
+    return nodes

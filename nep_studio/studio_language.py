@@ -1,0 +1,42 @@
+"""The block language with what this installation can recognise and launch."""
+
+from __future__ import annotations
+
+import tomllib
+
+from nep_core.errors import ManifestError
+from nep_core.manifest import NodeCatalog, read_manifest
+from nep_core.places import node_folders
+from nep_studio import paths
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.loading import load_language
+
+
+def shipped_gestures() -> dict[str, str]:
+    """The gestures of the shipped model: name to label."""
+    path = paths.resources() / "gestures" / "paper.toml"
+    gestures: dict[str, str] = tomllib.loads(path.read_text(encoding="utf-8"))["gestures"]
+    return gestures
+
+
+def launchable_nodes() -> dict[str, str]:
+    """The nodes that can be launched: "type/name" to title; wrong manifests are left out."""
+    nodes = {}
+    for path in NodeCatalog(node_folders()).paths():
+        try:
+            manifest = read_manifest(path)
+        except ManifestError:
+            continue  # starting the node tells what is wrong with it
+        nodes[manifest.id] = manifest.title
+    return nodes
+
+
+def studio_language() -> Language:
+    """The language of this installation; raises DefinitionError."""
+    resources = paths.resources()
+    return load_language(
+        resources / "blocks",
+        resources / "robots" / "nao" / "robot.toml",
+        gestures=shipped_gestures(),
+        nodes=launchable_nodes(),
+    )

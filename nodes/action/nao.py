@@ -1,0 +1,95 @@
+"""A NAO that acts on requests: the one on the screen, or one in the room."""
+
+from __future__ import annotations
+
+import time
+
+from nep_core.messages import (
+    ACTION_REQUEST,
+    ACTION_RESULT,
+    ROBOT_STATE,
+    ActionRequest,
+    ActionResult,
+)
+from nep_core.node import Node
+from nep_core.pubsub import Publisher, Subscriber
+from nodes.action.naobody.actor import Actor
+from nodes.action.naobody.animations import load_animations
+from nodes.action.naobody.body import load_body
+from nodes.action.naobody.driver import Driver
+from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.unreached import UnreachedNao
+from nodes.action.naobody.virtual import VirtualDriver
+from nodes.resources import resource_folder
+
+MOVING_LOOP_S = 0.01
+RESTING_LOOP_S = 0.1
+MOVING_STATE_S = 1.0 / 30.0
+RESTING_STATE_S = 1.0
+
+
+def run(node: Node, *, robot: str, driver: str, address: str, speed: float) -> None:
+    """Play ``/action_request`` on one robot until the node stops.
+
+    ``speed``: how many times faster than real time the virtual robot lives.
+    """
+    link = _driver(robot, driver, address)
+    actor = Actor(robot, link)
+    results = node.publisher(ACTION_RESULT)
+    requests = node.subscriber(ACTION_REQUEST, ActionRequest)
+    report = _StateReport(node, link)
+    link.connect()
+    report.send_news()
+    node.ready(link.connection.description)
+    start_s = time.monotonic()
+    while not node.stopping:
+        for request in _heard(requests, MOVING_LOOP_S if link.moving else RESTING_LOOP_S):
+            if actor.is_asked(request):
+                _send(results, actor.request(request))
+        _send(results, actor.step((time.monotonic() - start_s) * speed))
+        report.send_news()
+    _send(results, actor.stop())
+
+
+def _driver(robot: str, driver: str, address: str) -> Driver:
+    if driver == "naoqi":
+        return UnreachedNao(robot, address)
+    folder = resource_folder() / "robots" / "nao"
+    body = load_body(folder)
+    animations = load_animations(folder / "animations", body)
+    return VirtualDriver(VirtualRobot(robot, body, animations))
+
+
+def _heard(requests: Subscriber[ActionRequest], timeout_s: float) -> list[ActionRequest]:
+    first = requests.receive(timeout_s=timeout_s)
+    return [first, *requests.pending()] if first else []
+
+
+def _send(results: Publisher, what: list[ActionResult]) -> None:
+    for result in what:
+        results.send(result)
+
+
+class _StateReport:
+    """Tells how the link to the robot is, and where its body is: often while it moves."""
+
+    def __init__(self, node: Node, link: Driver) -> None:
+        self._node = node
+        self._link = link
+        self._states = node.publisher(ROBOT_STATE)
+        self._told = link.connection
+        self._next_s = 0.0
+        self._was_moving = False
+
+    def send_news(self) -> None:
+        """Send what has changed, or what is due."""
+        if self._link.connection != self._told:
+            self._told = self._link.connection
+            self._node.state(*self._told)
+        now_s = time.monotonic()
+        moving = self._link.moving
+        if now_s >= self._next_s or moving != self._was_moving:
+            self._was_moving = moving
+            self._next_s = now_s + (MOVING_STATE_S if moving else RESTING_STATE_S)
+            if state := self._link.state():
+                self._states.send(state)

@@ -1,0 +1,75 @@
+"""What a training found out, as data for the model file and in plain words."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from nodes.perceptual.recognition.matching import NOTHING
+from nodes.perceptual.recognition.scans import Gesture
+from nodes.perceptual.recognition.validation import Validation
+
+_FEW_TAKES = 5
+
+
+def report_of(gestures: Sequence[Gesture], validation: Validation) -> dict[str, Any]:
+    """The figures of a validation: pairs made and recognised ("" is nothing), and everyday."""
+    pairs = Counter(validation.tally.pairs)
+    return {
+        "takes": {gesture.name: gesture.takes for gesture in gestures},
+        "confusion": [[made, found, count] for (made, found), count in sorted(pairs.items())],
+        "recall": round(validation.tally.recall, 4),
+        "precision": round(validation.tally.precision, 4),
+        "f1": round(validation.tally.f1, 4),
+        "everyday_triggers": validation.everyday_triggers,
+        "everyday_s": round(validation.everyday_s, 1),
+    }
+
+
+def in_words(method: str, report: Mapping[str, Any]) -> list[str]:
+    """The report of one method, in lines for people."""
+    counts = {(made, found): count for made, found, count in report["confusion"]}
+    takes: dict[str, int] = report["takes"]
+    if min(takes.values()) < 2:
+        return [f"{method}: not checked, for that each gesture must be recorded twice or more."]
+    lines = [f"{method}: gestures recognised in recordings that were left out of the training"]
+    lines += [_gesture_line(name, takes[name], counts) for name in takes]
+    lines.append(_everyday_line(report))
+    return lines
+
+
+def advice(report: Mapping[str, Any]) -> list[str]:
+    """What would make the model better."""
+    few = [name for name, count in report["takes"].items() if count < _FEW_TAKES]
+    if not few:
+        return []
+    return [f"Record {', '.join(few)} {_FEW_TAKES} times or more: it will be recognised better."]
+
+
+def _gesture_line(name: str, takes: int, counts: Mapping[tuple[str, str], int]) -> str:
+    right = counts.get((name, name), 0)
+    missed = counts.get((name, NOTHING), 0)
+    mistaken = {
+        found: count
+        for (made, found), count in counts.items()
+        if made == name and found not in (name, NOTHING)
+    }
+    from_nothing = counts.get((NOTHING, name), 0)
+    remarks = [f"taken for {other} {_times(count)}" for other, count in mistaken.items()]
+    remarks += [f"missed {_times(missed)}"] if missed else []
+    remarks += [f"seen where there was none {_times(from_nothing)}"] if from_nothing else []
+    line = f"  {name}: {right} of {takes}"
+    return line + (f" ({', '.join(remarks)})" if remarks else "")
+
+
+def _everyday_line(report: Mapping[str, Any]) -> str:
+    minutes = report["everyday_s"] / 60
+    if not minutes:
+        return "  Everyday movement: not checked, no such recording was given."
+    a_minute = report["everyday_triggers"] / minutes
+    return f"  Everyday movement: {a_minute:.2f} false triggers a minute, in {minutes:.1f} minutes."
+
+
+def _times(count: int) -> str:
+    return "once" if count == 1 else "twice" if count == 2 else f"{count} times"

@@ -1,0 +1,82 @@
+"""Questions about generated Python: does it compile, what does it name, which constants has it."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import keyword
+import unicodedata
+
+from nep_studio.blocks.generate.names import API, RESERVED
+from nep_studio.blocks.language import Language
+
+PARTS_OF_PROGRAMS = {"str", "int", "range", "random", "randint", "behavior", "_", "when", "run"}
+
+
+def parse(text: str) -> ast.Module:
+    """The tree of a program that compiles and is text of one line per line."""
+    text.encode("utf-8")
+    compile(text, "program.py", "exec")
+    assert not any(c in text for c in "\r\x00\x0b\x0c\x85\u2028\u2029")
+    return ast.parse(text)
+
+
+def names_used(tree: ast.AST) -> set[str]:
+    """Everything that a program refers to: names, attributes, keyword arguments, imports."""
+    names = set()
+    for node in ast.walk(tree):
+        match node:
+            case ast.Name(id=name) | ast.Attribute(attr=name) | ast.alias(name=name):
+                names.add(name)
+            case ast.keyword(arg=name):
+                names.add(name or "**")
+            case ast.ImportFrom(module=module):
+                assert module == "nep_core"
+            case ast.Lambda() | ast.arg() | ast.Global():
+                pass
+    return names
+
+
+def names_made(tree: ast.AST) -> set[str]:
+    """The names that a program gives itself."""
+    made = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef):
+            made.add(node.name)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            made.add(node.id)
+    return made
+
+
+def assert_tame(text: str, language: Language) -> ast.Module:
+    """Check that a program names only what programs name, and its own robots and variables."""
+    tree = parse(text)
+    made = names_made(tree)
+    calls = [d.call for d in language.definitions.values() if d.call is not None]
+    known = {call.name for call in calls} | {name for call in calls for name in call.keywords}
+    strange = names_used(tree) - made - known - API - PARTS_OF_PROGRAMS - {"again", "when_started"}
+    assert not strange, strange
+    for name in made - {"behavior", "_"}:
+        assert name not in RESERVED and not hasattr(builtins, name) and not keyword.iskeyword(name)
+        assert unicodedata.normalize("NFKC", name) == name
+    return tree
+
+
+def constants(tree: ast.AST) -> list[tuple[type, str]]:
+    """The constants of a program with their types; a signed number is one constant."""
+    found, signed = [], set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            value = getattr(node.operand, "value", None)
+            if isinstance(value, int | float):
+                signed.add(id(node.operand))
+                found.append((type(value), repr(-value)))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and id(node) not in signed:
+            found.append((type(node.value), repr(node.value)))
+    return found
+
+
+def constant_of(value: object) -> tuple[type, str]:
+    """How ``constants`` tells a value."""
+    return type(value), repr(value)

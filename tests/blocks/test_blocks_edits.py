@@ -1,0 +1,258 @@
+"""Edits and their inverses: whatever is done can be undone and done again, to the byte."""
+
+from __future__ import annotations
+
+import msgspec
+import pytest
+from block_building import B, build, karate
+from generated import parse
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from random_programs import Dice
+
+from nep_studio.blocks.checks import check
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import (
+    AddGroup,
+    CreateBlocks,
+    DeleteBlocks,
+    Edit,
+    MoveBlocks,
+    RemoveGroup,
+    SetField,
+    SetFlag,
+)
+from nep_studio.blocks.errors import CodeRefused, EditRefused
+from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
+from nep_studio.blocks.places import InBody, InInput, InStack, NewStack
+from nep_studio.blocks.program import Parent, Project
+from nep_studio.blocks.reading import from_bytes
+from nep_studio.blocks.text import sentence
+from nep_studio.blocks.writing import to_bytes
+
+
+def code_of(generate) -> str:
+    try:
+        return generate().text
+    except CodeRefused as refused:
+        return refused.sentence + refused.block
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.data())
+def test_random_edits_undone_and_redone_give_identical_bytes(language, data):
+    editor = Editor(karate(language).project, language)
+    dice = Dice(data.draw, editor)
+    states = [to_bytes(editor.project)]
+
+    for _ in range(data.draw(st.integers(1, 25))):
+        try:
+            with editor.transaction("random"):
+                for _ in range(data.draw(st.integers(1, 3))):
+                    editor.apply(dice.edit())
+        except EditRefused as refused:
+            assert len(refused.sentence) > 10
+            assert to_bytes(editor.project) == states[-1]
+        else:
+            states.append(to_bytes(editor.project))
+
+    for state in reversed(states):
+        assert to_bytes(editor.project) == state
+        editor.history.undo()
+    assert not editor.history.undo()
+    for state in states:
+        assert to_bytes(editor.project) == state
+        editor.history.redo()
+    assert not editor.history.redo()
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.data())
+def test_random_programs_load_as_they_were_saved_and_their_code_compiles(language, data):
+    editor = Editor(karate(language).project, language)
+    generator = ProgramGenerator(editor.project, language)
+    dice = Dice(data.draw, editor)
+    for _ in range(data.draw(st.integers(1, 25))):
+        try:
+            editor.apply(dice.edit())
+        except EditRefused:
+            continue
+        project = editor.project
+
+        loaded = from_bytes(to_bytes(project), "x.nep", language)
+
+        assert to_bytes(loaded) == to_bytes(project)
+        assert loaded.parents == project.parents
+        assert all(problem.sentence for problem in check(project, language))
+        assert all(sentence(project, language, block) is not None for block in project.blocks)
+        code = code_of(lambda: generate_program(loaded, language))
+        assert code_of(generator.generate) == code
+        if code.startswith('"""'):
+            parse(code)
+
+
+@given(st.data())
+def test_every_edit_can_be_written_to_a_journal_and_played_again(language, data):
+    editor, replayed = Editor(karate(language).project, language), karate(language).project
+    dice = Dice(data.draw, editor)
+    for _ in range(data.draw(st.integers(1, 25))):
+        edit = dice.edit()
+        line = msgspec.json.encode(edit)
+        try:
+            editor.apply(edit)
+        except EditRefused:
+            continue
+        msgspec.json.decode(line, type=Edit).apply(replayed)
+
+    assert to_bytes(replayed) == to_bytes(editor.project)
+
+
+def stack_of_three(language):
+    editor = build(language, [B("event.started"), B("robot.do"), B("control.forever")])
+    return editor, *editor.project.pages["behaviour"][0].body
+
+
+def test_a_block_cannot_be_put_inside_itself(language):
+    editor = build(language, [B("control.while", bodies={"do": [B("control.while")]})])
+    outer = editor.project.pages["behaviour"][0].body[0]
+    (inner,) = editor.project.blocks[outer].bodies["do"]
+
+    with pytest.raises(EditRefused, match="inside itself"):
+        editor.apply(MoveBlocks(outer, 1, InBody(inner, "do", 0)))
+
+
+@pytest.mark.parametrize(
+    ("edit", "reason"),
+    [
+        (
+            lambda e, hat, do, loop: MoveBlocks(do, 1, InStack(e.project.parents[hat].owner, 0)),
+            "above",
+        ),
+        (
+            lambda e, hat, do, loop: MoveBlocks(do, 1, InStack(e.project.parents[hat].owner, 2)),
+            "below",
+        ),
+        (lambda e, hat, do, loop: MoveBlocks(hat, 1, InBody(loop, "do", 0)), "begins a stack"),
+        (lambda e, hat, do, loop: MoveBlocks(do, 1, InInput(loop, "do")), "no slot"),
+        (lambda e, hat, do, loop: MoveBlocks(do, 1, InBody(loop, "while", 0)), "no place"),
+        (lambda e, hat, do, loop: SetField(do, "posture", "fly"), "not one of"),
+        (lambda e, hat, do, loop: SetField(do, "wings", "fly"), "no field"),
+        (lambda e, hat, do, loop: SetField("b99", "wings", "fly"), "not there"),
+        (lambda e, hat, do, loop: DeleteBlocks(loop, 2), "not so many"),
+        (lambda e, hat, do, loop: RemoveGroup(loop, "part", 1, ("do",)), "no such part"),
+    ],
+)
+def test_what_does_not_fit_is_refused_with_its_reason(language, edit, reason):
+    editor, *blocks = stack_of_three(language)
+    before = to_bytes(editor.project)
+
+    with pytest.raises(EditRefused, match=reason):
+        editor.apply(edit(editor, *blocks))
+    assert to_bytes(editor.project) == before
+
+
+def test_a_slot_says_which_value_it_needs(language):
+    editor = build(language, [B("event.started"), B("robot.walk")])
+    walk = editor.project.pages["behaviour"][0].body[1]
+
+    with pytest.raises(EditRefused, match="needs a number, and “text.join” gives a text"):
+        editor.create("text.join", InInput(walk, "forward"))
+    with pytest.raises(EditRefused, match="chosen or typed"):
+        editor.create("text.join", InInput(walk, "robot"))
+    editor.create("math.number", InInput(walk, "forward"))
+    with pytest.raises(EditRefused, match="in this slot already"):
+        editor.create("math.number", InInput(walk, "forward"))
+
+
+def test_an_else_if_in_the_middle_moves_the_later_ones_with_their_blocks(language):
+    fork = B("control.if", bodies={"also_do.2": [B("robot.do")]}, groups={"also": 2})
+    editor = build(language, [B("event.started"), fork])
+    project = editor.project
+    block = next(b for b in project.blocks.values() if b.type == "control.if")
+    (inner,) = block.bodies["also_do.2"]
+    slots = ("also_condition", "also_do")
+    before = to_bytes(project)
+
+    editor.apply(RemoveGroup(block.id, "also", 1, slots))
+
+    assert block.bodies == {"also_do.1": [inner]} and block.groups["also"] == 1
+    assert project.parents[inner] == Parent(block.id, "also_do.1")
+    with pytest.raises(EditRefused, match="take them out"):
+        editor.apply(RemoveGroup(block.id, "also", 1, slots))
+    editor.history.undo()
+    assert to_bytes(project) == before
+
+
+def test_do_together_keeps_two_parts_and_takes_twenty(language):
+    editor = build(language, [B("event.started"), B("control.together", groups={"part": 20})])
+    block = editor.project.pages["behaviour"][0].body[1]
+
+    with pytest.raises(EditRefused, match="more parts"):
+        editor.apply(AddGroup(block, "part", 1, ("do",), {}))
+    for _ in range(18):
+        editor.apply(RemoveGroup(block, "part", 1, ("do",)))
+    with pytest.raises(EditRefused, match="fewer parts"):
+        editor.apply(RemoveGroup(block, "part", 1, ("do",)))
+
+
+def test_typing_in_one_field_is_one_step_and_another_field_begins_a_new_one(language):
+    editor = build(language, [B("event.started"), B("robot.say")])
+    say = editor.project.pages["behaviour"][0].body[1]
+    for text in ("I", "Im", "Imp"):
+        editor.apply(SetField(say, "text", text))
+    editor.apply(SetField(say, "gesture", "happy"))
+    editor.history.seal()
+    editor.apply(SetField(say, "gesture", "sad"))
+    fields = editor.project.blocks[say].fields
+
+    editor.history.undo()
+    assert fields["gesture"] == "happy"
+    editor.history.undo()
+    assert fields["text"] == "Imp" and fields["gesture"] == "no_gesture"
+    editor.history.undo()
+    assert fields["text"] == "Hello"
+    editor.history.redo()
+    assert fields["text"] == "Imp"
+
+
+def test_a_transaction_that_fails_leaves_no_trace(language):
+    editor, _, do, _ = stack_of_three(language)
+    before, label = to_bytes(editor.project), editor.history.undo_label
+
+    with pytest.raises(EditRefused), editor.transaction("two edits"):
+        editor.apply(SetFlag(do, "disabled", True))
+        editor.apply(SetField(do, "posture", "fly"))
+
+    assert to_bytes(editor.project) == before and editor.history.undo_label == label
+
+
+def test_a_new_edit_forgets_what_was_undone(language):
+    editor, _, do, _ = stack_of_three(language)
+    editor.apply(SetFlag(do, "disabled", True), "Disable")
+    editor.history.undo()
+    assert editor.history.redo_label == "Disable"
+
+    editor.apply(SetFlag(do, "collapsed", True))
+
+    assert editor.history.redo_label == "" and not editor.history.redo()
+
+
+def test_blocks_with_a_part_missing_are_not_created(language):
+    project = Project()
+    block = language.definitions["control.forever"].new_block("b1")
+    block.bodies = {"do": ["b2"]}
+
+    with pytest.raises(EditRefused, match="not complete"):
+        CreateBlocks(("b1",), (block,), NewStack("behaviour", "s1", 0, 0, 0)).apply(project)
+
+
+def test_deleting_and_undoing_a_stack_of_ten_thousand_blocks_keeps_all(language):
+    editor = build(language, [B("event.started"), *[B("robot.do")] * 10_000])
+    before = to_bytes(editor.project)
+    first = editor.project.pages["behaviour"][0].body[0]
+
+    editor.apply(DeleteBlocks(first, 10_001))
+
+    assert not editor.project.blocks and not editor.project.stacks
+    editor.history.undo()
+    assert to_bytes(editor.project) == before

@@ -1,0 +1,122 @@
+"""Lines of phones and watches become readings, and no line is a danger."""
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from nodes.sensory.lines import Reading, read_datagram, read_line
+
+ACC, GYR = (0.5, -1.0, 9.8), (0.1, 0.2, -0.3)
+
+
+@pytest.mark.parametrize(
+    ("line", "readings"),
+    [
+        ("0.5,-1,9.8", [Reading(ACC)]),
+        ("0.5 -1 9.8", [Reading(ACC)]),
+        ("0.5,-1,9.8,0.1,0.2,-0.3", [Reading(ACC, GYR)]),
+        ("17.25;0.5;-1;9.8", [Reading(ACC, stamp=17.25)]),
+        ("1518819953744,0.5,-1,9.8,0.1,0.2,-0.3", [Reading(ACC, GYR, 1518819953744)]),
+        ("1518819953744,0.5,-1,9.8,0.1,0.2,-0.3,7,7,7,", [Reading(ACC, GYR, 1518819953744)]),
+        ("a;20140000;0.5;-1;9.8", [Reading(ACC, None, 20140000, 1e-9)]),
+        ("y;20140000;0.1;0.2;-0.3", [Reading(None, GYR, 20140000, 1e-9)]),
+        ('{"t": 2.5, "acc": [0.5, -1, 9.8]}', [Reading(ACC, stamp=2.5)]),
+        ('{"acc": {"x": 0.5, "y": -1, "z": 9.8}, "gyr": [0.1, 0.2, -0.3]}', [Reading(ACC, GYR)]),
+        (
+            '{"type":"android.sensor.accelerometer","timestamp":5000,"values":[0.5,-1,9.8]}',
+            [Reading(ACC, None, 5000, 1e-9)],
+        ),
+        (
+            '{"type":"android.sensor.gyroscope","timestamp":5000,"values":[0.1,0.2,-0.3]}',
+            [Reading(None, GYR, 5000, 1e-9)],
+        ),
+        ('{"type":"android.sensor.light","timestamp":5000,"values":[12]}', []),
+        (
+            '{"op":"hyperimu","Timestamp":15,"Accelerometer":[0.5,-1,9.8],"Gyroscope":[0.1,0.2,-0.3]}',
+            [Reading(ACC, GYR, 15)],
+        ),
+        (
+            '{"accelerometer":{"value":[0.5,-1,9.8],"timestamp":7},'
+            '"gyroscope":{"value":[0.1,0.2,-0.3],"timestamp":8}}',
+            [Reading(ACC, None, 7, 1e-9), Reading(None, GYR, 8, 1e-9)],
+        ),
+    ],
+)
+def test_a_line_of_each_kind(line, readings):
+    assert read_line(line) == readings
+
+
+def test_zig_sim_counts_in_g_towards_the_earth():
+    line = json.dumps(
+        {
+            "device": {"os": "ios"},
+            "timestamp": "2018_02_17_12:00:00.000",
+            "sensordata": {
+                "accel": {"x": 0, "y": 0.5, "z": 0},
+                "gravity": {"x": 0, "y": 0, "z": -1},
+                "gyro": {"x": 0.1, "y": 0.2, "z": -0.3},
+            },
+        }
+    )
+
+    [reading] = read_line(line)
+
+    assert reading.acc == pytest.approx((0, -4.903, 9.807), abs=0.001)
+    assert reading.gyr == GYR
+    assert reading.gravity_included
+
+
+def test_zig_sim_without_gravity_says_so():
+    [reading] = read_line('{"sensordata": {"accel": {"x": 0, "y": 0, "z": 0}}}')
+
+    assert not reading.gravity_included
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "hello", "1", "1,2", "1,2,3,4,5", "1,2,x", "1,2,nan", "1,2,inf", "1e400,2,3", "1,2,1e9",
+        "a;1;2;3", "a;x;1;2;3", "{", "{}", "[1,2,3]", '{"acc": [1, 2]}', '{"acc": [1, 2, "x"]}',
+        '{"acc": [1, 2, true]}', '{"acc": [1, 2, null]}', '{"sensordata": 5}',
+        '{"sensordata": {}}', '{"type": "android.sensor.gyroscope", "values": 3}',
+        '{"acc": {"value": [1]}}', "{" * 9000, '{"acc":' * 1000, "1" * 9000,
+    ],
+)  # fmt: skip
+def test_what_is_no_reading_is_refused(line):
+    assert read_line(line) is None
+
+
+def test_a_packet_may_hold_many_lines_and_tells_the_first_that_is_wrong():
+    readings, unreadable = read_datagram(b"1,2,3\n\nwhat\r\n4,5,6\nagain\n")
+
+    assert [reading.acc for reading in readings] == [(1, 2, 3), (4, 5, 6)]
+    assert unreadable == "what"
+
+
+@given(st.binary(max_size=2000))
+def test_no_bytes_crash_the_reader(datagram):
+    readings, unreadable = read_datagram(datagram)
+
+    assert isinstance(unreadable, str)
+    assert all(reading.acc or reading.gyr for reading in readings)
+
+
+values = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=8),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.sampled_from(["x", "y", "z", "value", "timestamp", "acc"]), inner)
+    ),
+    max_leaves=8,
+)
+names = st.sampled_from(
+    ["t", "acc", "gyr", "type", "values", "timestamp", "sensordata", "device", "Accelerometer"]
+)
+
+
+@given(st.dictionaries(names, values, max_size=5))
+def test_no_json_crashes_the_reader(message):
+    for reading in read_line(json.dumps(message)) or []:
+        assert reading.acc is None or max(map(abs, reading.acc)) <= 1e5 * 9.81 * 2
