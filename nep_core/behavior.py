@@ -9,9 +9,15 @@ from typing import Literal
 
 from nep_core.default_network import default_network
 from nep_core.human import human_listener
-from nep_core.messages import PROGRAM_STATE, HumanBehavior, ProgramEvent, ProgramState
+from nep_core.messages import (
+    HUMAN_BEHAVIOR,
+    PROGRAM_STATE,
+    HumanBehavior,
+    ProgramEvent,
+    ProgramState,
+)
 from nep_core.network import Network
-from nep_core.pubsub import Publisher
+from nep_core.pubsub import Publisher, Subscriber
 from nep_core.tasks import PROGRAM, Cancelled, Part
 
 Action = Callable[[], object]
@@ -68,14 +74,16 @@ class Behavior:
         """Run until the program is stopped; raises the first error of any of its parts."""
         network = self._network or default_network()
         self._states = Publisher(PROGRAM_STATE, network=network)
-        listener = human_listener(network)
-        listener.listen(self._on_behavior)
+        human_listener(network)  # so that human_state() knows from now on
+        behavior = Subscriber(
+            HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
+        )
         try:
             for action in self._starts:
                 self._start(action, "")
             self._supervise()
         finally:
-            listener.unlisten(self._on_behavior)
+            behavior.close()
             self._cancel_all()
             self._states.close()
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from typing import cast
 
 from nep_core.default_network import default_network
@@ -16,23 +15,14 @@ REMEMBER_S = 3.0
 
 
 class HumanListener:
-    """Hears ``/human_behavior`` for a whole program."""
+    """Remembers what ``/human_behavior`` said last."""
 
     def __init__(self, network: Network) -> None:
         self._state = ""
         self._heard_s = 0.0
-        self._listeners: list[Callable[[HumanBehavior], None]] = []
         self._states = Subscriber(
             HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
         )
-
-    def listen(self, listener: Callable[[HumanBehavior], None]) -> None:
-        """Call ``listener`` with every message from now on."""
-        self._listeners = [*self._listeners, listener]
-
-    def unlisten(self, listener: Callable[[HumanBehavior], None]) -> None:
-        """Call ``listener`` no more."""
-        self._listeners = [kept for kept in self._listeners if kept != listener]
 
     def state(self) -> str:
         """The last state, "" when nothing was seen for 3 s."""
@@ -40,8 +30,6 @@ class HumanListener:
 
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         self._state, self._heard_s = behavior.human_state, time.monotonic()
-        for listener in self._listeners:
-            listener(behavior)
 
 
 def human_listener(network: Network | None = None) -> HumanListener:

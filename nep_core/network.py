@@ -37,6 +37,7 @@ class Network(ABC):
         self.io.tend(self.outbox.tend)
         self.closed = False
         self._lock = threading.RLock()
+        self._shared_lock = threading.RLock()
         self._inboxes: dict[str, Inbox] = {}
         self._shared: dict[str, Any] = {}
 
@@ -70,7 +71,7 @@ class Network(ABC):
 
     def shared(self, key: str, make: Callable[[], Any]) -> Any:
         """The one object of this network under ``key``, made at first use."""
-        with self._lock:
+        with self._shared_lock:  # not _lock: making it may wait for the I/O thread
             if key not in self._shared:
                 self._shared[key] = make()
             return self._shared[key]

@@ -11,9 +11,8 @@ from collections.abc import Callable
 from typing import Any
 
 from nep_core.errors import NepError
-from nep_core.human import human_listener
 from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.messages import HumanBehavior
+from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.pubsub import Publisher, Subscriber
 from nep_core.robot import Robot
 from nep_core.tasks import PROGRAM
@@ -104,7 +103,6 @@ class robot_behaviors:  # noqa: N801  the paper's name
             raise NepError(
                 f'There is no "{kind}" behaviour.', checklist=('Use robot_behaviors("reactive").',)
             )
-        self._states: list[HumanBehavior] = []
 
     def run(self) -> None:
         """Call the reactive function with each state of the person, until stopped."""
@@ -115,12 +113,9 @@ class robot_behaviors:  # noqa: N801  the paper's name
                 checklist=('Write setattr(behavior, "reactive_function", your_function).',),
             )
         takes_self = len(inspect.signature(function).parameters) > 1
-        listener = human_listener()
-        listener.listen(self._states.append)
-        try:
-            while not PROGRAM.cancelled.wait(0.02):
-                while self._states:
-                    state = self._states.pop(0).human_state
-                    function(self, state) if takes_self else function(state)
-        finally:
-            listener.unlisten(self._states.append)
+        states = Subscriber(HUMAN_BEHAVIOR, HumanBehavior)
+        while not PROGRAM.cancelled.is_set():
+            state = states.receive(0.1)
+            if state is not None:
+                said = (self, state.human_state) if takes_self else (state.human_state,)
+                function(*said)

@@ -107,7 +107,7 @@ def _place_of_number(data: bytes) -> str:
             msgspec.json.decode(line.strip().rstrip(b","))
         except msgspec.ValidationError:
             return f" at line {number}"
-        except (msgspec.DecodeError, UnicodeDecodeError):
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             continue
     return ""
 

@@ -8,7 +8,9 @@ import keyword
 import unicodedata
 
 from nep_studio.blocks.generate.names import API, RESERVED
+from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import Project
 
 PARTS_OF_PROGRAMS = {"str", "int", "range", "random", "randint", "behavior", "_", "when", "run"}
 
@@ -80,3 +82,42 @@ def constants(tree: ast.AST) -> list[tuple[type, str]]:
 def constant_of(value: object) -> tuple[type, str]:
     """How ``constants`` tells a value."""
     return type(value), repr(value)
+
+
+def assert_mapped(code: Code, project: Project, language: Language) -> None:
+    """Check that each statement of each rule is mapped to the block that makes such a statement."""
+    for rule in ast.parse(code.text).body:
+        if not isinstance(rule, ast.FunctionDef):
+            continue
+        for node in ast.walk(rule):
+            if isinstance(node, ast.stmt):
+                block = code.block_at(node.lineno)
+                assert block is not None and node.lineno in code.lines_of(block)
+                assert made_by(node, rule, language) & {project.blocks[block].type}, code.text
+
+
+def made_by(node: ast.stmt, rule: ast.FunctionDef, language: Language) -> set[str]:
+    """The types of blocks that make a statement."""
+    shapes = {d.id: d.shape for d in language.definitions.values()}
+    hats = {block_type for block_type, shape in shapes.items() if shape == "hat"}
+    match node:
+        case ast.For():
+            return {"control.repeat"}
+        case ast.While():
+            return {"control.while", "control.forever"}
+        case ast.If():
+            return {"control.if"}
+        case ast.Assign():
+            return {"variable.set"}
+        case ast.AugAssign():
+            return {"variable.change"}
+        case ast.FunctionDef():
+            return hats if node is rule else {"control.together"}
+        case ast.Global():
+            return {*hats, "control.together"}
+        case ast.Pass():
+            return {*hats, *(block_type for block_type, shape in shapes.items() if shape == "c")}
+        case ast.Expr(value=ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name))):
+            calls = {d.id for d in language.definitions.values() if d.call and d.call.name == name}
+            return calls | {f"control.{name}"}
+    return set()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from block_building import B, build, karate
-from generated import assert_tame, parse
+from generated import assert_mapped, assert_tame, parse
 
 from nep_studio.blocks.edits import RenameVariable, SetComment, SetField, SetFlag
 from nep_studio.blocks.errors import CodeRefused
@@ -134,6 +134,7 @@ def test_control_flow_reads_like_python(language):
 
     assert code.text == CONTROL
     assert_tame(code.text, language)
+    assert_mapped(code, editor.project, language)
 
 
 def test_the_launch_pages_start_the_robots_and_nodes(language):
@@ -159,19 +160,13 @@ def test_each_line_of_a_rule_is_mapped_to_the_block_that_made_it(language):
     code = generate_program(project, language)
 
     lines = code.text.splitlines()
-    for number_, line in enumerate(lines, start=1):
-        block = code.block_at(number_)
-        in_rule = 8 < number_ < len(lines) - 2 and line
-        assert bool(block) == bool(in_rule), line
-        if block:
-            assert number_ in code.lines_of(block)
-            method = line.strip().split("(")[0].removeprefix("nao.")
-            if method in ("say", "do", "play"):
-                assert project.blocks[block].type == f"robot.{method}"
-            if line.strip().startswith(("def part", "together")):
-                assert project.blocks[block].type == "control.together"
-            if "times" in line and "say" not in line and "global" not in line:
-                assert project.blocks[block].type.startswith("variable.")
+    for line_number, line in enumerate(lines, start=1):
+        in_rule = 8 < line_number < len(lines) - 2 and line
+        assert bool(code.block_at(line_number)) == bool(in_rule), line
+    assert_mapped(code, project, language)
+    said = [b.id for b in project.blocks.values() if b.fields.get("text") == "Impressive!"]
+    (line,) = code.lines_of(said[0])
+    assert "Impressive!" in lines[line - 1]
     assert code.block_at(0) is None and code.block_at(len(lines) + 1) is None
 
 

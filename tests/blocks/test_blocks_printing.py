@@ -5,13 +5,12 @@ from __future__ import annotations
 import ast
 
 import pytest
+from hostile import texts
 from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.generate.names import RESERVED, NameTable, python_name
 from nep_studio.blocks.generate.printing import literal, show
-
-from hostile import texts
 
 NAMES = st.sampled_from(["a", "nao", "größe", "x_2"])
 LEAVES = (

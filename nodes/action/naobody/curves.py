@@ -13,6 +13,8 @@ MINIMUM_JERK_PEAK = 1.875
 """Peak speed of a minimum-jerk movement, as a multiple of its mean speed (15/8)."""
 
 BISECTIONS = 40
+LONGEST_HANDLE = 0.5
+"""As a part of the time between two keys."""
 
 
 def minimum_jerk(s: Angles) -> Angles:
@@ -82,12 +84,20 @@ def _handles(
     after[1] *= slopes
     if chosen is not None:
         offsets = np.array(chosen).T
-        before[:, 1:] = offsets[0:2]
-        after[:, 1:] = offsets[2:4]
-    # A handle that reached beyond the neighbouring key would make the curve go back in time.
-    before[0] = np.clip(before[0], np.append(0.0, -steps), 0.0)
-    after[0] = np.clip(after[0], 0.0, np.append(steps, 0.0))
+        before[:, 1:] = _shortened(offsets[0:2] * [[-1.0], [1.0]], steps) * [[-1.0], [1.0]]
+        after[:, 1:] = _shortened(offsets[2:4], np.append(steps[1:], 0.0))
     return before, after
+
+
+def _shortened(handles: Angles, steps: Angles) -> Angles:
+    """Return handles (time and angle) that last from 0 to half of the step to the next key.
+
+    Longer ones would make the curve nearly jump, or go back in time. The slope stays.
+    """
+    longest = np.clip(handles[0], 0.0, LONGEST_HANDLE * steps)
+    part = np.divide(longest, handles[0], out=np.zeros_like(longest), where=handles[0] != 0.0)
+    flat = (handles[0] == 0.0) & (steps > 0.0)
+    return np.vstack([longest, handles[1] * np.where(flat, 1.0, part)])
 
 
 def _parameter(x: tuple[Angles, Angles, Angles, Angles], t: Angles) -> Angles:

@@ -70,10 +70,13 @@ def keyframe_motion(body: Body, pose: Angles, keyframes: Keyframes) -> Motion:
     notes: list[str] = []
     keyframes = _with_coupled_joints(body, keyframes)
     keyframes = keyframes.delayed(_approach_delay_s(body, pose, keyframes))
-    factor = _slowdown(body, pose, keyframes)
-    if factor > 1.0:
-        notes.append(f"played {factor:.2f} times slower: its joints cannot move faster")
+    given_s = keyframes.duration_s
+    # More than once: how fast very short keys are is seen only when they are longer.
+    while (factor := _slowdown(body, pose, keyframes)) > 1.0:
         keyframes = keyframes.stretched(factor)
+    if keyframes.duration_s > given_s:
+        slower = keyframes.duration_s / given_s
+        notes.append(f"played {slower:.2f} times slower: its joints cannot move faster")
     columns = [body.index[name] for name in keyframes.tracks]
     return _allowed(body, pose, columns, _sampled(body, pose, keyframes, TICK_S), notes)
 

@@ -75,9 +75,7 @@ def to_learn_from(found: Scan, labels: Integers, none: int) -> Flags:
     return chosen
 
 
-def trimmed_takes(
-    passage: Passage, take: Take, channels: Channels, seed: Sequence[int]
-) -> Windows:
+def trimmed_takes(passage: Passage, take: Take, channels: Channels, seed: Sequence[int]) -> Windows:
     """A take as it is, and with a little cut off at both ends."""
     chance = np.random.default_rng(seed)
     cut = chance.uniform(0, _TRIMMED, (_COPIES, 2)) * take.duration_s

@@ -68,7 +68,8 @@ def cut_windows(samples: Floats, last: Integers, lengths: Integers) -> Floats:
     positions = np.maximum(last[:, None] + steps * (lengths[:, None] - 1), 0.0)
     before = np.minimum(positions.astype(np.intp), len(samples) - 2)
     part = (positions - before)[..., None]
-    return samples[before] * (1 - part) + samples[before + 1] * part
+    windows: Floats = samples[before] * (1 - part) + samples[before + 1] * part
+    return windows
 
 
 def describe(raw: Floats, lengths: Integers, channels: Channels) -> Windows:
@@ -135,7 +136,8 @@ def _smoothing() -> Floats:
     """The moving average as a matrix; (32, 32)."""
     points = np.arange(POINTS)
     near = np.abs(points[:, None] - points) <= _GRAVITY_SPAN // 2
-    return near / near.sum(axis=1, keepdims=True)
-    
-    
+    matrix: Floats = near / near.sum(axis=1, keepdims=True)
+    return matrix
+
+
 _SMOOTHING = _smoothing()

@@ -24,7 +24,8 @@ def fold_takes(passages: Sequence[Passage]) -> list[list[int]]:
     """
     people = sorted({passage.person for passage in passages if passage.takes})
     if len(people) >= _ENOUGH_PEOPLE:
-        return [[people.index(one.person) % FOLDS] * len(one.takes) for one in passages]
+        fold_of = {person: number % FOLDS for number, person in enumerate(people)}
+        return [[fold_of[one.person] for _ in one.takes] for one in passages]
     seen: Counter[str] = Counter()
     folds = []
     for passage in passages:
@@ -40,7 +41,8 @@ def fold_windows(found: Scan, take_folds: Sequence[int]) -> Integers:
     """The fold of each window of a scan: that of the take next to it."""
     middle_s = (found.starts_s + found.ends_s) / 2
     if not take_folds:
-        return (middle_s // _BLOCK_S).astype(np.intp) % FOLDS
+        blocks: Integers = (middle_s // _BLOCK_S).astype(np.intp) % FOLDS
+        return blocks
     takes_s = np.array([(take.start_s + take.end_s) / 2 for take in found.passage.takes])
     nearest = np.abs(middle_s[:, None] - takes_s).argmin(axis=1)
     return np.array(take_folds)[nearest]

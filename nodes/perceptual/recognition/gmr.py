@@ -77,7 +77,9 @@ class Gmr:
         closer = np.clip(none - gestures, -20.0, 20.0)
         margin = np.clip(_nearest_rival(away) - away, -10.0, 10.0)
         lack = np.clip(_power(signals)[:, None] - self.power, _QUIETEST, 0.0)
-        return np.stack([np.clip(away, -10.0, 30.0), margin, closer, lack, np.ones_like(away)], axis=2)
+        return np.stack(
+            [np.clip(away, -10.0, 30.0), margin, closer, lack, np.ones_like(away)], axis=2
+        )
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """What a model file keeps."""
@@ -126,7 +128,9 @@ def fit_gmr(examples: Examples, seed: int = 0) -> Gmr:
 
 def _fit_curves(examples: Examples) -> Curves:
     none = np.flatnonzero(examples.labels == len(examples.gestures))
-    chosen = np.concatenate([np.flatnonzero(examples.marked), none[:: 1 + len(none) // _NONE_WINDOWS]])
+    chosen = np.concatenate(
+        [np.flatnonzero(examples.marked), none[:: 1 + len(none) // _NONE_WINDOWS]]
+    )
     signals, labels = examples.windows.signals[chosen], examples.labels[chosen]
     scale = signals.std(axis=(0, 1)) + 1e-3
     means, whitens, log_dets = [], [], []
@@ -158,7 +162,7 @@ def _left_out(examples: Examples, seed: int) -> tuple[Examples, Floats]:
 
 
 def _rows(evidence: Floats, labels: Integers) -> tuple[Floats, Floats]:
-    """What the logistic function learns from: each window as what it is and as what it resembles."""
+    """What the logistic function learns from: each window as itself and as its rival."""
     n, count, _ = evidence.shape
     holds = labels < count
     true = np.where(holds, labels, 0)

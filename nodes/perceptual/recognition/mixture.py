@@ -50,9 +50,7 @@ def expected_curve(mixture: Mixture, points: int = 32) -> tuple[Floats, Floats]:
     slope = mixture.covariance[:, 1:, 0] / variance[:, None]
     middles = mixture.mean[:, 1:] + slope * away[..., None]
     mean = np.einsum("tk,tks->ts", share, middles)
-    around = mixture.covariance[:, 1:, 1:] - np.einsum(
-        "ks,kr,k->ksr", slope, slope, variance
-    )
+    around = mixture.covariance[:, 1:, 1:] - np.einsum("ks,kr,k->ksr", slope, slope, variance)
     apart = middles - mean[:, None]
     covariance = np.einsum("tk,ksr->tsr", share, around)
     covariance += np.einsum("tk,tks,tkr->tsr", share, apart, apart)

@@ -87,8 +87,7 @@ class Model:
         usable = [
             found
             for found in of_method
-            if found.channels.gravity <= gravity_included
-            and found.channels.gyroscope <= gyroscope
+            if found.channels.gravity <= gravity_included and found.channels.gyroscope <= gyroscope
         ]
         if not usable:
             needed = " or ".join(found.channels.in_words for found in of_method)

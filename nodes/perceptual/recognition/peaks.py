@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from nodes.perceptual.recognition.features import Integers
 from nodes.perceptual.recognition.scans import Gesture
 from nodes.perceptual.recognition.stream import Floats
@@ -58,7 +61,7 @@ class PeakPicker:
         return fired
 
 
-def best_lengths(certainties: Floats, fits: Floats) -> tuple[Floats, Integers]:
+def best_lengths(certainties: Floats, fits: NDArray[np.bool_]) -> tuple[Floats, Integers]:
     """The highest certainty of each gesture over the windows (..., lengths, gestures) that fit.
 
     Returns certainties and indices of the lengths; both (..., gestures).

@@ -90,7 +90,7 @@ def fitting(gestures: Sequence[Gesture], lengths: Integers) -> NDArray[np.bool_]
 
 def is_long_enough(passage: Passage, lengths: Integers) -> bool:
     """Whether the shortest window fits into a passage."""
-    return len(passage.samples) >= lengths[0]
+    return len(passage.samples) >= int(lengths[0])
 
 
 def scan(passage: Passage, lengths: Integers, channels: Channels) -> Scan:

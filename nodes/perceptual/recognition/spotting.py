@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.features import cut_windows, describe
@@ -33,62 +34,59 @@ class Spotter:
         gravity_included: bool = True,
     ) -> None:
         self._model = model
-        self._method = method
-        self._gravity_included = gravity_included
         self._trigger = trigger
-        self._wanted = _wanted(model, gestures)
-        useful = model.fits[:, self._wanted].any(axis=1)
+        self._recogniser_for = partial(model.recogniser, method, gravity_included)
+        self._recogniser_for(True)
+        wanted = _wanted(model, gestures)
+        useful = model.fits[:, wanted].any(axis=1)
         self._lengths = model.lengths[useful]
-        self._fits = model.fits[useful] & self._wanted
+        self._fits = model.fits[useful] & wanted
+        self._memory = Memory(int(self._lengths[-1]))
         self._gyroscope: bool | None = None
-        self._recogniser: Recogniser | None = None
+
+    def listen(self, gyroscope: bool) -> None:
+        """Begin with a sensor; RecordingError when it lacks what the model needs."""
+        self._recogniser: Recogniser = self._recogniser_for(gyroscope)
+        self._gyroscope = gyroscope
+        self._stream = EvenStream()
+        self._begin()
 
     def push(self, t: ArrayLike, acc: ArrayLike, gyr: ArrayLike | None = None) -> list[Detection]:
         """Take one sample or n: ``t`` s, ``acc`` (n, 3) m/s², ``gyr`` (n, 3) rad/s or None."""
-        acc = np.atleast_2d(np.asarray(acc, float))
         if self._gyroscope is not (gyr is not None):
-            self._begin(gyr is not None)
-        values = acc if gyr is None else np.hstack([acc, np.atleast_2d(np.asarray(gyr, float))])
-        found = []
-        for stretch in self._stream.push(t, values[:, : self._columns]):
+            self.listen(gyr is not None)
+        parts = [np.atleast_2d(np.asarray(part, float)) for part in (acc, gyr) if part is not None]
+        values = np.hstack(parts)[:, : self._recogniser.channels.columns]
+        found: list[Detection] = []
+        for stretch in self._stream.push(t, values):
             if not stretch.follows:
-                found.append(self._restart())
+                found += self.flush()
+                self._begin()
             for end_s, row in zip(stretch.t, stretch.values, strict=True):
-                found.append(self._take(float(end_s), row))
-        return [one for one in found if one is not None]
+                found += self._take(float(end_s), row)
+        return found
 
     def flush(self) -> list[Detection]:
-        """The stream has ended: what is still waiting fires now."""
-        waiting = self._picker.flush() if self._recogniser else None
+        """The movement has ended: what still waits for something better fires now."""
+        waiting = self._picker.flush() if self._gyroscope is not None else None
         return [waiting] if waiting else []
 
-    def _begin(self, gyroscope: bool) -> None:
-        """Listen to a sensor, or to one that has gained or lost its gyroscope."""
-        self._recogniser = self._model.recogniser(self._method, self._gravity_included, gyroscope)
-        self._gyroscope = gyroscope
-        self._columns = self._recogniser.channels.columns
-        self._stream = EvenStream()
-        self._memory = Memory(int(self._lengths[-1]))
-        self._restart()
-
-    def _restart(self) -> Detection | None:
-        """Forget the movement before a gap; tell what was still waiting."""
-        waiting = self._picker.flush() if hasattr(self, "_picker") else None
+    def _begin(self) -> None:
+        """A new movement: what was before it does not matter."""
         self._picker = PeakPicker(self._model.gestures, self._trigger)
         self._memory.clear()
         self._since_look = 0
-        return waiting
 
-    def _take(self, end_s: float, row: Floats) -> Detection | None:
+    def _take(self, end_s: float, row: Floats) -> list[Detection]:
         self._memory.add(row)
         self._since_look += 1
         if self._since_look < HOP or len(self._memory) < self._lengths[0]:
-            return None
+            return []
         self._since_look = 0
-        return self._look(end_s)
+        found = self._look(end_s)
+        return [found] if found else []
 
     def _look(self, end_s: float) -> Detection | None:
-        assert self._recogniser is not None
         samples = self._memory.samples()
         full = self._lengths <= len(samples)
         lengths = self._lengths[full]
@@ -99,7 +97,7 @@ class Spotter:
         return self._picker.look(end_s, best, lengths[which] / RATE_HZ)
 
 
-def _wanted(model: Model, gestures: Collection[str]) -> np.ndarray:
+def _wanted(model: Model, gestures: Collection[str]) -> NDArray[np.bool_]:
     unknown = sorted(set(gestures) - set(model.names))
     if unknown:
         raise RecordingError(

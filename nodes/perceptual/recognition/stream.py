@@ -47,18 +47,18 @@ class EvenStream:
 
     def push(self, t: ArrayLike, values: ArrayLike) -> Iterator[Stretch]:
         """Take n samples: ``t`` (n,) or one number, ``values`` (n, 3 or 6) or one row."""
-        t, values = np.atleast_1d(np.asarray(t, float)), np.atleast_2d(np.asarray(values, float))
-        usable = np.isfinite(t) & np.isfinite(values).all(axis=1)
-        t, values = t[usable], _within_limits(values[usable])
-        if not len(t):
+        times_s = np.atleast_1d(np.asarray(t, float))
+        rows = np.atleast_2d(np.asarray(values, float))
+        usable = np.isfinite(times_s) & np.isfinite(rows).all(axis=1)
+        times_s, rows = times_s[usable], _within_limits(rows[usable])
+        if not len(times_s):
             return
-        steps_s = np.diff(t, prepend=self._seen_s)
-        self._seen_s = t[-1]
+        steps_s = np.diff(times_s, prepend=self._seen_s)
+        self._seen_s = float(times_s[-1])
         breaks = np.flatnonzero(~((steps_s >= -_CLOCK_RESET_S) & (steps_s <= MAX_GAP_S)))
-        for part in np.split(np.arange(len(t)), breaks):
+        for part in np.split(np.arange(len(times_s)), breaks):
             if len(part):
-                starts = part[0] in breaks
-                yield from self._resample(t[part], values[part], starts)
+                yield from self._resample(times_s[part], rows[part], part[0] in breaks)
 
     def _resample(self, t: Floats, values: Floats, starts: bool) -> Iterator[Stretch]:
         if starts:

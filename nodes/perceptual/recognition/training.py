@@ -10,7 +10,7 @@ from nodes.perceptual.recognition.examples import collect
 from nodes.perceptual.recognition.features import Channels
 from nodes.perceptual.recognition.folds import fold_takes, fold_windows
 from nodes.perceptual.recognition.gmr import fit_gmr
-from nodes.perceptual.recognition.model import METHODS, Model, Recogniser
+from nodes.perceptual.recognition.model import METHODS, Model, Recogniser, Scorer
 from nodes.perceptual.recognition.passages import Passage, passages_of
 from nodes.perceptual.recognition.report import report_of
 from nodes.perceptual.recognition.scans import (
@@ -24,7 +24,7 @@ from nodes.perceptual.recognition.trees import fit_trees
 from nodes.perceptual.recognition.validation import Fit, Validation, cross_validate
 from nodes.recordings import Recording
 
-_FITS = {"trees": fit_trees, "gmr": fit_gmr}
+_FITS: dict[str, Callable[..., Scorer]] = {"trees": fit_trees, "gmr": fit_gmr}
 
 
 def train(

@@ -53,7 +53,8 @@ class Trees:
             nodes[on_the_way] = below
             on_the_way = on_the_way[self.right[below] != below]
         votes = self.votes[self.leaf[nodes]].reshape(len(values), len(self.roots), -1)
-        return votes.mean(axis=1, dtype=np.float64)
+        shares: Floats = votes.mean(axis=1, dtype=np.float64)
+        return shares
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """What a model file keeps."""
@@ -98,9 +99,7 @@ def fit_trees(examples: Examples, seed: int = 0) -> Trees:
     """Grow trees that tell the gestures of the examples, and *no gesture*, apart."""
     from sklearn.ensemble import ExtraTreesClassifier
 
-    forest = ExtraTreesClassifier(
-        _TREES, class_weight="balanced", random_state=seed, n_jobs=-1
-    )
+    forest = ExtraTreesClassifier(_TREES, class_weight="balanced", random_state=seed, n_jobs=-1)
     forest.fit(examples.windows.features.astype(np.float32), examples.labels)
     return flatten(forest, len(examples.gestures) + 1)
 

@@ -96,4 +96,5 @@ def _usual_scores(
     every = [value for values in best.values() for value in values]
     middle = float(np.median(every)) or UNCHECKED_SCORE
     own = np.array([np.median(values) if values else middle for values in best.values()])
-    return np.sqrt(np.maximum(own, middle / 4) * middle)
+    usual: Floats = np.sqrt(np.maximum(own, middle / 4) * middle)
+    return usual

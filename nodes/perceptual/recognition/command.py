@@ -1,0 +1,97 @@
+"""``nep-studio train``: a folder of labelled recordings becomes a gesture model."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from nep_core.errors import NepError, RecordingError
+from nodes.perceptual.recognition.everyday import simulated_everyday
+from nodes.perceptual.recognition.model import METHODS, Model
+from nodes.perceptual.recognition.model_file import SUFFIX, write_model
+from nodes.perceptual.recognition.report import advice, in_words
+from nodes.perceptual.recognition.training import train
+from nodes.recordings import Recording, read_recordings
+
+
+def main(arguments: list[str]) -> int:
+    """Train; exit code 0 when the model is written, 1 when it cannot be, 2 for wrong input."""
+    asked = _parser().parse_args(arguments)
+    methods = METHODS if asked.method == "both" else (asked.method,)
+    try:
+        _check_goal(asked.output)
+        model = _train(asked.directory, asked.everyday, methods)
+    except RecordingError as error:
+        return _tell_error(error, 2)
+    try:
+        write_model(asked.output, model)
+    except NepError as error:
+        return _tell_error(error, 1)
+    print("\n".join(_report(asked.output, model)))
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="nep-studio train",
+        description="Makes a gesture model from recordings in which the gestures are marked.",
+    )
+    parser.add_argument("directory", type=Path, help="a folder of recordings (CSV files)")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, help=f"the model to write (*{SUFFIX})"
+    )
+    parser.add_argument(
+        "--method", choices=(*METHODS, "both"), default="both", help="how it will recognise"
+    )
+    parser.add_argument(
+        "--everyday",
+        type=Path,
+        metavar="DIRECTORY",
+        help="recordings of movement without gestures; without it, simulated people give some",
+    )
+    return parser
+
+
+def _check_goal(output: Path) -> None:
+    if output.suffix != SUFFIX:
+        raise RecordingError(
+            f"{output} would not be known as a gesture model.",
+            checklist=(f"Give it a name that ends with {SUFFIX}, such as mine{SUFFIX}.",),
+        )
+    if not output.parent.is_dir():
+        raise RecordingError(
+            f"The folder {output.parent} is not there.", checklist=("Make it, or choose another.",)
+        )
+
+
+def _train(directory: Path, everyday: Path | None, methods: Sequence[str]) -> Model:
+    recordings = read_recordings(directory)
+    idle = read_recordings(everyday) if everyday else simulated_everyday()
+    started_s = time.monotonic()
+    model = train(recordings, [_without_labels(one) for one in idle], methods, tell=print)
+    print(f"Trained in {time.monotonic() - started_s:.1f} s on {model.trained_on}.")
+    return model
+
+
+def _without_labels(recording: Recording) -> Recording:
+    """Everyday recordings name activities (sitting, walking), which are no gestures."""
+    return replace(recording, labels=None)
+
+
+def _report(output: Path, model: Model) -> list[str]:
+    lines = [""]
+    for method, report in model.report.items():
+        lines += [*in_words(method, report), ""]
+    lines += advice(next(iter(model.report.values())))
+    return [*lines, f"The model is in {output}."]
+
+
+def _tell_error(error: NepError, code: int) -> int:
+    print(error.sentence, file=sys.stderr)
+    for step in error.checklist:
+        print(f"  [ ] {step}", file=sys.stderr)
+    return code

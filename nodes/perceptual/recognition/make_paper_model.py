@@ -1,0 +1,43 @@
+"""Makes the shipped model of the paper's five gestures, from simulated people.
+
+    python -m nodes.perceptual.recognition.make_paper_model
+
+The people are numbers 0 to 99: examples and tests show others, whom the model has never seen.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from nodes.perceptual.recognition.model import Model
+from nodes.perceptual.recognition.model_file import write_model
+from nodes.perceptual.recognition.report import in_words
+from nodes.perceptual.recognition.training import train
+from nodes.resources import resource_folder
+from nodes.sensory.arm.gestures import GESTURES
+from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+
+_PEOPLE = range(0, 40)
+_REPETITIONS = 2
+_EVERYDAY_PEOPLE = range(60, 72)
+_EVERYDAY_S = 60.0
+
+
+def make_paper_model() -> Model:
+    """Train on sessions and everyday movement of simulated people; takes about a minute."""
+    sessions = [simulate_session(person, sorted(GESTURES), _REPETITIONS) for person in _PEOPLE]
+    everyday = [simulate_everyday(person, _EVERYDAY_S) for person in _EVERYDAY_PEOPLE]
+    return train(sessions, everyday, tell=print)
+
+
+def main() -> None:
+    """Write the model into the resources and print how well it does."""
+    path: Path = resource_folder() / "gestures" / "paper.gestures"
+    model = make_paper_model()
+    write_model(path, model)
+    for method, report in model.report.items():
+        print("\n".join(in_words(method, report)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,300 @@
+"""The problems of programs, each told on its block, with what to do."""
+
+from __future__ import annotations
+
+import pytest
+from block_building import B, build
+
+from nep_studio.blocks.checks import check
+from nep_studio.blocks.deployment import (
+    NodeEntry,
+    RobotEntry,
+    gestures_used,
+    node_entries,
+    robot_entries,
+    robots_used,
+)
+from nep_studio.blocks.edits import DeleteBlocks, RemoveVariable, SetField, SetFlag
+from nep_studio.blocks.errors import CodeRefused
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.loading import load_language
+
+WAIT = B("control.wait")
+
+
+def karate_node(**parameters):
+    return B("nodes.launch", {"parameters": {"gesture": "karate", **parameters}})
+
+
+def sound(language, *stacks):
+    """A program with these rules, with NAO and the karate gesture on the other pages."""
+    editor = build(language, *stacks, variables=("x",))
+    build(language, [B("robots.robot")], page="robots", editor=editor)
+    build(language, [karate_node()], page="nodes", editor=editor)
+    return editor
+
+
+def kinds(editor, language):
+    return [problem.kind for problem in check(editor.project, language)]
+
+
+def only(editor, language):
+    (problem,) = check(editor.project, language)
+    return problem
+
+
+def block_of(editor, block_type):
+    return next(b.id for b in editor.project.blocks.values() if b.type == block_type)
+
+
+def test_a_sound_program_has_no_problems(language):
+    editor = sound(
+        language,
+        [
+            B("event.started"),
+            B("robot.do"),
+            B("robot.walk"),
+            B("control.forever", bodies={"do": [WAIT]}),
+        ],
+        [B("event.gesture"), B("robot.say"), B("control.stop_program")],
+    )
+
+    assert check(editor.project, language) == []
+
+
+def test_an_empty_page_says_how_to_begin(language):
+    problem = only(build(language), language)
+
+    assert problem.severity == "error" and problem.kind == "no_rule" and not problem.block
+    assert "Drag a “when” block" in problem.checklist[0]
+
+
+def test_an_empty_question_is_told_where_it_is_missing(language):
+    editor = sound(language, [B("event.started"), B("control.wait_until")])
+
+    problem = only(editor, language)
+
+    assert problem.kind == "empty_slot" and problem.block == block_of(editor, "control.wait_until")
+    assert problem.sentence == "“wait until …”: a question is missing."
+
+
+def test_a_slot_whose_block_is_disabled_counts_as_empty(language):
+    truth = B("logic.truth")
+    editor = sound(
+        language, [B("event.started"), B("control.wait_until", inputs={"condition": truth})]
+    )
+    assert kinds(editor, language) == []
+
+    editor.apply(SetFlag(block_of(editor, "logic.truth"), "disabled", True))
+
+    assert kinds(editor, language) == ["empty_slot"]
+
+
+def test_a_variable_that_was_deleted_is_told_where_it_is_used(language):
+    change = B("variable.change", {"variable": "v1"})
+    editor = sound(language, [B("event.started"), change])
+    assert kinds(editor, language) == []
+
+    editor.apply(RemoveVariable("v1"))
+
+    assert only(editor, language).kind == "no_variable"
+
+
+def test_a_choice_that_the_robot_does_not_have_is_told(language):
+    editor = sound(language, [B("event.started"), B("robot.do")])
+    editor.project.blocks[block_of(editor, "robot.do")].fields["posture"] = "posture_fly"
+
+    problem = only(editor, language)
+
+    assert problem.kind == "unknown_choice" and "“posture_fly” is not one of" in problem.sentence
+    with pytest.raises(CodeRefused, match="posture_fly"):
+        generate_program(editor.project, language)
+
+
+def test_a_gesture_that_no_node_recognises_can_be_launched(language):
+    editor = sound(language, [B("event.gesture", {"gesture": "katana"}), WAIT])
+
+    problem = only(editor, language)
+
+    assert problem.severity == "warning" and problem.kind == "gesture_unrecognised"
+    assert problem.fix.name == "add_gesture_node" and problem.fix.data == {"gesture": "katana"}
+
+
+def test_a_question_about_a_gesture_needs_its_node_too(language):
+    asked = B("sensing.human_state_is", {"state": "gesture_wave"})
+    until = B("control.wait_until", inputs={"condition": asked})
+    editor = sound(language, [B("event.started"), until])
+
+    assert only(editor, language).fix.data == {"gesture": "wave"}
+    assert gestures_used(editor.project, language) == {
+        "wave": block_of(editor, "sensing.human_state_is")
+    }
+
+
+def test_a_robot_that_is_not_on_the_robots_page_can_be_added(language):
+    editor = sound(language, [B("event.started"), B("robot.say", {"robot": "Pepper"})])
+
+    problem = only(editor, language)
+
+    assert problem.sentence == "Pepper is not on the Robots page."
+    assert problem.fix.name == "add_robot" and problem.fix.data == {"name": "Pepper"}
+    assert robots_used(editor.project, language) == {"Pepper": problem.block}
+
+
+def test_all_robots_need_at_least_one(language):
+    editor = build(language, [B("event.started"), B("robot.say", {"robot": "*"})])
+
+    problem = only(editor, language)
+
+    assert problem.sentence == "There is no robot on the Robots page." and problem.fix.data["name"]
+
+
+def test_two_rules_for_one_gesture_are_told_however_they_name_it(language):
+    editor = sound(
+        language,
+        [B("event.gesture"), WAIT],
+        [B("event.human_state", {"state": "gesture_karate"}), WAIT],
+    )
+
+    problem = only(editor, language)
+
+    assert problem.kind == "same_trigger" and problem.block == block_of(editor, "event.human_state")
+
+
+@pytest.mark.parametrize("loop", ["control.forever", "control.while"])
+def test_a_loop_without_a_pause_is_told_and_one_with_a_pause_deep_inside_is_not(language, loop):
+    question = {"condition": B("logic.truth")} if loop == "control.while" else {}
+    change = B("variable.change", {"variable": "v1"})
+    fork = B("control.if", inputs={"condition": B("logic.truth")}, bodies={"do": [change]})
+    editor = sound(language, [B("event.started"), B(loop, {}, question, {"do": [fork]})])
+
+    problem = only(editor, language)
+    assert problem.kind == "no_pause" and problem.fix.name == "add_wait"
+    assert problem.fix.data == {"block": block_of(editor, loop), "slot": "do"}
+
+    fork.bodies["do"].append(B("control.repeat", bodies={"do": [WAIT]}))
+    editor = sound(language, [B("event.started"), B(loop, {}, question, {"do": [fork]})])
+    assert kinds(editor, language) == []
+
+
+def test_a_disabled_pause_is_no_pause(language):
+    editor = sound(language, [B("event.started"), B("control.forever", bodies={"do": [WAIT]})])
+    editor.apply(SetFlag(block_of(editor, "control.wait"), "disabled", True))
+
+    assert kinds(editor, language) == ["no_pause"]
+
+
+def test_walking_while_sitting_is_told_for_the_robot_that_sits(language):
+    sit = B("robot.do", {"posture": "posture_sit"})
+    walk = B("robot.walk")
+    editor = sound(language, [B("event.started"), sit, walk, B("robot.do"), B("robot.turn")])
+
+    problem = only(editor, language)
+
+    assert problem.sentence == "NAO cannot walk after the posture “sit”."
+    assert problem.fix.data == {"block": block_of(editor, "robot.walk"), "robot": "NAO"}
+
+
+def test_all_robots_that_sit_are_sitting_one_by_one(language):
+    sit = B("robot.do", {"robot": "*", "posture": "posture_rest"})
+    editor = sound(language, [B("event.started"), B("robot.do"), sit, B("robot.walk")])
+
+    assert kinds(editor, language) == ["not_standing"]
+
+
+def test_blocks_after_the_end_are_told(language):
+    editor = sound(language, [B("event.started"), WAIT, B("robot.say")])
+    chain = editor.project.pages["behaviour"][0].body
+    editor.project.blocks[chain[1]].type = "control.stop_program"
+    editor.project.blocks[chain[1]].fields = {}
+
+    problem = only(editor, language)
+
+    assert problem.kind == "never_reached" and problem.block == chain[2]
+
+
+def test_loose_blocks_are_only_worth_knowing(language):
+    editor = sound(language, [B("event.started"), WAIT], [B("robot.say", {"robot": "Pepper"})])
+
+    problem = only(editor, language)
+
+    assert problem.severity == "info" and problem.kind == "loose_block"
+
+
+def test_robots_and_nodes_need_names_of_their_own(language):
+    editor = sound(language, [B("event.started"), WAIT])
+    robot, node = block_of(editor, "robots.robot"), block_of(editor, "nodes.launch")
+    editor.apply(SetField(node, "name", "NAO"))
+    assert only(editor, language).kind == "same_name" and only(editor, language).block == node
+    editor.apply(SetField(robot, "name", " "))
+    assert only(editor, language).kind == "bad_name" and only(editor, language).block == robot
+    editor.apply(SetField(robot, "name", "*"))
+    assert "stands for all robots" in only(editor, language).sentence
+
+    editor.apply(DeleteBlocks(robot))
+    assert kinds(editor, language) == []
+
+
+@pytest.mark.parametrize("depth", [19, 20, 21, 22])
+def test_what_is_nested_too_deep_is_told_exactly_when_it_makes_no_code(language, depth):
+    block = WAIT
+    for _ in range(depth):
+        block = B("control.forever", bodies={"do": [block]})
+    editor = sound(language, [B("event.started"), block])
+
+    assert ("too_deep" in kinds(editor, language)) == (depth > 20)
+    assert refused_block(editor, language) == too_deep_block(editor, language)
+
+
+@pytest.mark.parametrize("depth", [58, 59, 60, 61, 70])
+def test_values_in_values_are_told_exactly_when_they_make_no_code(language, depth):
+    value = B("logic.truth")
+    for _ in range(depth):
+        value = B("logic.not", inputs={"a": value})
+    editor = sound(
+        language, [B("event.started"), B("control.wait_until", inputs={"condition": value})]
+    )
+
+    assert refused_block(editor, language) == too_deep_block(editor, language)
+    assert bool(refused_block(editor, language)) == (depth > 59)
+
+
+def refused_block(editor, language):
+    try:
+        generate_program(editor.project, language)
+    except CodeRefused as refused:
+        return refused.block
+    return None
+
+
+def too_deep_block(editor, language):
+    problems = check(editor.project, language)
+    return next((p.block for p in problems if p.kind == "too_deep"), None)
+
+
+def test_the_pages_are_read_as_robots_and_nodes(language):
+    editor = sound(language, [B("event.started"), WAIT])
+    robot, node = block_of(editor, "robots.robot"), block_of(editor, "nodes.launch")
+
+    assert robot_entries(editor.project, language) == (RobotEntry("NAO", "virtual", "", robot),)
+    assert node_entries(editor.project, language) == (
+        NodeEntry("perceptual/gesture", "karate", {"gesture": "karate"}, node),
+    )
+
+    editor.apply(SetFlag(node, "disabled", True))
+    assert node_entries(editor.project, language) == ()
+
+
+def test_what_is_not_known_here_is_not_called_wrong(language):
+    from test_block_definitions import ROBOT
+
+    without_nodes = load_language(ROBOT.parents[2] / "blocks", ROBOT)
+    editor = sound(without_nodes, [B("event.started"), WAIT])
+    build(
+        without_nodes,
+        [B("nodes.launch", {"node": "sensory/anything"})],
+        page="nodes",
+        editor=editor,
+    )
+
+    assert [p.kind for p in check(editor.project, without_nodes)] == ["same_name"]
