@@ -1,6 +1,6 @@
 """Messages as ZeroMQ frames: ``topic NUL header NUL payload [NUL payload ...]``.
 
-The header is a JSON array ``[node, sequence number of the first payload, time, encoding]``. The
+The header is a JSON array ``[node, number of the first payload, time in ns, encoding]``. The
 NUL behind the topic matters: ZeroMQ matches subscriptions by prefix, and ``/gesture`` must not
 receive ``/gesture_debug``. Only JSON payloads, which hold no NUL, may share a frame. Frames
 whose first byte is NUL are private: see handshake.py.
@@ -9,7 +9,7 @@ whose first byte is NUL are private: see handshake.py.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import msgspec
 
@@ -19,27 +19,22 @@ Encoding = Literal["json", "text", "msgpack", "bytes"]
 Sendable = msgspec.Struct | dict[str, Any] | list[Any] | str | bytes
 
 NUL = b"\0"
+JSON_HEAD = b'"json"]'
+"""How the header of a frame of JSON ends: what is frequent is found without decoding it."""
 
 
 class Header(msgspec.Struct, array_like=True):
-    """Who sent a message: node, number in the sequence of its topic, time in s, encoding."""
+    """Who sent a message: node, number in its topic's sequence, time in ns since 1970, encoding."""
 
     node: str
     sequence: int
-    time: float
+    time_ns: int
     encoding: Encoding = "json"
 
 
-class Frame(NamedTuple):
-    """A frame taken apart; the payloads are still encoded."""
-
-    header: Header
-    payloads: list[bytes]
-
-
-_to_json = msgspec.json.Encoder().encode
+to_json = msgspec.json.Encoder().encode
 _encode_msgpack = msgspec.msgpack.Encoder().encode
-_CANNOT_ENCODE = (TypeError, ValueError, OverflowError, RecursionError, msgspec.MsgspecError)
+CANNOT_ENCODE = (TypeError, ValueError, OverflowError, RecursionError, msgspec.MsgspecError)
 _decode_header = msgspec.json.Decoder(Header).decode
 
 
@@ -63,27 +58,29 @@ def subscription(topic: str) -> bytes:
 
 def frame_start(topic: str, node: str) -> bytes:
     """The part of a publisher's frames that stays the same: topic, NUL, ``[node,``."""
-    return subscription(topic) + b"[" + _to_json(node) + b","
+    return subscription(topic) + b"[" + to_json(node) + b","
 
 
-def join(
-    start: bytes, sequence: int, time_s: float, encoding: bytes, payloads: list[bytes]
-) -> bytes:
-    """A frame from its start (see frame_start), header values and payloads."""
-    head = b'%b%d,%.6f,"%b"]' % (start, sequence, time_s, encoding)
-    return NUL.join([head, *payloads])
+def join(start: bytes, sequence: int, time_ns: int, encoding: bytes, payload: bytes) -> bytes:
+    """A frame from its start (see frame_start), header values and payload(s)."""
+    return b'%b%d,%d,"%b"]\0%b' % (start, sequence, time_ns, encoding, payload)
 
 
-def split(frame: bytes) -> Frame:
-    """Take a frame apart; raises BadMessage when it is not one of ours."""
+def split(frame: bytes) -> tuple[bytes, list[bytes]]:
+    """A frame's header and payloads, all still encoded; raises BadMessage when it is not ours."""
     parts = frame.split(NUL)
     if len(parts) < 3:
         raise BadMessage("A frame has no header: its sender does not speak NEP.")
+    head = parts[1]
+    return head, parts[2:] if head.endswith(JSON_HEAD) else [NUL.join(parts[2:])]
+
+
+def read_header(head: bytes) -> Header:
+    """The header of a frame; raises BadMessage."""
     try:
-        header = _decode_header(parts[1])
+        return _decode_header(head)
     except msgspec.MsgspecError as error:
         raise BadMessage(f"A frame has an unreadable header: {error}.") from error
-    return Frame(header, parts[2:] if header.encoding == "json" else [NUL.join(parts[2:])])
 
 
 def natural_encoding(message: Sendable) -> Encoding:
@@ -93,31 +90,24 @@ def natural_encoding(message: Sendable) -> Encoding:
     return "bytes" if isinstance(message, bytes) else "json"
 
 
-def encode_json(message: Sendable) -> bytes:
-    """``message`` as JSON; raises BadMessage when it cannot be."""
-    try:
-        return _to_json(message)
-    except _CANNOT_ENCODE as error:
-        raise _not_encodable("json", error) from error
-
-
 def encode(message: Sendable, encoding: Encoding) -> bytes:
     """The payload of ``message``; raises BadMessage when it cannot be encoded so."""
     try:
+        if encoding == "json":
+            return to_json(message)
         if encoding == "text" and isinstance(message, str):
             return message.encode()
         if encoding == "bytes" and isinstance(message, bytes):
             return message
         if encoding == "msgpack":
             return _encode_msgpack(message)
-    except _CANNOT_ENCODE as error:
-        raise _not_encodable(encoding, error) from error
-    if encoding == "json":
-        return encode_json(message)
+    except CANNOT_ENCODE as error:
+        raise not_encodable(encoding, error) from error
     raise BadMessage(f"A {type(message).__name__} cannot be sent as {encoding}.")
 
 
-def _not_encodable(encoding: Encoding, error: Exception) -> BadMessage:
+def not_encodable(encoding: Encoding, error: Exception) -> BadMessage:
+    """The error to raise for a message that cannot be encoded."""
     return BadMessage(
         f"A message cannot be sent as {encoding}: {error}.",
         checklist=("Send a dictionary of text, numbers, yes/no values and lists.",),

@@ -17,34 +17,47 @@ import zmq
 
 from nep_core import handshake
 from nep_core.frames import subscription
-from nep_core.io_thread import Wake
 from nep_core.outbox import HIGH_WATER_MARK, bind
 
 BACKLOG = 10_000
 """Frames kept for a subscriber that does not read; the oldest are dropped."""
 
-
 LAST_WORDS_S = 1.0
 """How long a publisher that has left is still heard: disconnecting drops what is on its way."""
 
+WAKE_ENDPOINT = "inproc://wake"
+"""Where the I/O thread's socket is bound that ends another thread's wait for a message."""
+
+FOR_EVER_MS = -1
+
 
 class Inbox:
-    """One SUB socket; at any time one thread holds its lock and uses it."""
+    """One SUB socket; at any time one thread holds its lock and uses it.
+
+    ``wake`` asks the I/O thread to tend at once; ``waker`` is its socket at WAKE_ENDPOINT.
+    """
 
     def __init__(
-        self, context: zmq.Context[zmq.Socket[bytes]], topic: str, subscriber: str
+        self,
+        context: zmq.Context[zmq.Socket[bytes]],
+        topic: str,
+        subscriber: str,
+        *,
+        wake: Callable[[], None],
+        waker: zmq.Socket[bytes],
+        high_water_mark: int = HIGH_WATER_MARK,
     ) -> None:
         self._private = handshake.private_subscription(topic, subscriber)
         self._socket = context.socket(zmq.SUB)
         self._socket.linger = 0
-        self._socket.rcvhwm = HIGH_WATER_MARK
+        self._socket.rcvhwm = high_water_mark
         self._socket.subscribe(subscription(topic))
         self._socket.subscribe(self._private)  # after the data: the handshake rests on it
+        self._socket.connect(WAKE_ENDPOINT)
+        self._wake = wake
+        self._waker = waker
+        self._timeout_ms = FOR_EVER_MS
         self._lock = threading.Lock()
-        self._wake = Wake()
-        self._poller = zmq.Poller()
-        self._poller.register(self._socket, zmq.POLLIN)
-        self._poller.register(self._wake.fileno(), zmq.POLLIN)
         self._backlog: deque[bytes] = deque()
         self._commands: deque[Callable[[], None]] = deque()
         self._wanted: set[str] = set()
@@ -72,18 +85,20 @@ class Inbox:
                     return self._backlog.popleft()
                 if self.closed:
                     return None
-                frame = self._receive()
-                if frame is not None:
-                    return frame
-                left_s = None if deadline is None else deadline - time.monotonic()
-                if left_s is not None and left_s <= 0:
-                    return None
-                self._wait(left_s)
+                left_s = None if deadline is None else max(0.0, deadline - time.monotonic())
+                frame = self._receive(left_s)
+            if frame is not None:
+                return frame
+            if left_s == 0.0:
+                return None
 
     def tend(self) -> None:
-        """Keep the newest messages while nobody reads (the I/O thread)."""
+        """Keep the newest messages while nobody reads, or wake the reader (the I/O thread)."""
         if not self._lock.acquire(blocking=False):
-            return  # somebody reads
+            if self._commands or self.closed:
+                self._waker.getsockopt(zmq.EVENTS)  # lets it see subscriptions made just now
+                self._waker.send(self._private)
+            return
         try:
             self._run_commands()
             self._drain()
@@ -101,7 +116,7 @@ class Inbox:
                 return False
             with self._lock:
                 self._run_commands()
-                self._wait(left_s)
+                self._socket.poll(min(20, math.ceil(left_s * 1000)))
                 self._drain()
         return True
 
@@ -111,11 +126,10 @@ class Inbox:
         self._wake()
 
     def close(self) -> None:
-        """End, also for a thread that waits in take()."""
+        """End, also for a thread that waits in take(); the I/O thread must still tend."""
         self.interrupt()
         with self._lock:
             self._socket.close()
-            self._wake.close()
 
     def _do(self, command: Callable[[], None]) -> None:
         self._commands.append(command)
@@ -146,29 +160,33 @@ class Inbox:
             del self._leaving[endpoint]
             self._socket.disconnect(endpoint)
 
-    def _receive(self) -> bytes | None:
+    def _receive(self, timeout_s: float | None) -> bytes | None:
+        """A message, or None: nothing came, or a private frame did (a welcome, a wake)."""
+        timeout_ms = FOR_EVER_MS if timeout_s is None else math.ceil(timeout_s * 1000)
+        if timeout_ms != self._timeout_ms:
+            self._socket.rcvtimeo = self._timeout_ms = timeout_ms
         while True:
             try:
-                frame = self._socket.recv(zmq.NOBLOCK)
+                frame = self._socket.recv()
             except zmq.Again:
                 return None
-            if frame[0:1] != b"\0":
+            if frame[0]:  # no NUL: not private
                 return frame
-            if frame.startswith(self._private) and (latched := self._greet(frame)):
-                return latched
+            latched = self._greet(frame)
+            if latched is not None or timeout_s != 0.0:
+                return latched  # None: perhaps a wake, so look at the commands
 
-    def _greet(self, frame: bytes) -> bytes:
+    def _greet(self, frame: bytes) -> bytes | None:
+        if not frame.startswith(self._private) or frame == self._private:
+            return None
         instance, latched = handshake.read_welcome(frame)
         self._publishers.add(instance)
-        return latched
+        return latched or None
 
     def _drain(self) -> None:
-        while not self.closed and (frame := self._receive()) is not None:
-            if len(self._backlog) >= BACKLOG:
-                self._backlog.popleft()  # its subscriber sees the gap in the sequence
-            self._backlog.append(frame)
-
-    def _wait(self, left_s: float | None) -> None:
-        ready = self._poller.poll(None if left_s is None else math.ceil(left_s * 1000))
-        if any(what != self._socket for what, _ in ready):
-            self._wake.clear()
+        while not self.closed and int(self._socket.EVENTS) & zmq.POLLIN:
+            frame = self._receive(0.0)
+            if frame is not None:
+                if len(self._backlog) >= BACKLOG:
+                    self._backlog.popleft()  # its subscriber sees the gap in the sequence
+                self._backlog.append(frame)

@@ -16,23 +16,30 @@ from typing import Any, Literal, Self
 import zmq
 
 from nep_core.endpoints import broker_endpoints, check_endpoint
-from nep_core.inbox import Inbox
+from nep_core.inbox import WAKE_ENDPOINT, Inbox
 from nep_core.io_thread import IoThread
-from nep_core.outbox import Outbox
+from nep_core.outbox import HIGH_WATER_MARK, Outbox
 
 HANDSHAKE_S = 1.0
 """How long a constructor waits for a peer that it knows of; then it goes on with a warning."""
 
 
 class Network(ABC):
-    """What publishers and subscribers need of a network; ``node`` is the name that others see."""
+    """What publishers and subscribers need of a network.
 
-    def __init__(self, node: str = "") -> None:
+    ``node`` is the name that others see; ``high_water_mark`` how many frames may wait for a slow
+    subscriber, on each side (0: no limit).
+    """
+
+    def __init__(self, node: str = "", *, high_water_mark: int = HIGH_WATER_MARK) -> None:
+        self._high_water_mark = high_water_mark
         self.node = node or f"program-{os.getpid()}"
         self.instance = uuid.uuid4().hex
         self.context: zmq.Context[zmq.Socket[bytes]] = zmq.Context(io_threads=1)
         self.io = IoThread(self.node)
-        self.outbox = Outbox(self.context, self.node, self.instance, self.io.hurry)
+        self._waker = self.context.socket(zmq.PUB)
+        self._waker.bind(WAKE_ENDPOINT)
+        self.outbox = Outbox(self.context, self.node, self.instance, self.io.hurry, high_water_mark)
         self.io.watch(self.outbox.file_number)
         self.io.tend(self.outbox.tend)
         self.closed = False
@@ -57,13 +64,20 @@ class Network(ABC):
         with self._lock:
             inbox = self._inboxes.pop(subscriber, None)
         if inbox is not None:
-            self.io.forget(inbox.tend)
             inbox.close()
+            self.io.forget(inbox.tend)
 
     def open_inbox(self, topic: str) -> tuple[str, Inbox]:
         """A new subscriber's id and inbox."""
         subscriber = uuid.uuid4().hex
-        inbox = Inbox(self.context, topic, subscriber)
+        inbox = Inbox(
+            self.context,
+            topic,
+            subscriber,
+            wake=self.io.wake,
+            waker=self._waker,
+            high_water_mark=self._high_water_mark,
+        )
         with self._lock:
             self._inboxes[subscriber] = inbox
         self.io.tend(inbox.tend)
@@ -90,6 +104,7 @@ class Network(ABC):
             self.remove_subscriber(subscriber)
         self.io.close()
         self._leave()
+        self._waker.close()
         self.outbox.close()
         self.context.term()
 
@@ -116,11 +131,12 @@ class DirectNetwork(Network):
         *,
         binds: Literal["publisher", "subscriber"] = "publisher",
         node: str = "",
+        high_water_mark: int = HIGH_WATER_MARK,
     ) -> None:
         self.endpoint = check_endpoint(endpoint)
         self._binds = binds
         self._has_outbox = False
-        super().__init__(node)
+        super().__init__(node, high_water_mark=high_water_mark)
         self.io.start()
 
     def add_publisher(self, topic: str) -> set[str]:

@@ -12,7 +12,7 @@ import zmq
 from nep_core import handshake
 from nep_core.errors import NetworkError, PortTaken
 from nep_core.frames import Encoding
-from nep_core.stream import FLOOD_S, Stream
+from nep_core.stream import FLOOD_NS, Stream
 
 HIGH_WATER_MARK = 10_000
 """Frames that wait for a slow subscriber before ZeroMQ drops them; the subscriber sees the gap."""
@@ -27,13 +27,14 @@ class Outbox:
         node: str,
         instance: str,
         hurry: Callable[[], None],
+        high_water_mark: int = HIGH_WATER_MARK,
     ) -> None:
         self._node = node
         self._instance = instance
         self._hurry = hurry
         self._socket = context.socket(zmq.XPUB)
         self._socket.linger = 500
-        self._socket.sndhwm = HIGH_WATER_MARK
+        self._socket.sndhwm = high_water_mark
         self._lock = threading.Lock()
         self._seen_changed = threading.Condition()
         self._seen: dict[str, set[str]] = defaultdict(set)
@@ -74,7 +75,7 @@ class Outbox:
             if seen is not None:
                 self._note(seen)
         for stream in list(self._streams.values()):
-            stream.flush(older_than_s=FLOOD_S)
+            stream.flush(older_than_ns=FLOOD_NS)
 
     def subscribers(self, topic: str) -> set[str]:
         """The ids of the subscribers that hear ``topic`` now."""

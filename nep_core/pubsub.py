@@ -12,7 +12,16 @@ import msgspec
 
 from nep_core.default_network import default_network
 from nep_core.errors import BadMessage
-from nep_core.frames import Encoding, Header, Sendable, check_topic, decoders, split
+from nep_core.frames import (
+    JSON_HEAD,
+    Encoding,
+    Header,
+    Sendable,
+    check_topic,
+    decoders,
+    read_header,
+    split,
+)
 from nep_core.messages import LATCHED
 from nep_core.network import HANDSHAKE_S, Network
 
@@ -43,7 +52,7 @@ class Publisher:
         self.topic = topic
         self.network = network or default_network()
         self._latched = topic in LATCHED if latched is None else latched
-        self._stream = self.network.outbox.stream(topic, encoding)
+        self._send = self.network.outbox.stream(topic, encoding).send
         self._closed = False
         expected = self.network.add_publisher(topic)
         if not self.network.outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
@@ -56,7 +65,7 @@ class Publisher:
 
         ``latch=False`` keeps the message of a latched topic that later subscribers get.
         """
-        self._stream.send(message, latch and self._latched)
+        self._send(message, latch and self._latched)
 
     def subscribers(self) -> int:
         """How many subscribers hear this topic now."""
@@ -78,10 +87,7 @@ class Subscriber(Generic[T]):
 
     ``kind``: the struct that messages are read into (default: what JSON gives). ``callback``:
     called with each message, in a thread of its own. A message that is not of that kind is
-    skipped with a warning that names the key.
-
-    ``lost`` counts the messages that were sent but did not arrive; ``header`` tells who sent the
-    last message, when, and which number it (or the first of those that came with it) has.
+    skipped with a warning that names the key. Only one thread may receive at a time.
     """
 
     def __init__(
@@ -95,10 +101,12 @@ class Subscriber(Generic[T]):
         check_topic(topic)
         self.topic = topic
         self.network = network or default_network()
-        self.lost = 0
-        self.header: Header | None = None
+        self._lost = 0
+        self._header: Header | None = None
+        self._head = b""
+        self._messages = 0
         self._decoders = decoders(kind)
-        self._decode = self._decoders["json"]
+        self._decode = self._from_json = self._decoders["json"]
         self._payloads: deque[bytes] = deque()
         self._last_sequence: dict[str, int] = {}
         self._id, self._inbox = self.network.open_inbox(topic)
@@ -108,21 +116,28 @@ class Subscriber(Generic[T]):
         if callback is not None:
             self._call_back(callback)
 
+    @property
+    def header(self) -> Header | None:
+        """Who sent the last message, when, and which number it (or the first beside it) has."""
+        self._look_at_head()
+        return self._header
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive."""
+        self._look_at_head()
+        return self._lost
+
     def receive(self, timeout_s: float | None = None) -> T | None:
         """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
         while True:
-            try:
-                payload = self._payloads.popleft()
-            except IndexError:
-                if not self._take_frame(timeout_s):
-                    return None
-                continue
+            payload = self._payloads.popleft() if self._payloads else self._next(timeout_s)
+            if payload is None:
+                return None
             try:
                 return self._decode(payload)  # type: ignore[no-any-return]
             except (msgspec.MsgspecError, UnicodeDecodeError) as error:
-                log.warning(
-                    "%s: a message of %s: %s", self.topic, self.header and self.header.node, error
-                )
+                log.warning("%s: a message of %s: %s", self.topic, self._sender(), error)
 
     def pending(self) -> list[T]:
         """All that has arrived, without waiting."""
@@ -147,29 +162,51 @@ class Subscriber(Generic[T]):
     def _wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
         return self._inbox.wait_for(instances, count, timeout_s)
 
-    def _take_frame(self, timeout_s: float | None) -> bool:
-        data = self._inbox.take(timeout_s)
-        if data is None:
+    def _next(self, timeout_s: float | None) -> bytes | None:
+        """The first payload of the next frame that can be read; None: nothing came."""
+        self._look_at_head()  # of the frame before: it must not delay this one
+        while (data := self._inbox.take(timeout_s)) is not None:
+            try:
+                self._head, payloads = split(data)
+            except BadMessage as error:
+                log.warning("%s: %s", self.topic, error)
+                continue
+            self._messages = len(payloads)
+            if self._head.endswith(JSON_HEAD):
+                self._decode = self._from_json
+            elif not self._choose_decoder():
+                continue
+            if self._messages > 1:
+                self._payloads.extend(payloads[1:])
+            return payloads[0]
+        return None
+
+    def _choose_decoder(self) -> bool:
+        self._look_at_head()
+        decode = self._decoders.get(self._header.encoding) if self._header else None
+        if decode is None:
+            log.warning("%s: a message of %s is not JSON", self.topic, self._sender())
             return False
-        try:
-            header, payloads = split(data)
-            decode = self._decoders[header.encoding]
-        except BadMessage as error:
-            log.warning("%s: %s", self.topic, error)
-            return True
-        except KeyError:
-            log.warning("%s: a message of %s is not JSON", self.topic, header.node)
-            return True
-        self._count(header, len(payloads))
-        self.header, self._decode = header, decode
-        self._payloads.extend(payloads)
+        self._decode = decode
         return True
 
-    def _count(self, header: Header, messages: int) -> None:
+    def _look_at_head(self) -> None:
+        """Read the header of the last frame and count what is missing before it."""
+        if not self._head:
+            return
+        head, self._head = self._head, b""
+        try:
+            self._header = header = read_header(head)
+        except BadMessage as error:
+            log.warning("%s: %s", self.topic, error)
+            return
         last = self._last_sequence.get(header.node, 0)
         if 0 < last < header.sequence - 1:
-            self.lost += header.sequence - last - 1
-        self._last_sequence[header.node] = header.sequence + messages - 1
+            self._lost += header.sequence - last - 1
+        self._last_sequence[header.node] = header.sequence + self._messages - 1
+
+    def _sender(self) -> str:
+        return header.node if (header := self.header) else "somebody"
 
     def _call_back(self, callback: Callable[[T], None]) -> None:
         def run() -> None:

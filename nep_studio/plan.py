@@ -16,7 +16,7 @@ from nep_studio.blocks.deployment import (
     robots_used,
 )
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import ALL_ROBOTS, Project
 
 VIRTUAL_WATCH = "sensory/virtual_watch"
 REPLAY = "sensory/replay"
@@ -65,7 +65,7 @@ def _robots(project: Project, language: Language, choices: Choices) -> list[Plan
     entries = {entry.name: entry for entry in robot_entries(project, language)}
     nodes = [_robot(entry, choices, language.profile.node) for entry in entries.values()]
     for name, block in robots_used(project, language).items():
-        if name not in entries:
+        if name not in entries and name != ALL_ROBOTS:
             entry = RobotEntry(name, "virtual", "", block)
             nodes.append(_robot(entry, choices, language.profile.node, "a rule speaks to it"))
     return nodes

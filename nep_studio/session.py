@@ -77,7 +77,7 @@ class _Voice:
             m.NodeState(
                 node=launched.name,
                 type=launched.manifest.type if launched.manifest else "cognitive",
-                event="stopped" if outcome.was_successful else "crashed",
+                event="crashed",
                 description=f"{outcome}{'; it is started again' if again else ''}",
                 pid=launched.pid,
                 host=socket.gethostname(),
@@ -182,7 +182,7 @@ class Session:
         Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=callback)
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        if self._voice is not None and not outcome.asked:
+        if self._voice is not None and not outcome.was_successful:
             self._voice.tell_end(launched, outcome, again)
         if again or outcome.asked:
             return

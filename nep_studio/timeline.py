@@ -7,8 +7,6 @@ import msgspec
 from nep_core import messages as m
 from nep_studio.blocks.language import Language
 
-QUIET_EVENTS = ("alive", "starting")
-
 
 class Timeline:
     """Turns messages into sentences: (who, what)."""
@@ -16,12 +14,15 @@ class Timeline:
     def __init__(self, language: Language) -> None:
         self._language = language
         self._requests: dict[str, m.ActionRequest] = {}
+        self._told: set[tuple[str, str, str]] = set()
 
     def line(self, message: msgspec.Struct) -> tuple[str, str] | None:
         """Who did what; None for what need not be told."""
         match message:
-            case m.NodeState(event="alive" | "starting"):
-                return None
+            case m.NodeState(event="alive" | "starting" | "connected"):
+                return None  # "ready" tells the same
+            case m.NodeState(type="cognitive", event="stopped"):
+                return None  # the program's own state tells how it ended
             case m.NodeState():
                 return message.node, _node_words(message)
             case m.HumanBehavior():
@@ -46,8 +47,10 @@ class Timeline:
 
     def _result_words(self, result: m.ActionResult) -> str:
         request = self._requests.get(result.id)
-        if request is None or request.action == "stop":
-            return ""
+        told = (result.id, result.robot, result.state)
+        if request is None or request.action == "stop" or told in self._told:
+            return ""  # a result comes again each time it is asked for
+        self._told.add(told)
         if result.state == "started":
             return self._action_words(request)
         if result.state in ("failed", "cancelled"):

@@ -16,7 +16,7 @@ from nep_core.run_node import run_node
 
 def main(arguments: list[str]) -> int:
     """Run the node until it ends, Ctrl-C or SIGTERM; the exit code."""
-    options = _parser().parse_args(arguments)
+    options = _parser().parse_intermixed_args(arguments)
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     try:
         manifest = _manifest(options.node)

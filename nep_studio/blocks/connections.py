@@ -10,6 +10,8 @@ from .program import Block, Project
 from .slots import why_not_fit
 from .values import why_not_name, why_not_value
 
+MOST_VARIABLES = 1000
+
 
 def why_not_chained(definition: Definition | None, *, first_in_stack: bool) -> str | None:
     """Why a block cannot be in a chain at all; a block of an unknown type always can.
@@ -91,6 +93,8 @@ def why_no_groups(block: Block, definition: Definition) -> str | None:
 def why_not_variable_name(project: Project, name: str, *, but: str = "") -> str | None:
     """Why a variable cannot have this name; ``but`` is the id of the variable itself."""
     reason = why_not_name(name)
+    if not but and len(project.variables) >= MOST_VARIABLES:
+        return f"There are too many variables: {MOST_VARIABLES} at most."
     if reason is None and any(v.name == name and v.id != but for v in project.variables):
         return f"There is a variable “{name}” already."
     return reason

@@ -33,7 +33,8 @@ class DefinitionSet:
 def load_definitions(folder: Path, generators: Mapping[str, Collection[str]]) -> DefinitionSet:
     """Read every ``*.toml`` of a folder.
 
-    ``generators`` are the names of the generator functions by kind: hat, statement, value.
+    ``generators`` are the names of the generator functions by kind (hat, statement, value), and
+    those of the functions of nep_core that a call may name.
     Raises DefinitionError, which names the file and the block.
     """
     found = DefinitionSet()
@@ -73,8 +74,11 @@ def read_choices(path: Path, data: object) -> dict[str, dict[str, str]]:
 def _read_file(path: Path, generators: Mapping[str, Collection[str]], found: DefinitionSet) -> None:
     data = read_toml(path)
     category = _read_category(path, data.get("category"))
+    choices = read_choices(path, data.get("choices", {}))
+    if twice := choices.keys() & found.choices.keys():
+        raise DefinitionError(f"In {path.name}, the choices “{min(twice)}” are defined twice.")
     found.categories.append(category)
-    found.choices.update(read_choices(path, data.get("choices", {})))
+    found.choices.update(choices)
     blocks = data.get("blocks", {})
     if not isinstance(blocks, dict):
         raise DefinitionError(f"In {path.name}, [blocks] must be a table of blocks.")
@@ -180,5 +184,7 @@ def _check_code(definition: Definition, generators: Mapping[str, Collection[str]
     call = definition.call
     if call is not None and call.on and definition.slots[call.on].kind.name != "robot":
         raise CallError("a method is called on a robot slot")
+    if call is not None and not call.on and call.name not in generators["function"]:
+        raise CallError(f"nep_core has no function “{call.name}” for programs")
     if call is not None and definition.shape == "hat":
         raise CallError("a hat needs a generator")

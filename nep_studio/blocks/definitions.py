@@ -17,7 +17,7 @@ generator = "repeat"            # a function in generate/, by name
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal
 
 from .definition_call import Call
@@ -66,7 +66,6 @@ class Definition:
     flags: frozenset[str] = frozenset()
     call: Call | None = None
     generator: str = ""
-    words: str = field(default="", compare=False)
 
     @property
     def page(self) -> str:

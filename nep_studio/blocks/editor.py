@@ -27,11 +27,12 @@ from .edits import (
     SetField,
 )
 from .errors import EditRefused
+from .fitting import why_not_block
 from .history import History
 from .language import Language
 from .places import InBody, InInput, InStack, NewStack, Place
 from .program import FARTHEST, Block, Project
-from .values import why_not_name, why_not_text
+from .values import why_not_name, why_not_text, why_not_value
 
 
 class Editor:
@@ -42,7 +43,7 @@ class Editor:
         self.language = language
         self.history = History(project)
 
-    def transaction(self, label: str) -> AbstractContextManager[None]:
+    def transaction(self, label: str) -> AbstractContextManager[object]:
         """Everything applied inside is one step of undo."""
         return self.history.transaction(label)
 
@@ -87,7 +88,9 @@ class Editor:
             return "This is too far outside the page."
         if isinstance(edit, RenameProject):
             return why_not_name(edit.name)
-        if isinstance(edit, AddVariable | RenameVariable):
+        if isinstance(edit, AddVariable):
+            return why_not_variable_name(self.project, edit.name)
+        if isinstance(edit, RenameVariable):
             return why_not_variable_name(self.project, edit.name, but=edit.variable)
         return None
 
@@ -101,8 +104,12 @@ class Editor:
 
     def _why_not_create(self, edit: CreateBlocks) -> str | None:
         by_id = {block.id: block for block in edit.blocks}
-        if any(root not in by_id for root in edit.roots) or not edit.roots:
+        inside = [child for block in edit.blocks for child in block.children()]
+        if not edit.roots or not by_id.keys() >= {*inside, *edit.roots}:
             return "These blocks are not complete."
+        for block in edit.blocks:
+            if (reason := why_not_block(block, by_id, self.language)) is not None:
+                return reason
         return self._why_not_here([by_id[root] for root in edit.roots], edit.place)
 
     def _why_not_here(self, roots: list[Block], place: Place) -> str | None:
@@ -110,18 +117,19 @@ class Editor:
         definitions = self.language.definitions
         if isinstance(place, NewStack) and not _is_near(place.x, place.y):
             return "This is too far outside the page."
-        if isinstance(place, InInput):
+        if isinstance(place, InInput | InBody):
             owner = self.project.blocks.get(place.block)
             if owner is None:
                 return "This block is not there any more."
-            return why_not_plugged(owner, place.slot, roots[0], definitions)
-        if (reason := self._why_not_page(roots, place)) is not None:
-            return reason
-        above, below = self._neighbours({block.id for block in roots}, place)
-        if isinstance(place, InBody) and place.block in self.project.blocks:
-            owner = self.project.blocks[place.block]
+            if isinstance(place, InInput):
+                return why_not_plugged(owner, place.slot, roots[0], definitions)
             if (reason := why_no_body(owner, place.slot, definitions)) is not None:
                 return reason
+        return self._why_not_page(roots, place) or self._why_not_between(roots, place)
+
+    def _why_not_between(self, roots: list[Block], place: Place) -> str | None:
+        """Why these blocks cannot be between those that are above and below a place."""
+        above, below = self._neighbours({block.id for block in roots}, place)
         is_top = above is None and not isinstance(place, InBody)
         reason = why_not_chained(self._definition(roots[0]), first_in_stack=is_top)
         if reason is None and above is not None:
@@ -144,7 +152,7 @@ class Editor:
             return None
         for definition in map(self._definition, roots):
             if definition is not None and definition.page != page:
-                return f"This block belongs on the page {definition.page}."
+                return f"This block belongs on the page {definition.page.title()}."
         return None
 
     def _neighbours(self, moved: set[str], place: Place) -> tuple[Block | None, Block | None]:
@@ -177,11 +185,22 @@ class Editor:
         definition = self._definition(block) if block is not None else None
         if block is None or definition is None or edit.group not in definition.groups:
             return "This block has no such part."
+        if edit.slots != definition.group_slots(edit.group):
+            return "This part has other slots."
         count = block.groups.get(edit.group, 0) + (1 if isinstance(edit, AddGroup) else -1)
         if count > definition.groups[edit.group].maximum:
             return "This block cannot have more parts."
         if count < definition.minimum[edit.group]:
             return "This block cannot have fewer parts."
+        return self._why_not_part_fields(edit) if isinstance(edit, AddGroup) else None
+
+    def _why_not_part_fields(self, edit: AddGroup) -> str | None:
+        slots = self.language.definitions[self.project.blocks[edit.block].type].slots
+        for name, value in edit.fields.items():
+            if name not in edit.slots or not slots[name].kind.typed:
+                return f"This part has no field “{name}”."
+            if (reason := why_not_value(slots[name].kind.name, value)) is not None:
+                return reason
         return None
 
     def _definition(self, block: Block) -> Definition | None:

@@ -46,7 +46,7 @@ def save(project: Project, path: Path) -> None:
     new = target.with_name(f".{target.name}.{os.getpid()}.new")
     try:
         data = to_bytes(project)
-        with new.open("xb") as file:
+        with new.open("wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())

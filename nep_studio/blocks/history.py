@@ -39,30 +39,29 @@ class History:
         return self._redo[-1].label if self._redo else ""
 
     @contextmanager
-    def transaction(self, label: str) -> Iterator[None]:
+    def transaction(self, label: str) -> Iterator[Step]:
         """Everything applied inside is one step; an exception takes all of it back.
 
         A transaction inside another is part of the outer one.
         """
         if self._open is not None:
-            yield
+            yield self._open
             return
-        self._open = Step(label)
+        step = self._open = Step(label)
         try:
-            yield
+            yield step
         except BaseException:
-            self._take_back(self._open)
+            self._take_back(step)
             raise
         else:
-            self._record(self._open)
+            self._record(step)
         finally:
             self._open = None
 
     def apply(self, edit: Edit, label: str = "") -> None:
         """Apply an edit, as a step of its own when no transaction is open."""
-        with self.transaction(label or type(edit).__name__):
-            assert self._open is not None
-            self._open.edits.append(edit.apply(self._project))
+        with self.transaction(label or edit.label) as step:
+            step.edits.append(edit.apply(self._project))
 
     def undo(self) -> bool:
         """Take the last step back; False when there is none."""

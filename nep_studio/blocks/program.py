@@ -56,7 +56,7 @@ class Block(msgspec.Struct, omit_defaults=True):
             self.type,
             {slot: _own(value) for slot, value in self.fields.items()},
             dict(self.inputs),
-            {slot: list(chain) for slot, chain in self.bodies.items()},
+            {slot: list(chain) for slot, chain in self.bodies.items() if chain},
             dict(self.groups),
             self.disabled,
             self.collapsed,

@@ -12,10 +12,11 @@ from typing import Any
 
 import msgspec
 
+from .connections import why_not_variable_name
 from .errors import ProjectFileError
+from .fitting import why_not_block, why_not_stack
 from .language import Language
 from .program import FARTHEST, PAGES, Block, Parent, Project, Stack, Variable
-from .reading_rules import why_not_language
 from .values import why_not_name, why_not_text
 from .writing import FORMAT, VERSION
 
@@ -134,8 +135,11 @@ def _project(decoded: dict[str, Any], language: Language) -> Project:
     _read_pages(project, file.pages)
     _find_parents(project)
     for block in project.blocks.values():
-        if (reason := why_not_language(project, block, language)) is not None:
+        if (reason := why_not_block(block, project.blocks, language)) is not None:
             raise _Fault(reason, block.id)
+    for stack in project.stacks.values():
+        if (fault := why_not_stack(stack.body, project.blocks, language)) is not None:
+            raise _Fault(fault[1], fault[0])
     return project
 
 
@@ -149,10 +153,7 @@ def _in_words(error: msgspec.ValidationError) -> str:
 def _read_variables(project: Project, variables: list[Variable]) -> None:
     for variable in variables:
         _new_id(project, variable.id, {v.id for v in project.variables})
-        reason = why_not_name(variable.name)
-        if reason is None and any(v.name == variable.name for v in project.variables):
-            reason = "Two variables have this name."
-        if reason is not None:
+        if (reason := why_not_variable_name(project, variable.name)) is not None:
             raise _Fault(f"the variable “{variable.name[:40]}”: {reason}")
         project.variables.append(variable)
 

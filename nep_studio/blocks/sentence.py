@@ -10,6 +10,7 @@ numbered from 1: ``also_do.1``, ``also_do.2``.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .slots import KINDS, Kind
@@ -53,31 +54,44 @@ class SentenceError(ValueError):
 def parse(sentence: str) -> tuple[Part, ...]:
     """Read a sentence into words, slots and groups, or raise SentenceError."""
     parts: list[Part] = []
-    group_name, group_parts = "", list[str | Slot]()
+    inside: list[str | Slot] = []
+    group = ""
+    for token in _tokens(sentence):
+        if token["group"]:
+            if group:
+                raise SentenceError(f"group “{token['group']}” is inside group “{group}”")
+            group, inside = token["group"], []
+        elif token["repeat"]:
+            if not group:
+                raise SentenceError("a “]” without its “[name:”")
+            parts.append(Group(group, tuple(inside), 1 if token["repeat"] == "?" else MOST_REPEATS))
+            group = ""
+        elif part := _word_or_slot(token, group):
+            (inside if group else parts).append(part)
+    if group:
+        raise SentenceError(f"group “{group}” is not closed by ]* or ]?")
+    return tuple(parts)
+
+
+def _tokens(sentence: str) -> Iterator[re.Match[str]]:
     position = 0
     while position < len(sentence):
         token = _TOKEN.match(sentence, position)
         if token is None:
             raise SentenceError(f"“{sentence[position : position + 30]}” cannot be understood")
         position = token.end()
-        inside: list[Part] | list[str | Slot] = group_parts if group_name else parts
-        if token["group"]:
-            if group_name:
-                raise SentenceError(f"group “{token['group']}” is inside group “{group_name}”")
-            group_name, group_parts = token["group"], []
-        elif token["repeat"]:
-            if not group_name:
-                raise SentenceError("a “]” without its “[name:”")
-            maximum = 1 if token["repeat"] == "?" else MOST_REPEATS
-            parts.append(Group(group_name, tuple(group_parts), maximum))
-            group_name = ""
-        elif token["slot"]:
-            inside.append(_slot(token["slot"], token["kind"], token["table"] or "", group_name))
-        elif words := token["words"].strip():
-            inside.append(words)
-    if group_name:
-        raise SentenceError(f"group “{group_name}” is not closed by ]* or ]?")
-    return tuple(parts)
+        yield token
+
+
+def _word_or_slot(token: re.Match[str], group: str) -> str | Slot:
+    name, kind_name, table = token["slot"], token["kind"], token["table"] or ""
+    if not name:
+        return token["words"].strip()
+    if kind_name not in KINDS:
+        raise SentenceError(f"slot “{name}” has no kind “{kind_name}”: use {', '.join(KINDS)}")
+    if (kind_name == "choice") != bool(table):
+        raise SentenceError(f"slot “{name}”: a choice names its table, choice(table), others none")
+    return Slot(name, KINDS[kind_name], table, group)
 
 
 def slots_of(parts: tuple[Part, ...]) -> dict[str, Slot]:
@@ -102,11 +116,3 @@ def groups_of(parts: tuple[Part, ...]) -> dict[str, Group]:
                 raise SentenceError(f"group “{part.name}” is there twice")
             groups[part.name] = part
     return groups
-
-
-def _slot(name: str, kind_name: str, table: str, group: str) -> Slot:
-    if kind_name not in KINDS:
-        raise SentenceError(f"slot “{name}” has no kind “{kind_name}”: use {', '.join(KINDS)}")
-    if (kind_name == "choice") != bool(table):
-        raise SentenceError(f"slot “{name}”: a choice names its table, choice(table), others none")
-    return Slot(name, KINDS[kind_name], table, group)

@@ -95,10 +95,6 @@ def _why_not_setting(name: object, setting: object) -> str | None:
     return _why_not_any(setting)
 
 
-def _why_not_boolean(value: object) -> str | None:
-    return None if isinstance(value, bool) else f"Yes or no is needed here, not {_told(value)}."
-
-
 def _told(value: object) -> str:
     """Name a value of any kind in a few words, whatever it holds."""
     if value is None:
@@ -115,7 +111,6 @@ def _told(value: object) -> str:
 _CHECKS: dict[str, Callable[[object], str | None]] = {
     "number": why_not_number,
     "text": why_not_text,
-    "boolean": _why_not_boolean,
     "any": _why_not_any,
     "line": why_not_line,
     "state": why_not_line,

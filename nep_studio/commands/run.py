@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import signal
 import sys
 import tempfile
@@ -117,7 +118,11 @@ class _Printer:
 
     def _write(self, line: bytes) -> None:
         with self._lock:
-            print(line.decode(), flush=True)
+            try:
+                print(line.decode(), flush=True)
+            except BrokenPipeError:  # whoever read us has gone: stop, as for Ctrl-C
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+                signal.raise_signal(signal.SIGINT)
 
 
 def _choices(options: argparse.Namespace) -> Choices:

@@ -43,10 +43,12 @@ def run(node: Node, *, robot: str, driver: str, address: str, speed: float) -> N
     node.ready(link.connection.description)
     start_s = time.monotonic()
     while not node.stopping:
-        for request in _heard(requests, MOVING_LOOP_S if link.moving else RESTING_LOOP_S):
-            if actor.is_asked(request):
-                _send(results, actor.request(request))
-        _send(results, actor.step((time.monotonic() - start_s) * speed))
+        heard = _heard(requests, MOVING_LOOP_S if link.moving else RESTING_LOOP_S)
+        now_s = (time.monotonic() - start_s) * speed
+        _send(results, actor.step(now_s))  # up to now, so that what is asked now begins now
+        for request in filter(actor.is_asked, heard):
+            _send(results, actor.request(request))
+        _send(results, actor.step(now_s))
         report.send_news()
     _send(results, actor.stop())
 
@@ -78,7 +80,7 @@ class _StateReport:
         self._link = link
         self._states = node.publisher(ROBOT_STATE)
         self._told = link.connection
-        self._next_s = 0.0
+        self._next_s = time.monotonic()
         self._was_moving = False
 
     def send_news(self) -> None:
@@ -88,8 +90,12 @@ class _StateReport:
             self._node.state(*self._told)
         now_s = time.monotonic()
         moving = self._link.moving
-        if now_s >= self._next_s or moving != self._was_moving:
+        if moving != self._was_moving:
             self._was_moving = moving
-            self._next_s = now_s + (MOVING_STATE_S if moving else RESTING_STATE_S)
+            self._next_s = now_s
+        if now_s >= self._next_s:
+            period_s = MOVING_STATE_S if moving else RESTING_STATE_S
+            # From when it was due, not from now: else the loop's own time would lower the rate.
+            self._next_s = max(self._next_s + period_s, now_s)
             if state := self._link.state():
                 self._states.send(state)

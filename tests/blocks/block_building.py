@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.editor import Editor
@@ -10,6 +12,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InBody, InInput, InStack
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.values import FieldValue
+from nep_studio.blocks.writing import to_bytes
 
 
 @dataclass
@@ -91,3 +94,10 @@ def karate(language: Language) -> Editor:
         name="Karate greeting",
         variables=("times",),
     )
+
+
+def changed_karate(language: Language, change: Callable[..., None]) -> bytes:
+    """The file of the karate greeting with something changed in its JSON."""
+    data = json.loads(to_bytes(karate(language).project))
+    change(data, {block["id"]: block for block in data["blocks"]})
+    return json.dumps(data, indent=1).encode()

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from block_building import B, build
+from sound_programs import WAIT, block_of, kinds, only, sound
 
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.deployment import (
@@ -19,32 +22,7 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.loading import load_language
 
-WAIT = B("control.wait")
-
-
-def karate_node(**parameters):
-    return B("nodes.launch", {"parameters": {"gesture": "karate", **parameters}})
-
-
-def sound(language, *stacks):
-    """A program with these rules, with NAO and the karate gesture on the other pages."""
-    editor = build(language, *stacks, variables=("x",))
-    build(language, [B("robots.robot")], page="robots", editor=editor)
-    build(language, [karate_node()], page="nodes", editor=editor)
-    return editor
-
-
-def kinds(editor, language):
-    return [problem.kind for problem in check(editor.project, language)]
-
-
-def only(editor, language):
-    (problem,) = check(editor.project, language)
-    return problem
-
-
-def block_of(editor, block_type):
-    return next(b.id for b in editor.project.blocks.values() if b.type == block_type)
+RESOURCES = Path(__file__).resolve().parents[2] / "resources"
 
 
 def test_a_sound_program_has_no_problems(language):
@@ -161,58 +139,6 @@ def test_two_rules_for_one_gesture_are_told_however_they_name_it(language):
     assert problem.kind == "same_trigger" and problem.block == block_of(editor, "event.human_state")
 
 
-@pytest.mark.parametrize("loop", ["control.forever", "control.while"])
-def test_a_loop_without_a_pause_is_told_and_one_with_a_pause_deep_inside_is_not(language, loop):
-    question = {"condition": B("logic.truth")} if loop == "control.while" else {}
-    change = B("variable.change", {"variable": "v1"})
-    fork = B("control.if", inputs={"condition": B("logic.truth")}, bodies={"do": [change]})
-    editor = sound(language, [B("event.started"), B(loop, {}, question, {"do": [fork]})])
-
-    problem = only(editor, language)
-    assert problem.kind == "no_pause" and problem.fix.name == "add_wait"
-    assert problem.fix.data == {"block": block_of(editor, loop), "slot": "do"}
-
-    fork.bodies["do"].append(B("control.repeat", bodies={"do": [WAIT]}))
-    editor = sound(language, [B("event.started"), B(loop, {}, question, {"do": [fork]})])
-    assert kinds(editor, language) == []
-
-
-def test_a_disabled_pause_is_no_pause(language):
-    editor = sound(language, [B("event.started"), B("control.forever", bodies={"do": [WAIT]})])
-    editor.apply(SetFlag(block_of(editor, "control.wait"), "disabled", True))
-
-    assert kinds(editor, language) == ["no_pause"]
-
-
-def test_walking_while_sitting_is_told_for_the_robot_that_sits(language):
-    sit = B("robot.do", {"posture": "posture_sit"})
-    walk = B("robot.walk")
-    editor = sound(language, [B("event.started"), sit, walk, B("robot.do"), B("robot.turn")])
-
-    problem = only(editor, language)
-
-    assert problem.sentence == "NAO cannot walk after the posture “sit”."
-    assert problem.fix.data == {"block": block_of(editor, "robot.walk"), "robot": "NAO"}
-
-
-def test_all_robots_that_sit_are_sitting_one_by_one(language):
-    sit = B("robot.do", {"robot": "*", "posture": "posture_rest"})
-    editor = sound(language, [B("event.started"), B("robot.do"), sit, B("robot.walk")])
-
-    assert kinds(editor, language) == ["not_standing"]
-
-
-def test_blocks_after_the_end_are_told(language):
-    editor = sound(language, [B("event.started"), WAIT, B("robot.say")])
-    chain = editor.project.pages["behaviour"][0].body
-    editor.project.blocks[chain[1]].type = "control.stop_program"
-    editor.project.blocks[chain[1]].fields = {}
-
-    problem = only(editor, language)
-
-    assert problem.kind == "never_reached" and problem.block == chain[2]
-
-
 def test_loose_blocks_are_only_worth_knowing(language):
     editor = sound(language, [B("event.started"), WAIT], [B("robot.say", {"robot": "Pepper"})])
 
@@ -235,43 +161,6 @@ def test_robots_and_nodes_need_names_of_their_own(language):
     assert kinds(editor, language) == []
 
 
-@pytest.mark.parametrize("depth", [19, 20, 21, 22])
-def test_what_is_nested_too_deep_is_told_exactly_when_it_makes_no_code(language, depth):
-    block = WAIT
-    for _ in range(depth):
-        block = B("control.forever", bodies={"do": [block]})
-    editor = sound(language, [B("event.started"), block])
-
-    assert ("too_deep" in kinds(editor, language)) == (depth > 20)
-    assert refused_block(editor, language) == too_deep_block(editor, language)
-
-
-@pytest.mark.parametrize("depth", [58, 59, 60, 61, 70])
-def test_values_in_values_are_told_exactly_when_they_make_no_code(language, depth):
-    value = B("logic.truth")
-    for _ in range(depth):
-        value = B("logic.not", inputs={"a": value})
-    editor = sound(
-        language, [B("event.started"), B("control.wait_until", inputs={"condition": value})]
-    )
-
-    assert refused_block(editor, language) == too_deep_block(editor, language)
-    assert bool(refused_block(editor, language)) == (depth > 59)
-
-
-def refused_block(editor, language):
-    try:
-        generate_program(editor.project, language)
-    except CodeRefused as refused:
-        return refused.block
-    return None
-
-
-def too_deep_block(editor, language):
-    problems = check(editor.project, language)
-    return next((p.block for p in problems if p.kind == "too_deep"), None)
-
-
 def test_the_pages_are_read_as_robots_and_nodes(language):
     editor = sound(language, [B("event.started"), WAIT])
     robot, node = block_of(editor, "robots.robot"), block_of(editor, "nodes.launch")
@@ -286,9 +175,7 @@ def test_the_pages_are_read_as_robots_and_nodes(language):
 
 
 def test_what_is_not_known_here_is_not_called_wrong(language):
-    from test_block_definitions import ROBOT
-
-    without_nodes = load_language(ROBOT.parents[2] / "blocks", ROBOT)
+    without_nodes = load_language(RESOURCES / "blocks", RESOURCES / "robots/nao/robot.toml")
     editor = sound(without_nodes, [B("event.started"), WAIT])
     build(
         without_nodes,

@@ -67,6 +67,8 @@ def test_a_pack_of_blocks_is_data_only(tmp_path):
         ((GOOD, DEFAULTS, CALL.replace('"robot"', '"text"')), "called on a robot slot"),
         ((GOOD, DEFAULTS, CALL.replace("on", "off")), "call has no key “off”"),
         ((GOOD, DEFAULTS, "call = { arguments = [] }\n"), "either a function, or a method"),
+        ((GOOD, DEFAULTS, 'call = { function = "exec" }\n'), "nep_core has no function “exec”"),
+        ((GOOD, DEFAULTS, 'call = { function = "Robot" }\n'), "nep_core has no function “Robot”"),
         ((GOOD, DEFAULTS, CALL, 'code = "import os"\n'), "a key “code” that is not known"),
     ],
 )
@@ -87,6 +89,7 @@ def test_what_is_wrong_with_a_definition_is_told_with_file_and_block(tmp_path, l
         (HEAD + "[choices.a]\nb = 5\n", "choice “b” of a has no label"),
         (HEAD + "[choices]\na = 5\n", "[choices] must hold tables"),
         (HEAD + "= 5\n", "cannot be read"),
+        (HEAD.replace("order = 1", "order = []"), "needs a title, a colour and an order"),
     ],
 )
 def test_what_is_wrong_with_a_category_is_told_with_its_file(tmp_path, head, reason):
@@ -110,6 +113,13 @@ def test_two_files_cannot_define_the_same_block(tmp_path):
 
     with pytest.raises(DefinitionError, match=r"block “my\.sing” is defined twice"):
         load(tmp_path, GOOD, DEFAULTS, CALL)
+
+
+def test_a_pack_cannot_change_the_choices_of_another(tmp_path):
+    (tmp_path / "a.toml").write_text(HEAD + '[choices.again]\nnever = "never"\n')
+
+    with pytest.raises(DefinitionError, match="the choices “again” are defined twice"):
+        load(tmp_path, GOOD, DEFAULTS, CALL, head=HEAD + '[choices.again]\nalways = "x"\n')
 
 
 def test_a_sentence_keeps_words_slots_and_groups_in_order():

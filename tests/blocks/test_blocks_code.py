@@ -41,12 +41,15 @@ def when_started():
 @behavior.when("gesture_karate")
 def when_gesture_karate():
     nao.say("Impressive!")
+
     def part_1():
         nao.play("karate")
+
     def part_2():
         global times
         times += 1
         nao.say("Karate number " + str(times))
+
     together(part_1, part_2)
 
 

@@ -25,7 +25,7 @@ from nep_studio.blocks.edits import (
 from nep_studio.blocks.errors import CodeRefused, EditRefused
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack
-from nep_studio.blocks.program import Parent, Project
+from nep_studio.blocks.program import Block, Parent, Project
 from nep_studio.blocks.reading import from_bytes
 from nep_studio.blocks.text import sentence
 from nep_studio.blocks.writing import to_bytes
@@ -179,6 +179,45 @@ def test_an_else_if_in_the_middle_moves_the_later_ones_with_their_blocks(languag
         editor.apply(RemoveGroup(block.id, "also", 1, slots))
     editor.history.undo()
     assert to_bytes(project) == before
+
+
+@pytest.mark.parametrize(
+    ("slots", "fields", "reason"),
+    [
+        (("do",), {}, "other slots"),
+        (("also_condition", "also_do"), {"also_do": "x"}, "no field “also_do”"),
+        (("also_condition", "also_do"), {"x": "x"}, "no field “x”"),
+    ],
+)
+def test_a_part_is_added_with_the_slots_that_it_has(language, slots, fields, reason):
+    editor = build(language, [B("event.started"), B("control.if")])
+    fork = editor.project.pages["behaviour"][0].body[1]
+
+    with pytest.raises(EditRefused, match=reason):
+        editor.apply(AddGroup(fork, "also", 1, slots, fields))
+    editor.apply(AddGroup(fork, "also", 1, ("also_condition", "also_do"), {}))
+
+
+def paste(language, *blocks: Block) -> str | None:
+    editor = Editor(Project(), language)
+    roots = (blocks[0].id,)
+    return editor.why_not(CreateBlocks(roots, blocks, NewStack("behaviour", "s1", 0, 0, 0)))
+
+
+def test_blocks_from_a_clipboard_are_checked_like_those_from_a_file(language):
+    text = Block("b2", "text.text", {"text": "x"})
+    do = Block("b2", "robot.do")
+
+    assert paste(language, Block("b1", "robot.say", inputs={"text": "b2"}), text) is None
+    assert "needs a number" in paste(
+        language, Block("b1", "robot.walk", inputs={"left": "b2"}), text
+    )
+    assert "gives a value" in paste(language, Block("b1", "robot.say", inputs={"text": "b2"}), do)
+    assert "into a slot" in paste(
+        language, Block("b1", "control.forever", bodies={"do": ["b2"]}), text
+    )
+    assert "too large" in paste(language, Block("b1", "control.wait", {"seconds": 1e300}))
+    assert "not complete" in paste(language, Block("b1", "robot.say", inputs={"text": "b2"}))
 
 
 def test_do_together_keeps_two_parts_and_takes_twenty(language):

@@ -90,3 +90,12 @@ def test_names_keep_the_letters_of_all_languages():
     assert python_name("größe (cm)", "variable") == "größe_cm"
     assert python_name("名前", "variable") == "名前"
     assert python_name("2 robots", "variable") == "variable_2_robots"
+    assert python_name("ﬁne", "variable") == "fine"
+    assert python_name("!!!", "variable") == "variable"
+
+
+@pytest.mark.parametrize("name", ["class", "None", "print", "Robot", "wait", "random", "match"])
+def test_names_that_python_or_the_program_needs_get_an_underscore(name: str):
+    table = NameTable()
+
+    assert [table.give(name, "variable") for _ in range(2)] == [f"{name}_", f"{name}_2"]

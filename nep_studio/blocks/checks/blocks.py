@@ -44,8 +44,8 @@ def _check_block(
             "wrong_page",
             page,
             block.id,
-            f"This block belongs on the page {definition.page}.",
-            (f"Move it to the page {definition.page}.",),
+            f"This block belongs on the page {definition.page.title()}.",
+            (f"Move it to the page {definition.page.title()}.",),
         )
     for key, slot in definition.keys(block.groups):
         plugged = project.blocks.get(block.inputs.get(key, ""))

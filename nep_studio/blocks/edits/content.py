@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import msgspec
 
@@ -15,6 +15,7 @@ from .placing import require_block
 class SetField(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Set the value of a field; None takes it away, so that the default holds."""
 
+    label: ClassVar[str] = "change a field"
     block: str
     slot: str
     value: FieldValue | None
@@ -32,6 +33,7 @@ class SetField(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class SetFlag(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Disable or collapse a block, or the opposite."""
 
+    label: ClassVar[str] = "disable or collapse a block"
     block: str
     flag: Literal["disabled", "collapsed"]
     on: bool
@@ -48,6 +50,7 @@ class SetFlag(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class SetComment(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Write the comment of a block; an empty one is none."""
 
+    label: ClassVar[str] = "write a comment"
     block: str
     comment: str
 
@@ -65,6 +68,7 @@ class AddGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     ``slots`` are the names of the group's slots; ``fields`` the values of its fields by name.
     """
 
+    label: ClassVar[str] = "add a part"
     block: str
     group: str
     index: int
@@ -90,6 +94,7 @@ class AddGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class RemoveGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Take a group out of a sentence; no blocks may be in it. Later groups move down."""
 
+    label: ClassVar[str] = "remove a part"
     block: str
     group: str
     index: int

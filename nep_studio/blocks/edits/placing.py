@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 import msgspec
 
 from ..errors import EditRefused
-from ..places import InInput, InStack, NewStack, Place, place_of, put, take
+from ..places import InBody, InInput, InStack, NewStack, Place, place_of, put, take
 from ..program import PAGES, Block, Parent, Project
 
 
 class CreateBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Make blocks, those inside others too; ``roots`` are the ones that go into the place."""
 
+    label: ClassVar[str] = "add blocks"
     roots: tuple[str, ...]
     blocks: tuple[Block, ...]
     place: Place
@@ -35,6 +37,7 @@ class CreateBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class DeleteBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Delete ``count`` blocks of a chain from ``first`` on, with all that is inside them."""
 
+    label: ClassVar[str] = "delete blocks"
     first: str
     count: int = 1
 
@@ -54,6 +57,7 @@ class DeleteBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class MoveBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Move ``count`` blocks of a chain from ``first`` on, with all that is inside them."""
 
+    label: ClassVar[str] = "move blocks"
     first: str
     count: int
     place: Place
@@ -114,36 +118,37 @@ def _require_free(
     project: Project, place: Place, roots: Sequence[str], *, moved: bool = False
 ) -> None:
     """A place must be there, and free, once the moved blocks have left theirs."""
+    leaving = roots if moved else ()
     if isinstance(place, InInput):
         plugged = require_block(project, place.block).inputs.get(place.slot)
-        if len(roots) != 1 or plugged not in (None, *(roots if moved else ())):
+        if len(roots) != 1 or plugged not in (None, *leaving):
             raise EditRefused("There is a block in this slot already.")
         return
-    chain: list[str]
+    index = place.position if isinstance(place, NewStack) else place.index
+    if not 0 <= index <= _length(project, place, leaving):
+        raise EditRefused("There is no such place.")
+
+
+def _length(project: Project, place: NewStack | InStack | InBody, leaving: Sequence[str]) -> int:
+    """How long the list of a place is, once the blocks that are moved have left it."""
     if isinstance(place, NewStack):
         taken = place.stack in project.stacks or place.stack in project.blocks
         if place.page not in PAGES or taken:
             raise EditRefused("A stack cannot be made here.")
-        index, length = place.position, len(project.pages[place.page])
-        if moved and _leaves_page(project, roots, place.page):
-            length -= 1
+        return len(project.pages[place.page]) - _leaves_page(project, leaving, place.page)
+    if isinstance(place, InBody):
+        chain = require_block(project, place.block).bodies.get(place.slot, [])
+    elif place.stack in project.stacks:
+        chain = project.stacks[place.stack].body
     else:
-        index = place.index
-        if isinstance(place, InStack):
-            if place.stack not in project.stacks:
-                raise EditRefused("This stack is not there any more.")
-            chain = project.stacks[place.stack].body
-        else:
-            chain = require_block(project, place.block).bodies.get(place.slot, [])
-        length = len(chain)
-        if moved and roots[0] in chain:
-            length -= len(roots)
-    if not 0 <= index <= length:
-        raise EditRefused("There is no such place.")
+        raise EditRefused("This stack is not there any more.")
+    return len(chain) - (len(leaving) if leaving and leaving[0] in chain else 0)
 
 
 def _leaves_page(project: Project, roots: Sequence[str], page: str) -> bool:
     """Whether moving the blocks empties their stack, which then leaves this page's list."""
+    if not roots:
+        return False
     parent = project.parents[roots[0]]
     stack = project.stacks.get(parent.owner)
     return stack is not None and len(stack.body) == len(roots) and stack in project.pages[page]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
 from ..errors import EditRefused
@@ -11,6 +13,7 @@ from ..program import Project, Variable
 class MoveStack(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Move a stack on its page, in canvas units."""
 
+    label: ClassVar[str] = "move a stack"
     stack: str
     x: float
     y: float
@@ -29,6 +32,7 @@ class MoveStack(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class RenameProject(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Give the project another name."""
 
+    label: ClassVar[str] = "rename the project"
     name: str
 
     def apply(self, project: Project) -> RenameProject:
@@ -40,6 +44,7 @@ class RenameProject(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class AddVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Make a variable, at a position of the list of variables."""
 
+    label: ClassVar[str] = "make a variable"
     variable: str
     name: str
     position: int
@@ -58,6 +63,7 @@ class AddVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class RemoveVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Delete a variable; blocks that name it stay, and are told by the checks."""
 
+    label: ClassVar[str] = "delete a variable"
     variable: str
 
     def apply(self, project: Project) -> AddVariable:
@@ -71,6 +77,7 @@ class RemoveVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
 class RenameVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     """Give a variable another name; blocks name it by its id and follow."""
 
+    label: ClassVar[str] = "rename a variable"
     variable: str
     name: str
 

@@ -41,7 +41,7 @@ class Expressions:
         self.variables: set[str] = set()
         self._depth = 0
         self._parts = 0
-        self._local_names = NameTable(names.taken())
+        self._part_names: NameTable | None = None
 
     def definition(self, block: Block) -> Definition:
         """The definition of a block; a block of an unknown type is refused."""
@@ -137,7 +137,9 @@ class Expressions:
     def part_name(self) -> str:
         """A name for a function inside the rule: part_1, part_2, and so on."""
         self._parts += 1
-        return self._local_names.give(f"part_{self._parts}", "part")
+        if self._part_names is None:
+            self._part_names = NameTable(self.names.taken())
+        return self._part_names.give(f"part_{self._parts}", "part")
 
     def _is_default(self, block: Block, key: str) -> bool:
         definition = self.definition(block)

@@ -23,6 +23,9 @@ API = frozenset(
 )
 """What a generated program may import from nep_core under its own name."""
 
+FUNCTIONS = frozenset(name for name in API if name[0].islower())
+"""The functions of nep_core that a block may call."""
+
 RESERVED = frozenset(
     {
         *keyword.kwlist,
@@ -58,15 +61,17 @@ class NameTable:
 
     def __init__(self, taken: Iterable[str] = ()) -> None:
         self._taken = set(taken)
+        self._next_numbers: dict[str, int] = {}
 
     def give(self, text: str, fallback: str) -> str:
         """A name for ``text`` that nothing else in the file has."""
         name = python_name(text, fallback)
         if name in RESERVED:
             name += "_"
-        unique, number = name, 2
+        unique, number = name, self._next_numbers.get(name, 2)
         while unique in self._taken or unique in RESERVED:
-            unique, number = f"{name}_{number}", number + 1
+            unique, number = f"{name.rstrip('_')}_{number}", number + 1
+        self._next_numbers[name] = number  # a thousand rules for one gesture stay fast
         self._taken.add(unique)
         return unique
 

@@ -64,6 +64,7 @@ class ProgramGenerator:
             self._project.parents[chain[0]].owner: chain
             for chain in rules(self._project, self._language)
         }
+        self._robots = {s: known for s, known in self._robots.items() if s in chains}
         names = self._names(chains)
         functions = NameTable(names.taken())
         self._rules = {

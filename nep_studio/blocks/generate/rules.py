@@ -10,7 +10,7 @@ from ..program import Block
 from .expressions import Expressions
 from .hats import Hat
 from .printing import show
-from .statements import STATEMENTS, Assignment, Body, Function, Piece
+from .statements import STATEMENTS, Assignment, Body, Function, Gap, Piece
 
 DEEPEST_LOOP = 20
 """CPython refuses more: "too many statically nested blocks"."""
@@ -76,9 +76,9 @@ class RuleWriter:
         definition = self._code.definition(block)
         if definition.page != "behaviour":
             raise CodeRefused(
-                f"This block belongs on the page {definition.page}, not under a rule.",
+                f"This block belongs on the page {definition.page.title()}, not under a rule.",
                 block=block.id,
-                checklist=(f"Move it to the page {definition.page}.",),
+                checklist=(f"Move it to the page {definition.page.title()}.",),
             )
         if definition.call is not None:
             pieces: Sequence[Piece] = (show(self._code.call(block, definition.call)),)
@@ -92,12 +92,17 @@ class RuleWriter:
         if isinstance(piece, str):
             self._line(margin + piece, frame.block)
             return None
+        if isinstance(piece, Gap):
+            self._line("", "")
+            return None
         if isinstance(piece, Assignment):
             frame.scope.assigned.add(piece.variable)
             self._line(margin + piece.line, frame.block)
             return None
         chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
         if isinstance(piece, Function):
+            if not self.lines[-1].endswith(":"):
+                self._line("", "")
             self._line(f"{margin}def {piece.name}():", frame.block)
             return self._function(chain, frame.block, frame.indent + 1)
         return self._chain(chain, frame, piece)

@@ -39,7 +39,12 @@ class Assignment:
     line: str
 
 
-Piece = str | Body | Function | Assignment
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """An empty line, to keep apart what does not belong together."""
+
+
+Piece = str | Body | Function | Assignment | Gap
 StatementGenerator = Callable[[Expressions, Block], Sequence[Piece]]
 
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
@@ -77,7 +82,7 @@ def _together(code: Expressions, block: Block) -> list[Piece]:
     count = block.groups.get("part", 0)
     functions = [Function(code.part_name(), f"do.{number}") for number in range(1, count + 1)]
     started = code.api_call("together", *(ast.Name(function.name) for function in functions))
-    return [*functions, show(started)]
+    return [*functions, Gap(), show(started)]
 
 
 def _set_variable(code: Expressions, block: Block) -> list[Piece]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Any
 
 import msgspec
@@ -11,6 +10,19 @@ from msgspec import Meta
 from nep_core.errors import ActionFailed
 
 LONGEST_TEXT = 5000
+
+PLAIN_WORDS = {
+    "Object missing required field": "there is no",
+    "Expected": "should be",
+    "got": "not",
+    "`str`": "text",
+    "`float`": "a number",
+    "`int`": "a whole number",
+    "`bool`": "true or false",
+    "`null`": "nothing",
+    "<=": "at most",
+    ">=": "at least",
+}
 
 Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
 WalkLength = Annotated[float, Meta(ge=-20.0, le=20.0)]
@@ -108,19 +120,17 @@ def read_action(name: str, args: dict[str, Any]) -> Action | Stop:
         raise ActionFailed(f'There is no action "{name}". Possible actions: {", ".join(ACTIONS)}.')
     kind = ACTIONS[name]
     try:
-        action = msgspec.convert(args, kind)
+        return msgspec.convert(args, kind)
     except msgspec.ValidationError as error:
         raise ActionFailed(f'"{name}" cannot be done: {_plain(error)} {_takes(kind)}') from error
-    for field in kind.__struct_fields__:
-        if isinstance(value := getattr(action, field), float) and not math.isfinite(value):
-            raise ActionFailed(f'"{name}" cannot be done: {field} is not a number. {_takes(kind)}')
-    return action
 
 
 def _plain(error: msgspec.ValidationError) -> str:
+    """Return msgspec's "Expected `float`, got `str` - at `$.degrees`" as people say it."""
     what, _, place = str(error).partition(" - at `$.")
-    what = what.replace("Object missing required field", "there is no").replace("`", "")
-    return f"{place.rstrip('`')}: {what}." if place else f"{what}."
+    for word, plain in PLAIN_WORDS.items():
+        what = what.replace(word, plain)
+    return f"{place.rstrip('`')} {what}.".strip().replace("`", "")
 
 
 def _takes(kind: type[Action | Stop]) -> str:

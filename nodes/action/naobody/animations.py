@@ -21,6 +21,7 @@ from nodes.action.naobody.limbs import MOVING, Limb
 
 Kind = Literal["animation", "animal", "gesture"]
 NO_GESTURE = "no_gesture"
+SHORTEST_STEP_S = 0.01
 
 
 class _JointKeys(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -131,8 +132,8 @@ def _problem_of_keys(joint: _JointKeys) -> str:
     numbers = [*joint.times, *joint.keys, *(n for handle in joint.handles or () for n in handle)]
     if not all(math.isfinite(number) for number in numbers):
         return "a number is infinite or not a number"
-    if any(late <= early for early, late in pairwise((0.0, *joint.times))):
-        return "the times must be above 0 and rise"
+    if any(late - early < SHORTEST_STEP_S for early, late in pairwise((0.0, *joint.times))):
+        return f"every time must be at least {SHORTEST_STEP_S} s after the one before it, or 0"
     return ""
 
 

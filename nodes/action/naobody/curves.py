@@ -13,6 +13,8 @@ MINIMUM_JERK_PEAK = 1.875
 """Peak speed of a minimum-jerk movement, as a multiple of its mean speed (15/8)."""
 
 BISECTIONS = 40
+SPEED_SAMPLES = 65
+"""At so many points of each piece its speed is looked at."""
 LONGEST_HANDLE = 0.5
 """As a part of the time between two keys."""
 
@@ -33,24 +35,26 @@ def ticks(duration_s: float, tick_s: float) -> Angles:
     return times_s
 
 
-def track_angles(track: Track, start_rad: float, times_s: Angles) -> Angles:
+def track_angles(track: Track, start_rad: float, times_s: Angles, fastest: float) -> Angles:
     """Return a joint's angles at rising times, starting from ``start_rad`` at time 0.
+
+    ``fastest``: the joint's top speed (rad/s), which handles are kept to; keys are not.
 
     The first key must be later than 0. Before and after the keys the joint holds still.
     """
-    knots = np.array([0.0, *track.times])
-    values = np.array([start_rad, *track.keys])
-    before, after = _handles(knots, values, track.handles)
-    piece = np.clip(np.searchsorted(knots, times_s, side="right") - 1, 0, len(knots) - 2)
-    t = np.clip(times_s, knots[0], knots[-1])
-    x = (knots[piece], (knots + after[0])[piece], (knots + before[0])[piece + 1], knots[piece + 1])
-    y = (
-        values[piece],
-        (values + after[1])[piece],
-        (values + before[1])[piece + 1],
-        values[piece + 1],
-    )
-    return _bezier(y, _parameter(x, t))
+    x, y = _control_points(track, start_rad, fastest)
+    piece = np.clip(np.searchsorted(x[0], times_s, side="right") - 1, 0, len(x[0]) - 1)
+    t = np.clip(times_s, 0.0, track.times[-1])
+    return _bezier(y[:, piece], _parameter(x[:, piece], t))
+
+
+def peak_speed(track: Track, start_rad: float, fastest: float) -> float:
+    """Return how fast (rad/s) a joint has to move to follow ``track_angles``, nearly exactly."""
+    x, y = _control_points(track, start_rad, fastest)
+    u = np.linspace(0.0, 1.0, SPEED_SAMPLES)[:, None]
+    steps_s = np.diff(_bezier(x[:, None, :], u), axis=0)
+    ways = np.abs(np.diff(_bezier(y[:, None, :], u), axis=0))
+    return float(np.max(ways / steps_s))
 
 
 def smooth_slopes(knots: Angles, values: Angles) -> Angles:
@@ -64,16 +68,25 @@ def smooth_slopes(knots: Angles, values: Angles) -> Angles:
     slopes = np.zeros(len(knots))
     left, right = rises[:-1], rises[1:]
     same_way = left * right > 0.0
-    left_weight = (2.0 * steps[1:] + steps[:-1])[same_way]
-    right_weight = (steps[1:] + 2.0 * steps[:-1])[same_way]
-    slopes[1:-1][same_way] = (left_weight + right_weight) / (
-        left_weight / left[same_way] + right_weight / right[same_way]
-    )
+    left_weight, right_weight = 2.0 * steps[1:] + steps[:-1], steps[1:] + 2.0 * steps[:-1]
+    above = (left_weight + right_weight) * left * right
+    below = left_weight * right + right_weight * left
+    slopes[1:-1] = np.divide(above, below, out=np.zeros_like(above), where=same_way)
     return slopes
 
 
+def _control_points(track: Track, start_rad: float, fastest: float) -> tuple[Angles, Angles]:
+    """Return times and angles of the 4 control points of each Bezier piece: (4, pieces) each."""
+    knots = np.array([0.0, *track.times])
+    values = np.array([start_rad, *track.keys])
+    before, after = _handles(knots, values, track.handles, fastest)
+    x = np.vstack([knots[:-1], (knots + after[0])[:-1], (knots + before[0])[1:], knots[1:]])
+    y = np.vstack([values[:-1], (values + after[1])[:-1], (values + before[1])[1:], values[1:]])
+    return x, y
+
+
 def _handles(
-    knots: Angles, values: Angles, chosen: tuple[Handle, ...] | None
+    knots: Angles, values: Angles, chosen: tuple[Handle, ...] | None, fastest: float
 ) -> tuple[Angles, Angles]:
     """Return the (time, angle) offsets of the handles before and after each key: (2, keys) each."""
     steps = np.diff(knots)
@@ -84,23 +97,26 @@ def _handles(
     after[1] *= slopes
     if chosen is not None:
         offsets = np.array(chosen).T
-        before[:, 1:] = _shortened(offsets[0:2] * [[-1.0], [1.0]], steps) * [[-1.0], [1.0]]
-        after[:, 1:] = _shortened(offsets[2:4], np.append(steps[1:], 0.0))
+        flip = np.array([[-1.0], [1.0]])
+        before[:, 1:] = _possible(flip * offsets[0:2], steps, fastest) * flip
+        after[:, 1:] = _possible(offsets[2:4], np.append(steps[1:], 0.0), fastest)
     return before, after
 
 
-def _shortened(handles: Angles, steps: Angles) -> Angles:
-    """Return handles (time and angle) that last from 0 to half of the step to the next key.
+def _possible(handles: Angles, steps: Angles, fastest: float) -> Angles:
+    """Return handles (time and angle) whose curve a joint with a top speed can nearly follow.
 
-    Longer ones would make the curve nearly jump, or go back in time. The slope stays.
+    They last from 0 to half of the step to the next key: longer ones would make the curve jump,
+    or go back in time.
     """
-    longest = np.clip(handles[0], 0.0, LONGEST_HANDLE * steps)
-    part = np.divide(longest, handles[0], out=np.zeros_like(longest), where=handles[0] != 0.0)
-    flat = (handles[0] == 0.0) & (steps > 0.0)
-    return np.vstack([longest, handles[1] * np.where(flat, 1.0, part)])
+    times = np.maximum(handles[0], 0.0)
+    shorter = np.minimum(times, LONGEST_HANDLE * steps)
+    part = np.divide(shorter, times, out=np.zeros_like(times), where=times > 0.0)
+    angles = np.clip(handles[1], -fastest * times, fastest * times)
+    return np.vstack([shorter, part * angles])
 
 
-def _parameter(x: tuple[Angles, Angles, Angles, Angles], t: Angles) -> Angles:
+def _parameter(x: Angles, t: Angles) -> Angles:
     """Return where on each Bezier piece (0 to 1) its time is ``t``, by bisection."""
     low, high = np.zeros_like(t), np.ones_like(t)
     for _ in range(BISECTIONS):
@@ -110,7 +126,8 @@ def _parameter(x: tuple[Angles, Angles, Angles, Angles], t: Angles) -> Angles:
     return (low + high) / 2.0
 
 
-def _bezier(points: tuple[Angles, Angles, Angles, Angles], u: Angles) -> Angles:
+def _bezier(points: Angles, u: Angles) -> Angles:
     a, b, c, d = points
     v = 1.0 - u
-    return v**3 * a + 3.0 * v**2 * u * b + 3.0 * v * u**2 * c + u**3 * d
+    curve: Angles = v**3 * a + 3.0 * v**2 * u * b + 3.0 * v * u**2 * c + u**3 * d
+    return curve

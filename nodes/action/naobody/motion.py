@@ -9,7 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from nodes.action.naobody.body import Angles, Body
-from nodes.action.naobody.curves import MINIMUM_JERK_PEAK, minimum_jerk, ticks, track_angles
+from nodes.action.naobody.curves import (
+    MINIMUM_JERK_PEAK,
+    minimum_jerk,
+    peak_speed,
+    ticks,
+    track_angles,
+)
 from nodes.action.naobody.keyframes import Keyframes
 
 TICK_S = 0.01
@@ -69,16 +75,16 @@ def keyframe_motion(body: Body, pose: Angles, keyframes: Keyframes) -> Motion:
     """
     notes: list[str] = []
     keyframes = _with_coupled_joints(body, keyframes)
-    keyframes = keyframes.delayed(_approach_delay_s(body, pose, keyframes))
+    keyframes = keyframes.delayed(approach_delay_s(body, pose, keyframes))
     given_s = keyframes.duration_s
-    # More than once: how fast very short keys are is seen only when they are longer.
+    # More than once: handles that were kept to the joint's speed may grow with the time there is.
     while (factor := _slowdown(body, pose, keyframes)) > 1.0:
         keyframes = keyframes.stretched(factor)
     if keyframes.duration_s > given_s:
         slower = keyframes.duration_s / given_s
         notes.append(f"played {slower:.2f} times slower: its joints cannot move faster")
     columns = [body.index[name] for name in keyframes.tracks]
-    return _allowed(body, pose, columns, _sampled(body, pose, keyframes, TICK_S), notes)
+    return _allowed(body, pose, columns, _sampled(body, pose, keyframes), notes)
 
 
 def braking(body: Body, pose: Angles, speed_rad_s: Angles, columns: Sequence[int]) -> Motion:
@@ -121,7 +127,8 @@ def _with_coupled_joints(body: Body, keyframes: Keyframes) -> Keyframes:
     return Keyframes(tracks)
 
 
-def _approach_delay_s(body: Body, pose: Angles, keyframes: Keyframes) -> float:
+def approach_delay_s(body: Body, pose: Angles, keyframes: Keyframes) -> float:
+    """Return how much later the keys have to be so that joints reach their first ones calmly."""
     delay_s = 0.0
     for name, track in keyframes.tracks.items():
         column = body.index[name]
@@ -133,19 +140,19 @@ def _approach_delay_s(body: Body, pose: Angles, keyframes: Keyframes) -> float:
 
 def _slowdown(body: Body, pose: Angles, keyframes: Keyframes) -> float:
     """Return how many times longer the keyframes must last so that no joint is too fast."""
-    tick_s = TICK_S / 4.0
-    columns = [body.index[name] for name in keyframes.tracks]
-    angles = np.vstack([pose[columns], _sampled(body, pose, keyframes, tick_s)])
-    speeds = np.abs(np.diff(angles, axis=0)) / tick_s
-    worst = float(np.max(speeds / body.max_speed[columns], initial=0.0))
+    worst = 0.0
+    for name, track in keyframes.tracks.items():
+        column = body.index[name]
+        start, fastest = float(pose[column]), float(body.max_speed[column])
+        worst = max(worst, peak_speed(track, start, fastest) / fastest)
     return worst * SPEED_MARGIN if worst > 1.0 else 1.0
 
 
-def _sampled(body: Body, pose: Angles, keyframes: Keyframes, tick_s: float) -> Angles:
-    times_s = ticks(keyframes.duration_s, tick_s)
-    return np.column_stack(
-        [
-            track_angles(track, float(pose[body.index[name]]), times_s)
-            for name, track in keyframes.tracks.items()
-        ]
-    )
+def _sampled(body: Body, pose: Angles, keyframes: Keyframes) -> Angles:
+    times_s = ticks(keyframes.duration_s, TICK_S)
+    curves = []
+    for name, track in keyframes.tracks.items():
+        column = body.index[name]
+        start, fastest = float(pose[column]), float(body.max_speed[column])
+        curves.append(track_angles(track, start, times_s, fastest))
+    return np.column_stack(curves)

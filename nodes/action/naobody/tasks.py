@@ -20,8 +20,10 @@ from nodes.action.naobody.gait import plan_walk
 from nodes.action.naobody.keyframes import Keyframes
 from nodes.action.naobody.limbs import MOVING, Limb
 from nodes.action.naobody.motion import (
+    POSTURE_SPEED,
     TICK_S,
     Motion,
+    approach_delay_s,
     braking,
     braking_way_s,
     keyframe_motion,
@@ -35,6 +37,7 @@ Task = Generator[None, None, str]
 
 WALKING_POSTURE = "StandInit"
 LOOKING_SPEED = 0.3
+RETURN_SPEED = 0.5
 SHORTEST_GESTURE = 0.8
 """A gesture is not played in less than this part of its time, even if the words are shorter."""
 DOES_NOT_STAND = {"sitting": "sits", "lying": "lies", "crouching": "crouches", "resting": "rests"}
@@ -68,7 +71,7 @@ def say(robot: VirtualRobot, text: str, gesture: str) -> Task:
     tasks = [speak(robot, text, seconds)]
     if gesture != NO_GESTURE and seconds > 0.0:
         animation = robot.animations.get(gesture, "gesture")
-        tasks.append(play(robot, animation, _fitted(animation.keyframes, seconds)))
+        tasks.append(play(robot, animation, _fitted(robot, animation.keyframes, seconds)))
     return (yield from _together(tasks))
 
 
@@ -169,17 +172,19 @@ def come_to_rest(
 def _act(robot: VirtualRobot, keyframes: Keyframes) -> Task:
     motion = keyframe_motion(robot.body, robot.angles, keyframes)
     yield from _play_motion(robot, motion)
-    yield from _go(robot, robot.posture, robot.body.limbs_of(keyframes.tracks))
+    yield from _go(robot, robot.posture, robot.body.limbs_of(keyframes.tracks), RETURN_SPEED)
     return "; ".join(motion.notes)
 
 
-def _go(robot: VirtualRobot, posture: str, limbs: Collection[Limb]) -> Task:
+def _go(
+    robot: VirtualRobot, posture: str, limbs: Collection[Limb], speed: float = POSTURE_SPEED
+) -> Task:
     body = robot.body
     columns = body.columns(limbs)
     goal = body.posture_angles(posture)
     if np.allclose(robot.angles[columns], goal[columns], atol=1e-4):
         return ""
-    return (yield from _play_motion(robot, move(body, robot.angles, goal, columns)))
+    return (yield from _play_motion(robot, move(body, robot.angles, goal, columns, speed=speed)))
 
 
 def _play_motion(robot: VirtualRobot, motion: Motion) -> Task:
@@ -213,7 +218,9 @@ def _changed(keyframes: Keyframes, action: Play) -> Keyframes:
     return keyframes.stretched(action.stretch)
 
 
-def _fitted(keyframes: Keyframes, seconds: float) -> Keyframes:
+def _fitted(robot: VirtualRobot, keyframes: Keyframes, seconds: float) -> Keyframes:
+    """Return a gesture as often as goes into some seconds, a little faster or slower to fit."""
+    seconds -= approach_delay_s(robot.body, robot.angles, keyframes)
     repeats = max(1, round(seconds / keyframes.duration_s))
     factor = seconds / (repeats * keyframes.duration_s)
     return keyframes.stretched(max(factor, SHORTEST_GESTURE)).repeated(repeats)

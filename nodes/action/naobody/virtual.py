@@ -109,7 +109,7 @@ class VirtualDriver:
         x, y, theta = (float(value) for value in robot.base)
         return RobotState(
             robot=robot.name,
-            joints=dict(zip(robot.body.names, robot.angles.tolist(), strict=True)),
+            joints=dict(zip(robot.body.names, robot.angles.round(5).tolist(), strict=True)),
             base=(x, y, theta),
             posture=robot.posture,
             leds=dict(robot.leds),

@@ -45,4 +45,5 @@ def fold_windows(found: Scan, take_folds: Sequence[int]) -> Integers:
         return blocks
     takes_s = np.array([(take.start_s + take.end_s) / 2 for take in found.passage.takes])
     nearest = np.abs(middle_s[:, None] - takes_s).argmin(axis=1)
-    return np.array(take_folds)[nearest]
+    nearby: Integers = np.array(take_folds, np.intp)[nearest]
+    return nearby

@@ -8,7 +8,7 @@ comes from recordings that the curve was not made from.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,25 +16,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nodes.perceptual.recognition.examples import Examples
-from nodes.perceptual.recognition.features import POINTS, Integers, Windows
+from nodes.perceptual.recognition.features import POINTS, Integers, Singles, Windows
 from nodes.perceptual.recognition.mixture import expected_curve, fit_mixture
 from nodes.perceptual.recognition.stream import Floats
 
 _SHRINK = 0.3
-_FLOOR = 0.05
+_FLOOR = 0.15
 _LEFT_OUT_PARTS = 3
 _CALIBRATION_WINDOWS = 5000
-_QUIETEST = -3.0
-_NONE_WINDOWS = 150
+_LIMITS = (-3.0, 12.0)
+_MOST_CURVES = 80  # to make an expected curve from
 _LEAST_SPREAD = 0.1
-_EVIDENCE = 5
+_EVIDENCE = 6
 
 
 @dataclass(frozen=True)
 class Curves:
-    """The expected curve of each of g gestures: ``mean`` (g, 32, s) of signals over ``scale`` (s,).
+    """Expected curves, one for each of the gestures and a last one for no gesture.
 
-    ``whiten`` (g, 32, s, s) makes the band a unit ball; ``log_det`` (g,) is its mean log volume.
+    ``mean`` (curves, 32, s) is in units of ``scale`` (s,); ``whiten`` (curves, 32, s, s) makes the
+    band around it a unit ball; ``log_det`` (curves,) is its mean log volume.
     """
 
     scale: Floats
@@ -42,8 +43,8 @@ class Curves:
     whiten: Floats
     log_det: Floats
 
-    def distances(self, signals: Floats) -> Floats:
-        """Twice the negative log likelihood a point, less a constant; (n, g) for (n, 32, s)."""
+    def distances(self, signals: Singles) -> Floats:
+        """Twice the negative log likelihood a point, less a constant; (n, curves)."""
         points = (signals / self.scale).transpose(1, 2, 0)
         away = self.whiten @ (points - self.mean[..., None])
         squares: Floats = np.einsum("gtsn,gtsn->ng", away, away) / POINTS
@@ -54,14 +55,16 @@ class Curves:
 class Gmr:
     """Curves, and how near is near enough.
 
-    ``usual`` and ``spread`` (g,) are the distance of left-out takes; ``power`` (g,) is that of
-    the weakest take; ``weights`` (4,) of the logistic function of distance, margin to the next
-    gesture, lack of power, and 1.
+    ``usual`` and ``spread`` (g,) are those of the distances of left-out takes, ``lead`` and
+    ``lead_spread`` those of how much farther *no gesture* is; ``power`` (g,) is the weakest take's;
+    ``weights`` (5,) make the evidence a probability.
     """
 
     curves: Curves
     usual: Floats
     spread: Floats
+    lead: Floats
+    lead_spread: Floats
     power: Floats
     weights: Floats
 
@@ -70,15 +73,27 @@ class Gmr:
         evidence = self.evidence(windows.signals, self.curves.distances(windows.signals))
         return _logistic(evidence @ self.weights)
 
-    def evidence(self, signals: Floats, distances: Floats) -> Floats:
-        """Standard distance, margin to the nearest rival, lack of power, and 1; (n, g, 5)."""
+    def evidence(self, signals: Singles, distances: Floats) -> Floats:
+        """What speaks against each gesture in each window, in usual spreads; (n, g, 5).
+
+        It is far from the curve, a rival is nearer, *no gesture* is hardly farther, it has little
+        power; and 1.
+        """
         gestures, none = distances[:, :-1], distances[:, -1:]
-        away = (gestures - self.usual) / self.spread
-        closer = np.clip(none - gestures, -20.0, 20.0)
-        margin = np.clip(_nearest_rival(away) - away, -10.0, 10.0)
-        lack = np.clip(_power(signals)[:, None] - self.power, _QUIETEST, 0.0)
+        far = (gestures - self.usual) / self.spread
+        rival = far - _nearest_rival(far)
+        plain = (self.lead - (none - gestures)) / self.lead_spread
+        weak = self.power - _power(signals)[:, None]
         return np.stack(
-            [np.clip(away, -10.0, 30.0), margin, closer, lack, np.ones_like(away)], axis=2
+            [
+                np.clip(far, *_LIMITS),
+                np.clip(rival, *_LIMITS),
+                np.clip(plain, *_LIMITS),
+                np.arcsinh(gestures - none),
+                np.clip(weak, 0.0, _LIMITS[1]),
+                np.ones_like(far),
+            ],
+            axis=2,
         )
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -96,6 +111,8 @@ class Gmr:
             "log_det": (gestures + 1,),
             "usual": (gestures,),
             "spread": (gestures,),
+            "lead": (gestures,),
+            "lead_spread": (gestures,),
             "power": (gestures,),
             "weights": (_EVIDENCE,),
         }
@@ -113,12 +130,12 @@ def fit_gmr(examples: Examples, seed: int = 0) -> Gmr:
     seen, distances = _left_out(examples, seed)
     takes = [np.flatnonzero(seen.marked & (seen.labels == g)) for g in range(len(seen.gestures))]
     own = [distances[chosen, gesture] for gesture, chosen in enumerate(takes)]
+    leads = [distances[chosen, -1] - near for chosen, near in zip(takes, own, strict=True)]
     power = _power(seen.windows.signals)
-    within = np.array([values.std() for values in own])
     ready = Gmr(
-        curves=curves,
-        usual=np.array([np.median(values) for values in own]),
-        spread=(within + within.mean()) / 2 + _LEAST_SPREAD,
+        curves,
+        *_usual_and_spread(own),
+        *_usual_and_spread(leads),
         power=np.array([power[chosen].min() for chosen in takes]),
         weights=np.zeros(_EVIDENCE),
     )
@@ -126,23 +143,40 @@ def fit_gmr(examples: Examples, seed: int = 0) -> Gmr:
     return replace(ready, weights=_fit_logistic(*_rows(evidence, seen.labels)))
 
 
+def _usual_and_spread(values: Sequence[Floats]) -> tuple[Floats, Floats]:
+    """Median and spread of each gesture's values; few values borrow spread from the others."""
+    within = np.array([of_gesture.std() for of_gesture in values])
+    usual = np.array([np.median(of_gesture) for of_gesture in values])
+    return usual, (within + within.mean()) / 2 + _LEAST_SPREAD
+
+
 def _fit_curves(examples: Examples) -> Curves:
-    none = np.flatnonzero(examples.labels == len(examples.gestures))
-    chosen = np.concatenate(
-        [np.flatnonzero(examples.marked), none[:: 1 + len(none) // _NONE_WINDOWS]]
-    )
-    signals, labels = examples.windows.signals[chosen], examples.labels[chosen]
-    scale = signals.std(axis=(0, 1)) + 1e-3
-    means, whitens, log_dets = [], [], []
-    for label in range(len(examples.gestures) + 1):
-        mean, covariance = expected_curve(fit_mixture(signals[labels == label] / scale))
-        spread = np.eye(len(scale)) * np.einsum("tii->ti", covariance).mean(axis=0)
-        covariance = (1 - _SHRINK) * covariance + _SHRINK * spread + _FLOOR * np.eye(len(scale))
-        lower = np.linalg.cholesky(covariance)
-        means.append(mean)
-        whitens.append(np.linalg.inv(lower))
-        log_dets.append(2 * np.log(np.einsum("tii->ti", lower)).sum(axis=1).mean())
-    return Curves(scale, np.array(means), np.array(whitens), np.array(log_dets))
+    """A curve for each gesture, and for no gesture."""
+    signals = [
+        examples.windows.signals[_curves_of(examples, label)]
+        for label in range(len(examples.gestures) + 1)
+    ]
+    scale = np.concatenate(signals[:-1]).std(axis=(0, 1)) + 1e-3
+    fitted = [_fit_curve(curves / scale) for curves in signals]
+    return Curves(scale, *(np.array(parts) for parts in zip(*fitted, strict=True)))
+
+
+def _curves_of(examples: Examples, label: int) -> Integers:
+    """Which examples make a curve: takes as they were marked, or any that hold no gesture."""
+    marked = examples.marked | (label == len(examples.gestures))
+    chosen = np.flatnonzero(marked & (examples.labels == label))
+    return chosen[:: 1 + len(chosen) // _MOST_CURVES]
+
+
+def _fit_curve(curves: Floats) -> tuple[Floats, Floats, Floats]:
+    """Mean, whitening and log volume of curves (m, 32, s) in units of the scale."""
+    mean, covariance = expected_curve(fit_mixture(curves), POINTS)
+    size = np.eye(curves.shape[2])
+    spread = size * np.einsum("tii->ti", covariance).mean(axis=0)
+    covariance = (1 - _SHRINK) * covariance + _SHRINK * spread + _FLOOR * size
+    lower = np.linalg.cholesky(covariance)
+    log_det = 2 * np.log(np.einsum("tii->ti", lower)).sum(axis=1).mean()
+    return mean, np.linalg.inv(lower), log_det
 
 
 def _left_out(examples: Examples, seed: int) -> tuple[Examples, Floats]:
@@ -197,7 +231,7 @@ def _nearest_rival(away: Floats) -> Floats:
     return np.where(away == ordered[:, :1], ordered[:, 1:2], ordered[:, :1])
 
 
-def _power(signals: Floats) -> Floats:
+def _power(signals: Singles) -> Floats:
     """Log of how much moves in a window; (n,)."""
-    moving: Floats = signals.std(axis=1).mean(axis=1)
+    moving: Floats = signals.std(axis=1, dtype=float).mean(axis=1)
     return np.log(moving + 1e-3)

@@ -9,7 +9,7 @@ import numpy as np
 from nodes.perceptual.recognition.stream import Floats
 
 COMPONENTS = 6
-_ROUNDS = 20
+_ROUNDS = 15
 _NOISE = 1e-3
 
 
@@ -60,17 +60,18 @@ def expected_curve(mixture: Mixture, points: int = 32) -> tuple[Floats, Floats]:
 def _expect(rows: Floats, mixture: Mixture) -> Floats:
     """How much each row belongs to each Gaussian; (rows, k)."""
     lower = np.linalg.cholesky(mixture.covariance)
-    away = np.linalg.inv(lower) @ (rows[:, None] - mixture.mean).transpose(1, 2, 0)
-    squares = (away**2).sum(axis=1).T
+    whiten = np.linalg.inv(lower).transpose(0, 2, 1)
+    away = rows @ whiten - (mixture.mean[:, None] @ whiten)
     log_det = np.log(np.einsum("kii->ki", lower)).sum(axis=1)
+    squares = np.einsum("krs,krs->rk", away, away)
     return _normalised(np.log(mixture.weight) - log_det - 0.5 * squares)
 
 
 def _maximise(rows: Floats, belongs: Floats) -> Mixture:
     total = belongs.sum(axis=0) + 1e-9
     mean = belongs.T @ rows / total[:, None]
-    apart = (rows[:, None] - mean).transpose(1, 0, 2)
-    covariance = (apart * belongs.T[..., None]).transpose(0, 2, 1) @ apart / total[:, None, None]
+    squares = np.stack([(rows * share[:, None]).T @ rows for share in belongs.T])
+    covariance = squares / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
     return Mixture(total / total.sum(), mean, covariance + _NOISE * np.eye(rows.shape[1]))
 
 

@@ -2,7 +2,7 @@
 
 A ``.gestures`` file is a ZIP archive of NumPy arrays (``numpy.savez``). The array ``about`` is
 UTF-8 JSON: the format's version, what the sensor must send, the gestures, the recognisers and the
-report of the training. Recogniser 0 has its numbers in arrays named ``0.mean``, ``0.usual``, ...
+report of the training. Recogniser 0 has its numbers in arrays named ``0.usual_score`` ...
 The same model gives the same bytes.
 """
 
@@ -12,6 +12,7 @@ import io
 import json
 import os
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,7 @@ _FORMAT = "NEP Studio gesture model"
 _MAX_BYTES = 200_000_000
 _MAX_ARRAYS = 200
 _MAX_GESTURES = 200
+_DAMAGE = (ValueError, KeyError, EOFError, NotImplementedError, zipfile.BadZipFile, zlib.error)
 _TRAIN_AGAIN = (
     "Choose a file that `nep-studio train` has written.",
     "Or train the gestures again from their recordings.",
@@ -85,7 +87,7 @@ def model_bytes(model: Model) -> bytes:
     """A model as the content of a file."""
     arrays = {"about": np.frombuffer(_about_text(model).encode(), np.uint8)}
     for number, recogniser in enumerate(model.recognisers):
-        numbers = {"usual": recogniser.usual, **recogniser.scorer.arrays()}
+        numbers = {"usual_score": recogniser.usual, **recogniser.scorer.arrays()}
         scored = {f"{number}.{name}": _small(array) for name, array in numbers.items()}
         arrays.update(scored)
     content = io.BytesIO()
@@ -106,7 +108,7 @@ def read_model(path: Path) -> Model:
         ) from error
     except OSError as error:
         raise RecordingError(f"{path} cannot be read: {error.strerror}.") from error
-    except (ValueError, KeyError, zipfile.BadZipFile, EOFError, NotImplementedError) as error:
+    except _DAMAGE as error:
         raise RecordingError(
             f"{path.name} is not a gesture model, or it is damaged.",
             checklist=_TRAIN_AGAIN,
@@ -198,8 +200,8 @@ def _recogniser(
     found: _Recogniser, gestures: int, arrays: Mapping[str, NDArray[Any]]
 ) -> Recogniser:
     channels = Channels(found.gravity, found.gyroscope)
-    usual = arrays["usual"].astype(float)
-    if usual.shape != (gestures,) or not np.all((usual > 0) & (usual <= 1)):
+    usual = arrays["usual_score"].astype(float)
+    if usual.shape != (gestures,) or not np.all(np.isfinite(usual) & (usual > 0)):
         raise ValueError("its usual scores do not fit")
     scorer: Scorer
     match found.method:

@@ -14,6 +14,7 @@ RATE_HZ = 50.0
 MAX_GAP_S = 0.5
 """A longer silence ends the movement: nothing is made up to fill it."""
 _CLOCK_RESET_S = 1.0
+_LATEST_S = 1e10  # later, two samples could have the same time; 1e10 s are 300 years
 _ACC_LIMIT_M_S2 = 320.0  # twice what the sensors of watches and phones can measure
 _GYR_LIMIT_RAD_S = 80.0
 
@@ -49,7 +50,7 @@ class EvenStream:
         """Take n samples: ``t`` (n,) or one number, ``values`` (n, 3 or 6) or one row."""
         times_s = np.atleast_1d(np.asarray(t, float))
         rows = np.atleast_2d(np.asarray(values, float))
-        usable = np.isfinite(times_s) & np.isfinite(rows).all(axis=1)
+        usable = (np.abs(times_s) < _LATEST_S) & np.isfinite(rows).all(axis=1)
         times_s, rows = times_s[usable], _within_limits(rows[usable])
         if not len(times_s):
             return

@@ -24,6 +24,7 @@ from nodes.perceptual.recognition.trees import fit_trees
 from nodes.perceptual.recognition.validation import Fit, Validation, cross_validate
 from nodes.recordings import Recording
 
+_MOST_MINUTES = 90
 _FITS: dict[str, Callable[..., Scorer]] = {"trees": fit_trees, "gmr": fit_gmr}
 
 
@@ -42,10 +43,11 @@ def train(
     gyroscope = all(recording.gyr is not None for recording in (*recordings, *everyday))
     gravity = all(recording.gravity_included for recording in (*recordings, *everyday))
     passages = passages_of((*recordings, *everyday), gyroscope)
+    _check_length(passages)
     gestures = gestures_in([take for passage in passages for take in passage.takes])
     _check(recordings, gestures)
     recognisers, report = [], {}
-    for channels in (Channels(gravity, with_gyr) for with_gyr in {gyroscope, False}):
+    for channels in (Channels(gravity, with_gyr) for with_gyr in sorted({gyroscope, False})):
         prepared = _Prepared(passages, gestures, channels, seed)
         for method in methods:
             tell(f"Training {method} with {channels.in_words} ...")
@@ -93,6 +95,15 @@ def _check(recordings: Sequence[Recording], gestures: Sequence[Gesture]) -> None
                 "A column named gesture says for each sample which gesture is being made.",
                 "1 stands for the gesture in the file's name, as in ann_karate.csv; 0 for none.",
             ),
+        )
+
+
+def _check_length(passages: Sequence[Passage]) -> None:
+    minutes = sum(passage.duration_s for passage in passages) / 60
+    if minutes > _MOST_MINUTES:
+        raise RecordingError(
+            f"The recordings last {minutes:.0f} minutes, more than can be learned from at once.",
+            checklist=(f"Train on {_MOST_MINUTES} minutes or less; five of each gesture do.",),
         )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nodes.perceptual.recognition.examples import Examples
-from nodes.perceptual.recognition.features import Windows
+from nodes.perceptual.recognition.features import Singles, Windows
 from nodes.perceptual.recognition.stream import Floats
 
 _TREES = 100
@@ -37,22 +37,21 @@ class Trees:
         """The share of the votes for each gesture; (n, gestures)."""
         return self.probabilities(windows.features)[:, :-1]
 
-    def probabilities(self, features: Floats) -> Floats:
+    def probabilities(self, features: Singles) -> Floats:
         """The share of the votes for each gesture and none, for features (n, f); (n, gestures+1).
 
         The same numbers as scikit-learn's ``predict_proba``.
         """
-        values = features.astype(np.float32)
-        rows = np.repeat(np.arange(len(values)), len(self.roots))
-        nodes = np.tile(self.roots, len(values))
+        rows = np.repeat(np.arange(len(features)), len(self.roots))
+        nodes = np.tile(self.roots, len(features))
         on_the_way = np.flatnonzero(self.right[nodes] != nodes)
         while len(on_the_way):
             here = nodes[on_the_way]
-            above = values[rows[on_the_way], self.feature[here]] > self.threshold[here]
+            above = features[rows[on_the_way], self.feature[here]] > self.threshold[here]
             below = np.where(above, self.right[here], here + 1)
             nodes[on_the_way] = below
             on_the_way = on_the_way[self.right[below] != below]
-        votes = self.votes[self.leaf[nodes]].reshape(len(values), len(self.roots), -1)
+        votes = self.votes[self.leaf[nodes]].reshape(len(features), len(self.roots), -1)
         shares: Floats = votes.mean(axis=1, dtype=np.float64)
         return shares
 
@@ -100,7 +99,7 @@ def fit_trees(examples: Examples, seed: int = 0) -> Trees:
     from sklearn.ensemble import ExtraTreesClassifier
 
     forest = ExtraTreesClassifier(_TREES, class_weight="balanced", random_state=seed, n_jobs=-1)
-    forest.fit(examples.windows.features.astype(np.float32), examples.labels)
+    forest.fit(examples.windows.features, examples.labels)
     return flatten(forest, len(examples.gestures) + 1)
 
 

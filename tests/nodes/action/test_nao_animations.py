@@ -1,0 +1,189 @@
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from nao_skeleton import NAO, point
+from nao_stage import ANIMATIONS, BODY, Stage
+
+from nep_core.errors import NodeStartError
+from nodes.action.naobody.animations import Animation, load_animation
+from nodes.action.naobody.body import Angles
+from nodes.action.naobody.limbs import Limb
+from nodes.action.naobody.motion import TICK_S, keyframe_motion
+
+WAVE = (NAO / "animations" / "wave.toml").read_text()
+
+
+def played(animation: Animation) -> Angles:
+    """Every joint's angle at every tick, from the posture that the animation starts from."""
+    start = BODY.posture_angles(animation.starts_from or "Stand")
+    motion = keyframe_motion(BODY, start, animation.keyframes)
+    angles = np.repeat(start[None], len(motion.angles), axis=0)
+    angles[:, motion.columns] = motion.angles
+    return angles
+
+
+def heights(name: str, part: str) -> Angles:
+    return np.array([point(row, part)[2] for row in played(ANIMATIONS.get(name))])
+
+
+def assert_possible_as_written(animation: Animation) -> None:
+    start = BODY.posture_angles(animation.starts_from or "Stand")
+    assert keyframe_motion(BODY, start, animation.keyframes).notes == ()
+
+
+@pytest.mark.parametrize("name", ANIMATIONS.names())
+def test_every_animation_is_within_limits_and_speeds_as_written(name: str) -> None:
+    assert_possible_as_written(ANIMATIONS.get(name))
+
+
+@pytest.mark.parametrize(("old", "new"), [("1.22,", "0.92,"), ("-1.15]", "-2.15]")])
+def test_a_planted_animation_that_is_too_fast_or_too_wide_is_found(
+    old: str, new: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "planted.toml"
+    path.write_text(WAVE.replace(old, new))
+
+    with pytest.raises(AssertionError):
+        assert_possible_as_written(load_animation(path, BODY))
+
+
+def test_all_that_the_robot_profile_offers_is_there() -> None:
+    choices = tomllib.loads((NAO / "robot.toml").read_text())["choices"]
+
+    assert set(choices["animations"]) <= set(ANIMATIONS.names("animation"))
+    assert set(choices["animals"]) <= set(ANIMATIONS.names("animal"))
+    assert set(choices["say_gestures"]) - {"no_gesture"} <= set(ANIMATIONS.names("gesture"))
+
+
+@pytest.mark.parametrize("name", ANIMATIONS.names("gesture"))
+def test_gestures_for_speaking_leave_the_legs_alone(name: str) -> None:
+    assert Limb.LEGS not in ANIMATIONS.get(name).limbs
+
+
+@pytest.mark.parametrize("name", ANIMATIONS.names("animal"))
+def test_every_animal_makes_its_sound(name: str) -> None:
+    stage = Stage()
+
+    stage.ask("1", "imitate", animal=name)
+    said = set()
+    while not said & {ANIMATIONS.get(name).says} and stage.now_s < 10:
+        stage.pass_time(0.1)
+        said.add(stage.robot.saying)
+
+    assert said == {"", ANIMATIONS.get(name).says}
+
+
+@pytest.mark.parametrize("name", ["hand_up", "wave", "greet"])
+def test_a_raised_hand_is_above_the_head(name: str) -> None:
+    assert (heights(name, "right_hand") - heights(name, "head_top")).max() > 0.03
+    assert heights(name, "left_hand").max() < 0.05
+
+
+def test_stretching_and_cheering_raise_both_hands() -> None:
+    for name in ("strech_up", "cheer"):
+        for hand in ("left_hand", "right_hand"):
+            assert (heights(name, hand) - heights(name, "head_top")).max() > 0.05
+
+
+def test_karate_punches_forward_with_both_hands_and_strikes_down_from_above_the_head() -> None:
+    angles = played(ANIMATIONS.get("karate"))
+    left = np.array([point(row, "left_hand") for row in angles])
+    right = np.array([point(row, "right_hand") for row in angles])
+
+    for hand in (left, right):
+        punch = hand[hand[:, 0].argmax()]
+        assert punch[0] > 0.2 and abs(punch[2] - 0.1) < 0.04
+    top = right[:, 2].argmax()
+    assert right[top, 2] > point(angles[top], "head_top")[2] - 0.02
+    strike = right[top : top + round(0.6 / TICK_S)]
+    assert strike[-1, 2] - strike[0, 2] < -0.2
+    assert strike[-1, 0] > 0.12
+
+
+def test_katana_is_held_with_both_hands_from_above_the_head_down() -> None:
+    angles = played(ANIMATIONS.get("katana"))
+    left = np.array([point(row, "left_hand") for row in angles])
+    right = np.array([point(row, "right_hand") for row in angles])
+
+    held = np.linalg.norm(left - right, axis=1)[round(0.8 / TICK_S) : round(3.9 / TICK_S)]
+    assert held.max() < 0.13
+    assert left[:, 2].max() > 0.25 and left[:, 2].min() < 0.05
+
+
+def test_batting_swings_both_hands_from_right_to_left() -> None:
+    angles = played(ANIMATIONS.get("batting"))
+    right = np.array([point(row, "right_hand")[1] for row in angles])
+
+    assert right[: round(1.5 / TICK_S)].min() < -0.06
+    assert right[round(1.7 / TICK_S) :].max() > -0.01
+
+
+def test_bow_leans_the_body_forward_and_keeps_the_feet_flat() -> None:
+    angles = played(ANIMATIONS.get("bow"))
+    pitches = [BODY.index[f"L{joint}Pitch"] for joint in ("Hip", "Knee", "Ankle")]
+    lean = -angles[:, pitches].sum(axis=1)
+
+    assert np.degrees(lean.max()) > 35
+    assert lean[-1] == pytest.approx(0.1, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "name", [name for name in ANIMATIONS.names() if ANIMATIONS.get(name).starts_from]
+)
+def test_both_legs_bend_alike_so_that_both_feet_stay_on_the_floor(name: str) -> None:
+    for row in played(ANIMATIONS.get(name))[::10]:
+        left, right = point(row, "left_sole"), point(row, "right_sole")
+        # A swaying body tilts in its own frame: by the distance of the feet times the sway.
+        assert left[2] - right[2] == pytest.approx(0.0, abs=0.012)
+
+
+def test_clapping_hands_meet() -> None:
+    angles = played(ANIMATIONS.get("clap"))
+    gaps = np.array(
+        [np.linalg.norm(point(q, "left_hand") - point(q, "right_hand")) for q in angles]
+    )
+
+    assert gaps.min() < 0.04 and gaps[round(0.8 / TICK_S) :].max() > 0.15
+
+
+def test_the_elephant_lifts_its_trunk_and_the_crow_spreads_its_wings() -> None:
+    trunk = heights("elephant", "right_hand")
+    left = np.array([point(row, "left_hand") for row in played(ANIMATIONS.get("crow"))])
+
+    assert trunk.max() - trunk.min() > 0.3
+    assert left[:, 1].max() > 0.27
+
+
+def test_the_frog_squats_and_jumps() -> None:
+    sole = heights("frog", "left_sole")
+
+    assert sole.min() < -0.32 and sole.max() > -0.26
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place"),
+    [
+        ("RElbowYaw", "RElbowJaw", "joints.RElbowJaw: the robot has no such joint"),
+        ("times = [0.9]\nkeys  = [0.0]", "times = [0.9]\nkeys = []", "1 times for 0 keys"),
+        ("1.22,", "0.5,", "every time must be"),
+        ("1.05,", "inf,", "infinite"),
+        ('kind = "animation"', 'kind = "film"', "Invalid enum value 'film'"),
+        ('kind = "animation"', 'kind = "animation"\nstarts_from = "Fly"', "no posture Fly"),
+        ("RElbowYaw", "RKneePitch", "needs a posture"),
+        ('title = "Wave"', "title = ", "Invalid value"),
+    ],
+)
+def test_a_wrong_file_is_told_by_name_and_place(
+    old: str, new: str, place: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(WAVE.replace(old, new, 1))
+
+    with pytest.raises(NodeStartError) as told:
+        load_animation(path, BODY)
+
+    assert "mine.toml" in told.value.sentence and place in told.value.sentence

@@ -1,0 +1,249 @@
+"""The action node in a process of its own, asked over the network by a program."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from nep_core.errors import ActionFailed
+from nep_core.manifest import read_manifest
+from nep_core.messages import (
+    ACTION_REQUEST,
+    ACTION_RESULT,
+    NODE_STATE,
+    ROBOT_STATE,
+    ActionRequest,
+    ActionResult,
+    NodeState,
+    RobotState,
+)
+from nep_core.p2p import PeerNetwork
+from nep_core.pubsub import Publisher, Subscriber
+from nep_core.robot import Robot
+
+MANIFEST = Path(__file__).resolve().parents[3] / "nodes" / "action" / "nao.toml"
+START = """
+import ast, sys
+from pathlib import Path
+from nep_core.manifest import read_manifest
+from nep_core.run_node import run_node
+sys.exit(run_node(read_manifest(Path(sys.argv[1])), sys.argv[2], ast.literal_eval(sys.argv[3])))
+"""
+
+
+class Theatre:
+    """Starts action nodes, asks them, and hears what they say."""
+
+    def __init__(self, network: PeerNetwork) -> None:
+        self.network = network
+        self.node_states = Subscriber(NODE_STATE, NodeState, network=network)
+        self.results = Subscriber(ACTION_RESULT, ActionResult, network=network)
+        self.robot_states = Subscriber(ROBOT_STATE, RobotState, network=network)
+        self.requests = Publisher(ACTION_REQUEST, network=network)
+        self.nodes: list[subprocess.Popen[str]] = []
+
+    def start(self, **parameters: object) -> subprocess.Popen[str]:
+        name = f"nao_{len(self.nodes)}"
+        node = subprocess.Popen(
+            [sys.executable, "-c", START, str(MANIFEST), name, repr(parameters)],
+            stdin=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.nodes.append(node)
+        return node
+
+    def ready(self, **parameters: object) -> subprocess.Popen[str]:
+        node = self.start(**parameters)
+        self.node_state("ready")
+        assert self.requests.wait_for_subscribers(len(self.nodes), 10)
+        return node
+
+    def ask(self, id: str, action: str, *robots: str, **args: Any) -> None:
+        self.requests.send(ActionRequest(id=id, robots=list(robots), action=action, args=args))
+
+    def node_state(self, event: str) -> NodeState:
+        return until(self.node_states, lambda state: state.event == event)[-1]
+
+    def results_until(self, id: str, state: str) -> list[str]:
+        heard = until(self.results, lambda result: (result.id, result.state) == (id, state))
+        return [f"{result.robot} {result.id} {result.state}" for result in heard]
+
+    def close(self) -> None:
+        for node in self.nodes:
+            node.terminate()
+        for node in self.nodes:
+            node.communicate(timeout=5)
+
+
+def until(subscriber: Subscriber[Any], wanted: Callable[[Any], bool]) -> list[Any]:
+    """All messages up to the first that is wanted; fails when it does not come."""
+    end_s, heard = time.monotonic() + 10, []
+    while (left_s := end_s - time.monotonic()) > 0:
+        message = subscriber.receive(left_s)
+        if message is not None:
+            heard.append(message)
+            if wanted(message):
+                return heard
+    pytest.fail(f"what was wanted did not come, but {heard[-5:]}")
+
+
+@pytest.fixture
+def theatre(network: PeerNetwork) -> Iterator[Theatre]:
+    theatre = Theatre(network)
+    yield theatre
+    theatre.close()
+
+
+def test_its_manifest_is_right() -> None:
+    parameters = read_manifest(MANIFEST).read_parameters({})
+
+    assert parameters == {"robot": "NAO", "driver": "virtual", "address": "", "speed": 1.0}
+
+
+def test_a_program_makes_it_speak_walk_and_imitate(theatre: Theatre) -> None:
+    theatre.ready(speed=20)
+    robot = Robot("NAO")
+
+    robot.say("Hello", gesture="greet")
+    robot.do("posture_stand")
+    robot.imitate("cat")
+    robot.walk(0.2)
+
+    last = until(theatre.robot_states, lambda state: state.base[0] == pytest.approx(0.2))[-1]
+    assert last.robot == "NAO" and len(last.joints) == 26 and last.posture == "StandInit"
+
+
+def test_a_walk_while_sitting_fails_with_what_to_do(theatre: Theatre) -> None:
+    theatre.ready(speed=50)
+    robot = Robot("NAO")
+    robot.do("posture_sit")
+
+    with pytest.raises(ActionFailed, match="NAO sits: it must stand before it can walk"):
+        robot.walk(0.3)
+
+
+def test_two_robots_act_at_once_and_each_hears_its_own_name(theatre: Theatre) -> None:
+    theatre.ready(robot="NAO", speed=20)
+    theatre.ready(robot="NAO2", speed=20)
+
+    theatre.ask("one", "say", "NAO2", text="I")
+    theatre.ask("both", "say", "NAO", "NAO2", text="We")
+    heard = until(theatre.results, both_done())
+
+    done = [(result.robot, result.id) for result in heard if result.state == "done"]
+    assert sorted(done) == [("NAO", "both"), ("NAO2", "both"), ("NAO2", "one")]
+
+
+def both_done() -> Callable[[ActionResult], bool]:
+    done = set()
+
+    def wanted(result: ActionResult) -> bool:
+        if result.id == "both" and result.state == "done":
+            done.add(result.robot)
+        return len(done) == 2
+
+    return wanted
+
+
+def test_the_same_request_sent_again_is_not_played_again(theatre: Theatre) -> None:
+    theatre.ready(speed=50)
+
+    theatre.ask("1", "turn", "NAO", degrees=90)
+    theatre.results_until("1", "done")
+    theatre.ask("1", "turn", "NAO", degrees=90)
+    again = theatre.results_until("1", "done")
+    theatre.ask("2", "look", "NAO", yaw_deg=10)
+    theatre.results_until("2", "done")
+
+    assert again == ["NAO 1 done"]
+    state = until(
+        theatre.robot_states, lambda s: s.joints["HeadYaw"] == pytest.approx(0.1745, abs=1e-3)
+    )
+    assert state[-1].base[2] == pytest.approx(1.5708, abs=1e-3)
+
+
+def test_stop_is_heard_at_once_in_the_middle_of_a_long_walk(theatre: Theatre) -> None:
+    theatre.ready()
+    theatre.ask("walk", "walk", "NAO", forward_m=5)
+    theatre.results_until("walk", "started")
+
+    asked_s = time.monotonic()
+    theatre.ask("stop", "stop", "NAO")
+    told = theatre.results_until("stop", "done")
+
+    assert told == ["NAO walk cancelled", "NAO stop done"]
+    assert time.monotonic() - asked_s < 0.5
+
+
+def test_its_state_comes_30_times_a_second_while_it_moves(theatre: Theatre) -> None:
+    theatre.ready()
+    theatre.ask("1", "say", "NAO", text="a" * 28)
+    theatre.results_until("1", "started")
+
+    states = until(theatre.robot_states, lambda state: state.saying != "")
+    states = until(theatre.robot_states, lambda state: state.saying == "")
+
+    assert 40 <= len(states) <= 64
+
+
+def test_it_ends_cleanly_and_cancels_what_it_was_doing(theatre: Theatre) -> None:
+    node = theatre.ready()
+    theatre.ask("1", "walk", "NAO", forward_m=5)
+    theatre.results_until("1", "started")
+
+    node.send_signal(signal.SIGTERM)
+
+    assert theatre.results_until("1", "cancelled")
+    assert node.wait(5) == 0
+
+
+def test_a_real_robot_that_does_not_answer_is_told_and_requests_fail_with_the_same_sentence(
+    theatre: Theatre, free_port: int
+) -> None:
+    theatre.start(driver="naoqi", address=f"127.0.0.1:{free_port}")
+
+    failed = theatre.node_state("connection_failed")
+
+    assert failed.description.startswith("NAO does not answer")
+    assert "[ ] Is NAO switched on?" in failed.description
+    with pytest.raises(ActionFailed, match=f"NAO does not answer.*127.0.0.1:{free_port}"):
+        Robot("NAO").say("Hello")
+
+
+def test_a_real_robot_that_answers_is_told_that_it_cannot_be_driven_yet(theatre: Theatre) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        theatre.start(driver="naoqi", address=f"127.0.0.1:{server.getsockname()[1]}")
+
+        failed = theatre.node_state("connection_failed")
+
+    assert "can drive the virtual NAO only" in failed.description
+
+
+def test_a_wrong_address_ends_the_node_with_a_sentence(theatre: Theatre) -> None:
+    node = theatre.start(driver="naoqi", address="http://nao")
+
+    _, words = node.communicate(timeout=10)
+
+    assert node.returncode == 1
+    assert words.startswith('"http://nao" is not the address of a robot.')
+    assert "Traceback" not in words
+
+
+def test_missing_resources_end_the_node_with_a_sentence(
+    theatre: Theatre, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("NEP_RESOURCES", os.fspath(tmp_path / "nowhere"))
+
+    _, words = theatre.start().communicate(timeout=10)
+
+    assert "resources folder" in words and "Traceback" not in words

@@ -1,0 +1,92 @@
+"""Mixtures, the curves they expect, and distances, against closed forms and known truth."""
+
+import numpy as np
+import pytest
+
+from nodes.perceptual.recognition.gmr import Curves
+from nodes.perceptual.recognition.mixture import Mixture, expected_curve, fit_mixture
+
+
+def test_one_gaussian_is_linear_regression():
+    chance = np.random.default_rng(0)
+    times = np.linspace(0, 1, 32)
+    curves = 2 * times[None, :, None] + 1 + chance.normal(0, 0.5, (40, 32, 1))
+
+    mean, covariance = expected_curve(fit_mixture(curves, components=1))
+
+    slope, start = np.polyfit(np.tile(times, 40), curves.ravel(), 1)
+    assert mean[:, 0] == pytest.approx(start + slope * times, abs=0.05)
+    assert np.sqrt(covariance.ravel()) == pytest.approx(0.5, abs=0.03)
+
+
+def test_the_covariance_follows_the_law_of_total_covariance():
+    apart = Mixture(
+        weight=np.array([0.5, 0.5]),
+        mean=np.array([[0.5, -1.0], [0.5, 1.0]]),
+        covariance=np.array([np.diag([0.1, 0.04])] * 2),
+    )
+
+    mean, covariance = expected_curve(apart)
+
+    assert mean == pytest.approx(0.0)
+    assert covariance == pytest.approx(0.04 + 1.0)
+
+
+def test_a_known_mixture_is_expected_as_sampling_finds_it():
+    chance = np.random.default_rng(1)
+    mixture = Mixture(
+        weight=np.array([0.3, 0.7]),
+        mean=np.array([[0.2, 0.0, 1.0], [0.8, 2.0, -1.0]]),
+        covariance=np.array(
+            [
+                [[0.02, 0.01, 0.0], [0.01, 0.1, 0.02], [0.0, 0.02, 0.2]],
+                [[0.03, 0.0, -0.02], [0.0, 0.3, 0.1], [-0.02, 0.1, 0.2]],
+            ]
+        ),
+    )
+    which = chance.choice(2, 400_000, p=mixture.weight)
+    drawn = np.empty((len(which), 3))
+    for number in (0, 1):
+        here = which == number
+        drawn[here] = chance.multivariate_normal(
+            mixture.mean[number], mixture.covariance[number], here.sum()
+        )
+
+    mean, covariance = expected_curve(mixture, points=5)
+
+    for at in (1, 2, 3):
+        near = drawn[np.abs(drawn[:, 0] - at / 4) < 0.01, 1:]
+        assert mean[at] == pytest.approx(near.mean(axis=0), abs=0.05)
+        assert covariance[at] == pytest.approx(np.cov(near.T), abs=0.06)
+
+
+def test_fitting_finds_a_curve_that_bends():
+    chance = np.random.default_rng(2)
+    shape = np.sin(np.linspace(0, 2 * np.pi, 32))
+    curves = shape[None, :, None] + chance.normal(0, 0.05, (10, 32, 1))
+
+    mean, _ = expected_curve(fit_mixture(curves))
+
+    assert np.abs(mean[:, 0] - shape).max() < 0.25
+    assert np.corrcoef(mean[:, 0], shape)[0, 1] > 0.99
+
+
+def test_the_distance_is_a_likelihood():
+    chance = np.random.default_rng(3)
+    covariance = np.array([[0.5, 0.2], [0.2, 0.4]])
+    lower = np.linalg.cholesky(covariance)
+    mean = chance.normal(size=(32, 2))
+    curves = Curves(
+        scale=np.array([2.0, 4.0]),
+        mean=mean[None],
+        whiten=np.tile(np.linalg.inv(lower), (1, 32, 1, 1)),
+        log_det=np.array([np.log(np.linalg.det(covariance))]),
+    )
+    signals = chance.normal(size=(3, 32, 2))
+
+    distances = curves.distances(signals)
+
+    away = signals / [2.0, 4.0] - mean
+    squares = np.einsum("nts,sr,ntr->nt", away, np.linalg.inv(covariance), away)
+    expected = squares.mean(axis=1) + np.log(np.linalg.det(covariance))
+    assert distances[:, 0] == pytest.approx(expected)
