@@ -54,7 +54,8 @@ class LaunchedNode:
         while not self.ready.wait(0.05):
             outcome = self.process.outcome if self.process else None
             if self.ended.is_set() and outcome is not None:
-                raise NodeStartError(f"{outcome}.", checklist=("Correct its settings.",))
+                steps = outcome.checklist or ("Correct its settings.",)
+                raise NodeStartError(f"{outcome}.", checklist=steps)
             if time.monotonic() > deadline:
                 raise NodeStartError(
                     f"{self.name} did not say that it is ready within {timeout_s:.0f} s.",

@@ -21,13 +21,14 @@ class Outcome:
     """How a node's process ended.
 
     ``code`` is its exit code, negative for a signal; ``asked`` whether the launcher stopped it;
-    ``last_words`` the last line that it wrote to its error output.
+    ``last_words`` the last line that it wrote, and ``checklist`` the steps that it wrote below.
     """
 
     node: str
     code: int
     asked: bool = False
     last_words: str = ""
+    checklist: tuple[str, ...] = ()
 
     @property
     def was_successful(self) -> bool:

@@ -23,6 +23,9 @@ log = logging.getLogger(__name__)
 
 ON_WINDOWS = sys.platform == "win32"
 STOP_SIGNAL: int = getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM)
+STEP = "  [ ] "
+"""What a step of a checklist begins with in a node's output."""
+
 KEPT_LINES = 200
 LOG_BYTES = 5_000_000
 """A node's log file is cut there; its last lines are kept in memory."""
@@ -131,15 +134,21 @@ class ChildProcess:
     def _await_end(self) -> None:
         code = self._popen.wait()
         self._reader.join(1.0)  # a grandchild may hold the pipe open
-        words = next((line for line in reversed(self._last_lines) if _says_something(line)), "")
-        self.outcome = Outcome(self.name, code, self._asked, words)
+        self.outcome = Outcome(self.name, code, self._asked, *last_words(self.last_lines))
         if self._popen.stdin is not None:
             self._popen.stdin.close()
         self._on_end(self.outcome)
 
 
-def _says_something(line: str) -> bool:
-    return bool(line.strip()) and not line.startswith("  [ ]")
+def last_words(lines: list[str]) -> tuple[str, tuple[str, ...]]:
+    """The last line that says something, and the steps of the checklist below it."""
+    steps: list[str] = []
+    for line in reversed(lines):
+        if line.startswith(STEP):
+            steps.insert(0, line.removeprefix(STEP))
+        elif line.strip():
+            return line.strip(), tuple(steps)
+    return "", tuple(steps)
 
 
 def program_command(*words: str) -> list[str]:

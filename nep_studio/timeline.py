@@ -23,6 +23,8 @@ class Timeline:
                 return None  # "ready" tells the same
             case m.NodeState(type="cognitive", event="stopped"):
                 return None  # the program's own state tells how it ended
+            case m.NodeState(event="crashed") if not message.description.startswith(message.node):
+                return None  # the session tells it too, and whether the node is started again
             case m.NodeState():
                 return message.node, _node_words(message)
             case m.HumanBehavior():

@@ -21,13 +21,13 @@ from nodes.perceptual.recognition.mixture import expected_curve, fit_mixture
 from nodes.perceptual.recognition.stream import Floats
 
 _SHRINK = 0.3
-_FLOOR = 0.15
+_FLOOR = 0.05
 _LEFT_OUT_PARTS = 3
 _CALIBRATION_WINDOWS = 5000
 _LIMITS = (-3.0, 12.0)
 _MOST_CURVES = 80  # to make an expected curve from
 _LEAST_SPREAD = 0.1
-_EVIDENCE = 6
+_EVIDENCE = 5
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,6 @@ class Gmr:
                 np.clip(far, *_LIMITS),
                 np.clip(rival, *_LIMITS),
                 np.clip(plain, *_LIMITS),
-                np.arcsinh(gestures - none),
                 np.clip(weak, 0.0, _LIMITS[1]),
                 np.ones_like(far),
             ],
@@ -180,8 +179,12 @@ def _fit_curve(curves: Floats) -> tuple[Floats, Floats, Floats]:
 
 
 def _left_out(examples: Examples, seed: int) -> tuple[Examples, Floats]:
-    """Marked takes and some other windows, and their distances (n, g + 1) to curves of others."""
-    others = np.flatnonzero(~examples.marked)
+    """Takes as marked and windows of no gesture, and their distances to curves made without them.
+
+    Distances (n, g + 1). Windows that hold a gesture only roughly are not among them: they would
+    make distance from the curve look harmless.
+    """
+    others = np.flatnonzero(examples.labels == len(examples.gestures))
     some = np.random.default_rng(seed).permutation(others)[:_CALIBRATION_WINDOWS]
     seen = examples.where(np.sort(np.concatenate([np.flatnonzero(examples.marked), some])))
     parts = min(_LEFT_OUT_PARTS, int(examples.folds.max()) + 1)

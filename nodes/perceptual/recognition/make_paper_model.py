@@ -17,14 +17,14 @@ from nodes.resources import resource_folder
 from nodes.sensory.arm.gestures import GESTURES
 from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
 
-_PEOPLE = range(0, 30)
+_PEOPLE = range(0, 24)
 _REPETITIONS = 2
 _EVERYDAY_PEOPLE = range(60, 68)
 _EVERYDAY_S = 60.0
 
 
 def make_paper_model() -> Model:
-    """Train on sessions and everyday movement of simulated people; takes about a minute."""
+    """Train on sessions and everyday movement of simulated people; takes a few minutes."""
     sessions = [simulate_session(person, sorted(GESTURES), _REPETITIONS) for person in _PEOPLE]
     everyday = [simulate_everyday(person, _EVERYDAY_S) for person in _EVERYDAY_PEOPLE]
     return train(sessions, everyday, tell=print)

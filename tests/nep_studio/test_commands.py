@@ -1,0 +1,224 @@
+"""The command line: what it prints, how it exits, and what it says of unusable input."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from nep_studio import paths
+from nep_studio.__main__ import main
+
+KARATE = paths.examples() / "karate_greeting.nep"
+EXAMPLES = sorted(paths.examples().glob("*.nep"))
+
+
+ZERO = {
+    "format": "nep-studio-project",
+    "version": 1,
+    "name": "Zero",
+    "variables": [{"id": "v1", "name": "times"}],
+    "blocks": [
+        {"id": "b1", "type": "event.started"},
+        {
+            "id": "b2",
+            "type": "variable.change",
+            "fields": {"variable": "v1", "amount": 1},
+            "inputs": {"amount": "b3"},
+        },
+        {
+            "id": "b3",
+            "type": "math.arithmetic",
+            "fields": {"a": 1, "b": 0, "operation": "divide"},
+        },
+    ],
+    "pages": {
+        "behaviour": [{"id": "s1", "x": 0, "y": 0, "body": ["b1", "b2"]}],
+        "robots": [],
+        "nodes": [],
+    },
+}
+
+
+def run(*words: str | Path, timeout_s: float = 60) -> subprocess.CompletedProcess[str]:
+    """``nep-studio`` in a process of its own."""
+    command = [sys.executable, "-m", "nep_studio", *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=timeout_s)
+
+
+def changed(tmp_path: Path, **places: object) -> Path:
+    """The karate example with other values at the top of its JSON."""
+    project = json.loads(KARATE.read_text(encoding="utf-8"))
+    project.update(places)
+    file = tmp_path / "changed.nep"
+    file.write_text(json.dumps(project), encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_has_nothing_to_correct_and_makes_python(
+    example: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(example)]) == 0
+    assert capsys.readouterr().out == "Nothing to correct.\n"
+    assert main(["code", str(example)]) == 0
+    compile(capsys.readouterr().out, example.name, "exec")
+    assert main(["code", "--nodes", str(example)]) == 0
+    compile(capsys.readouterr().out, example.name, "exec")
+
+
+def test_without_a_window_the_first_words_name_the_example_to_run() -> None:
+    result = run()
+
+    assert result.returncode == 2
+    assert "no window yet" in result.stderr
+    assert "karate_greeting.nep" in result.stderr
+
+
+def test_a_word_that_is_no_job_is_told_with_those_that_are() -> None:
+    result = run("fly")
+
+    assert result.returncode == 2
+    assert '"fly" is not something that nep-studio can do' in result.stderr
+    assert "nep-studio run FILE.nep" in result.stderr
+
+
+BAD_FILES = {
+    "truncated": KARATE.read_bytes()[:700],
+    "empty": b"",
+    "not JSON": b"Dear NAO, please say hello.",
+    "a picture": b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR",
+    "another JSON": b'{"hello": "world"}',
+    "deeply nested": b"[" * 200_000,
+    "too large": b" " * 21_000_000,
+    "a number too large": KARATE.read_bytes().replace(b"0.2", b"1e999", 1),
+}
+
+
+@pytest.mark.parametrize("kind", BAD_FILES)
+@pytest.mark.parametrize("job", ["run", "code", "check"])
+def test_an_unusable_project_is_told_without_a_traceback(
+    tmp_path: Path, kind: str, job: str
+) -> None:
+    file = tmp_path / "mine.nep"
+    file.write_bytes(BAD_FILES[kind])
+
+    result = run(job, file)
+
+    assert result.returncode == 2
+    assert "mine.nep" in result.stderr
+    assert "[ ]" in result.stderr
+    assert "Traceback" not in result.stderr
+    assert file.read_bytes() == BAD_FILES[kind]
+
+
+def test_a_project_that_is_not_there_is_told(tmp_path: Path) -> None:
+    result = run("run", tmp_path / "nothing.nep")
+
+    assert result.returncode == 2
+    assert "nothing.nep" in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_a_project_of_a_newer_version_is_told(tmp_path: Path) -> None:
+    result = run("check", changed(tmp_path, version=999))
+
+    assert result.returncode == 2
+    assert "newer" in result.stderr
+
+
+def test_an_unknown_block_is_an_error_of_the_check_and_keeps_the_program_from_running(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "unknown.nep"
+    file.write_text(KARATE.read_text().replace('"robot.walk"', '"robot.fly"'), encoding="utf-8")
+
+    for job in ("check", "run"):
+        result = run(job, file)
+        assert result.returncode == (1 if job == "check" else 2)
+        assert "robot.fly" in result.stdout + result.stderr
+        assert "Traceback" not in result.stderr
+
+
+def test_a_wrong_robot_address_is_told() -> None:
+    result = run("run", KARATE, "--robot", "192.168.1.10")
+
+    assert result.returncode == 2
+    assert "--robot NAO=192.168.1.10" in result.stderr
+
+
+def test_a_recording_that_cannot_be_used_is_told(tmp_path: Path) -> None:
+    recording = tmp_path / "mine.csv"
+    recording.write_text("a,b\n1,2\n", encoding="utf-8")
+
+    result = run("run", KARATE, "--recording", recording)
+
+    assert result.returncode == 1
+    assert "mine.csv" in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_a_robot_that_does_not_answer_is_told_with_its_block(tmp_path: Path) -> None:
+    result = run("run", KARATE, "--robot", "NAO=127.0.0.1:9")
+
+    assert result.returncode == 1
+    assert "127.0.0.1:9" in result.stderr
+    assert "NAO takes the posture" in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_a_program_that_divides_by_zero_fails_with_its_line_and_block(tmp_path: Path) -> None:
+    file = tmp_path / "zero.nep"
+    file.write_text(json.dumps(ZERO), encoding="utf-8")
+
+    result = run("run", file)
+
+    assert result.returncode == 1
+    assert "A number was divided by zero." in result.stderr
+    assert "change times by 1 ÷ 0" in result.stderr
+    assert "(line " in result.stderr
+
+
+def test_a_second_run_beside_the_first_takes_another_master(tmp_path: Path) -> None:
+    from tests.stories.playing import node_is, playing
+
+    with playing(KARATE) as first, playing(KARATE) as second:
+        first.wait_for(node_is("program", "ready"))
+        second.wait_for(node_is("program", "ready"))
+
+
+def test_stopping_after_some_seconds_is_no_failure() -> None:
+    result = run("run", paths.examples() / "five_gestures.nep", "--seconds", "1")
+
+    assert result.returncode == 0
+    assert "Everything is stopped" in result.stdout
+
+
+def test_exec_runs_a_program_made_by_hand(
+    tmp_path: Path, master: object, network: object
+) -> None:
+    program = tmp_path / "mine.py"
+    program.write_text("from nep_core import wait\nwait(0.01)\nprint('done')\n", encoding="utf-8")
+
+    result = run("exec", program)
+
+    assert (result.returncode, result.stdout) == (0, "done\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [("1 / 0", "divided by zero"), ("x = (", "not Python"), ("print(nothing)", '"nothing"')],
+)
+def test_exec_tells_in_words_what_went_wrong(
+    tmp_path: Path, master: object, text: str, words: str
+) -> None:
+    program = tmp_path / "mine.py"
+    program.write_text(text, encoding="utf-8")
+
+    result = run("exec", program)
+
+    assert result.returncode == 1
+    assert words in result.stderr

@@ -1,0 +1,90 @@
+"""The paper's own test: a karate gesture, and NAO says "Impressive!"."""
+
+from __future__ import annotations
+
+import sys
+
+import psutil
+import pytest
+
+from nep_studio import paths
+from tests.stories.playing import Play, kill, node_is, playing, says
+
+KARATE = paths.examples() / "karate_greeting.nep"
+
+
+def test_a_karate_gesture_makes_nao_say_impressive_and_play_its_sequence() -> None:
+    with playing(KARATE) as play:
+        assert play.finish() == 0, play.errors()
+
+    made = next(e for e in play.events if "makes the gesture karate" in e.get("description", ""))
+    seen = next(e for e in play.events if e["topic"] == "/human_behavior")
+    assert made["time"] < seen["time"]
+    assert seen["human_state"] == "gesture_karate"
+    assert play.rules() == ["gesture_karate"]
+    assert play.said() == [
+        "Show me a karate chop!",
+        "Impressive!",
+        "I can do that, too.",
+        "Thank you for the lesson, master.",
+        "Now I have to rest.",
+    ]
+    assert [e["event"] for e in play.events if e["topic"] == "/program_state"][-1] == "finished"
+    assert not [e for e in play.events if e.get("event") in ("crashed", "warning")]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
+@pytest.mark.parametrize("node", ["karate", "watch"])
+def test_a_killed_node_is_told_and_started_again_and_the_story_goes_on(node: str) -> None:
+    with playing(KARATE) as play:
+        ready = play.wait_for(node_is(node, "ready"))
+        play.wait_for(node_is("program", "ready"))
+
+        kill(ready["pid"])
+
+        crashed = play.wait_for(node_is(node, "crashed"))
+        assert crashed["description"] == f"{node} was killed; it is started again"
+        play.wait_for(node_is(node, "ready"))
+        assert play.finish() == 0, play.errors()
+    assert "Impressive!" in play.said()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
+def test_a_robot_killed_while_it_speaks_says_it_again_when_it_is_back() -> None:
+    with playing(KARATE) as play:
+        nao = play.wait_for(node_is("NAO", "ready"))
+        play.wait_for(says("Impressive!"))
+        play.wait_for(lambda e: e["topic"] == "/action_result" and e["state"] == "started")
+
+        kill(nao["pid"])
+
+        play.wait_for(node_is("NAO", "crashed"))
+        play.wait_for(node_is("NAO", "ready"))
+        assert play.finish() == 0, play.errors()
+    assert play.said()[-1] == "Now I have to rest."
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
+def test_the_talk_goes_on_without_the_master_and_newcomers_join_the_next() -> None:
+    with playing(KARATE) as play:
+        play.wait_for(node_is("watch", "ready"))
+        master = master_of(play)
+
+        kill(master.pid)
+
+        assert "killed" in play.wait_for(node_is("master", "crashed"))["description"]
+        kill(play_pid(play, "karate"))
+        play.wait_for(node_is("karate", "ready"))
+        assert play.finish() == 0, play.errors()
+    assert "Impressive!" in play.said()
+
+
+def master_of(play: Play) -> psutil.Process:
+    """The master's process, a child of the session."""
+    children = psutil.Process(play.process.pid).children()
+    return next(child for child in children if "master" in child.cmdline())
+
+
+def play_pid(play: Play, node: str) -> int:
+    """The process id that a node told last."""
+    return next(e["pid"] for e in reversed(play.events) if e.get("node") == node)
