@@ -1,4 +1,4 @@
-"""The sending process of the publish and subscribe benchmark: ``WHO KIND SIZE ENDPOINT``."""
+"""The sending process of the publish and subscribe benchmark: ``KIND SIZE OURS THEIRS``."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ import zmq
 from nep_core.network import DirectNetwork
 from nep_core.pubsub import Publisher
 
-COUNTS = {"flood": 150_000, "pings": 1_200}
+FLOOD = 150_000
+PINGS = 2_000
 PING_PAUSE_S = 0.001
-LAST = "last"
 CONNECTED_S = 0.3
 
 
@@ -25,35 +25,42 @@ class Text(msgspec.Struct):
     text: str
 
 
-def talk(kind: str, send: Callable[[float], None]) -> None:
-    """Send as fast as it goes, or one message a millisecond."""
-    for _ in range(COUNTS[kind]):
-        send(time.monotonic())
-        if kind == "pings":
-            time.sleep(PING_PAUSE_S)
-
-
-def talk_raw(kind: str, size: int, endpoint: str) -> None:
-    """Raw pyzmq: PUB, one frame of bytes that begins with the time."""
-    with zmq.Context() as context, context.socket(zmq.PUB) as socket:
+def main(kind: str, size: int, ours: str, theirs: str) -> None:
+    """Talk to the two endpoints: "raw" or "ours" in a flood, or "pings" by turns."""
+    network = DirectNetwork(ours, binds="subscriber", node="talker", high_water_mark=0)
+    with zmq.Context() as context, context.socket(zmq.PUB) as socket, network:
         socket.sndhwm = 0
-        socket.connect(endpoint)
-        time.sleep(CONNECTED_S)  # raw PUB and SUB cannot tell when they are connected
-        filling = b"x" * (size - 20)
-        talk(kind, lambda now_s: socket.send(b"%20.9f%b" % (now_s, filling)))
-        socket.send(LAST.encode())
-
-
-def talk_ours(kind: str, size: int, endpoint: str) -> None:
-    """A Publisher of JSON messages of the same size."""
-    filling = "x" * (size - len(msgspec.json.encode(Text(12345.123456789, ""))))
-    network = DirectNetwork(endpoint, binds="subscriber", node="talker", high_water_mark=0)
-    with network:
+        socket.connect(theirs)
         publisher = Publisher("/bench", network=network, wait_for_subscribers=1)
-        talk(kind, lambda now_s: publisher.send(Text(now_s, filling)))
-        publisher.send(Text(0.0, LAST))
+        time.sleep(CONNECTED_S)  # raw PUB and SUB cannot tell when they are connected
+        raw_filling = b"x" * (size - 20)
+        filling = "x" * (size - len(msgspec.json.encode(Text(12345.123456789, ""))))
+
+        def send_raw(now_s: float) -> None:
+            socket.send(b"%20.9f%b" % (now_s, raw_filling))
+
+        def send_ours(now_s: float) -> None:
+            publisher.send(Text(now_s, filling))
+
+        if kind == "pings":
+            ping(send_raw, send_ours)
+        else:
+            flood(send_raw if kind == "raw" else send_ours)
+
+
+def flood(send: Callable[[float], None]) -> None:
+    """Send as fast as it goes."""
+    for _ in range(FLOOD):
+        send(time.monotonic())
+
+
+def ping(*ways: Callable[[float], None]) -> None:
+    """Send one message a millisecond, by turns."""
+    for _ in range(PINGS):
+        for send in ways:
+            time.sleep(PING_PAUSE_S)
+            send(time.monotonic())
 
 
 if __name__ == "__main__":
-    who, kind, size, endpoint = sys.argv[1:]
-    {"raw": talk_raw, "ours": talk_ours}[who](kind, int(size), endpoint)
+    main(sys.argv[1], int(sys.argv[2]), sys.argv[3], sys.argv[4])

@@ -94,7 +94,8 @@ def _real_rows() -> Iterator[Row]:
             totals[method] += tally
             false[method] += sum(len(triggers(model, one, method)) for one in everyday)
             recall = f"real person {person}, {method}: recognised"
-            yield _row(recall, tally.recall, "of gestures", at_least=0.85)
+            goal = 0.85 if method == METHODS[0] else None  # for each person with the default method
+            yield _row(recall, tally.recall, "of gestures", at_least=goal)
     for method in METHODS:
         yield from _tally_rows(f"real people, {method}", totals[method], reference=PAPER_F1)
         a_minute = false[method] / (minutes * len(people))

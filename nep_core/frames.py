@@ -56,23 +56,11 @@ def subscription(topic: str) -> bytes:
     return topic.encode() + NUL
 
 
-def frame_start(topic: str, node: str) -> bytes:
-    """The part of a publisher's frames that stays the same: topic, NUL, ``[node,``."""
-    return subscription(topic) + b"[" + to_json(node) + b","
-
-
-def join(start: bytes, sequence: int, time_ns: int, encoding: bytes, payload: bytes) -> bytes:
-    """A frame from its start (see frame_start), header values and payload(s)."""
-    return b'%b%d,%d,"%b"]\0%b' % (start, sequence, time_ns, encoding, payload)
-
-
-def split(frame: bytes) -> tuple[bytes, list[bytes]]:
-    """A frame's header and payloads, all still encoded; raises BadMessage when it is not ours."""
-    parts = frame.split(NUL)
-    if len(parts) < 3:
-        raise BadMessage("A frame has no header: its sender does not speak NEP.")
-    head = parts[1]
-    return head, parts[2:] if head.endswith(JSON_HEAD) else [NUL.join(parts[2:])]
+def join(
+    start: bytes, node: str, sequence: int, time_ns: int, encoding: Encoding, payload: bytes
+) -> bytes:
+    """A frame from its start (the subscription to its topic), header values and payload(s)."""
+    return start + to_json((node, sequence, time_ns, encoding)) + NUL + payload
 
 
 def read_header(head: bytes) -> Header:

@@ -87,10 +87,8 @@ class Inbox:
                     return None
                 left_s = None if deadline is None else max(0.0, deadline - time.monotonic())
                 frame = self._receive(left_s)
-            if frame is not None:
-                return frame
-            if left_s == 0.0:
-                return None
+                if frame is not None or left_s == 0.0:
+                    return frame
 
     def tend(self) -> None:
         """Keep the newest messages while nobody reads, or wake the reader (the I/O thread)."""

@@ -14,13 +14,13 @@ from nep_core.default_network import default_network
 from nep_core.errors import BadMessage
 from nep_core.frames import (
     JSON_HEAD,
+    NUL,
     Encoding,
     Header,
     Sendable,
     check_topic,
     decoders,
     read_header,
-    split,
 )
 from nep_core.messages import LATCHED
 from nep_core.network import HANDSHAKE_S, Network
@@ -104,7 +104,7 @@ class Subscriber(Generic[T]):
         self._lost = 0
         self._header: Header | None = None
         self._head = b""
-        self._messages = 0
+        self._messages = 1
         self._decoders = decoders(kind)
         self._decode = self._from_json = self._decoders["json"]
         self._payloads: deque[bytes] = deque()
@@ -131,9 +131,21 @@ class Subscriber(Generic[T]):
     def receive(self, timeout_s: float | None = None) -> T | None:
         """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
         while True:
-            payload = self._payloads.popleft() if self._payloads else self._next(timeout_s)
-            if payload is None:
-                return None
+            if self._payloads:
+                payload = self._payloads.popleft()
+            else:
+                if self._head:
+                    self._look_at_head()  # of the frame before: it must not delay this one
+                frame = self._inbox.take(timeout_s)
+                if frame is None:
+                    return None
+                parts = frame.split(NUL)
+                if len(parts) == 3 and parts[1].endswith(JSON_HEAD):
+                    _, self._head, payload = parts
+                    self._decode = self._from_json
+                else:
+                    self._unpack(parts)
+                    continue
             try:
                 return self._decode(payload)  # type: ignore[no-any-return]
             except (msgspec.MsgspecError, UnicodeDecodeError) as error:
@@ -162,39 +174,31 @@ class Subscriber(Generic[T]):
     def _wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
         return self._inbox.wait_for(instances, count, timeout_s)
 
-    def _next(self, timeout_s: float | None) -> bytes | None:
-        """The first payload of the next frame that can be read; None: nothing came."""
-        self._look_at_head()  # of the frame before: it must not delay this one
-        while (data := self._inbox.take(timeout_s)) is not None:
-            try:
-                self._head, payloads = split(data)
-            except BadMessage as error:
-                log.warning("%s: %s", self.topic, error)
-                continue
-            self._messages = len(payloads)
-            if self._head.endswith(JSON_HEAD):
-                self._decode = self._from_json
-            elif not self._choose_decoder():
-                continue
-            if self._messages > 1:
-                self._payloads.extend(payloads[1:])
-            return payloads[0]
-        return None
-
-    def _choose_decoder(self) -> bool:
+    def _unpack(self, parts: list[bytes]) -> None:
+        """Take in a frame of several messages, or of another encoding; skip what cannot be read."""
+        if len(parts) < 3:
+            log.warning("%s: a frame has no header: its sender does not speak NEP", self.topic)
+            return
+        self._head = parts[1]
+        if parts[1].endswith(JSON_HEAD):
+            self._decode = self._from_json
+            self._payloads.extend(parts[2:])
+            self._messages = len(self._payloads)
+            return
         self._look_at_head()
         decode = self._decoders.get(self._header.encoding) if self._header else None
         if decode is None:
             log.warning("%s: a message of %s is not JSON", self.topic, self._sender())
-            return False
+            return
         self._decode = decode
-        return True
+        self._payloads.append(NUL.join(parts[2:]))
 
     def _look_at_head(self) -> None:
         """Read the header of the last frame and count what is missing before it."""
         if not self._head:
             return
         head, self._head = self._head, b""
+        messages, self._messages = self._messages, 1
         try:
             self._header = header = read_header(head)
         except BadMessage as error:
@@ -203,7 +207,7 @@ class Subscriber(Generic[T]):
         last = self._last_sequence.get(header.node, 0)
         if 0 < last < header.sequence - 1:
             self._lost += header.sequence - last - 1
-        self._last_sequence[header.node] = header.sequence + self._messages - 1
+        self._last_sequence[header.node] = header.sequence + messages - 1
 
     def _sender(self) -> str:
         return header.node if (header := self.header) else "somebody"

@@ -15,13 +15,14 @@ from zmq.backend import Socket as BackendSocket
 
 from nep_core.frames import (
     CANNOT_ENCODE,
+    NUL,
     Encoding,
     Sendable,
     encode,
-    frame_start,
     join,
     natural_encoding,
     not_encodable,
+    subscription,
     to_json,
 )
 
@@ -31,6 +32,8 @@ _send = BackendSocket.send
 
 FLOOD = 32
 FLOOD_NS = 1_000_000
+MILLISECOND_BITS = 20
+"""Nanoseconds without their last 20 bits count windows of about a millisecond."""
 SHARED_FRAME_BYTES = 128_000
 
 
@@ -51,10 +54,11 @@ class Stream:
         self._is_json = encoding in (None, "json")
         self._socket = socket
         self._lock = lock
-        self._start = frame_start(topic, node)
+        self._node = node
+        self._start = subscription(topic)
         self._hurry = hurry
         self._sequence = 0
-        self._window_ns = 0
+        self._window = 0
         self._in_window = 0
         self._waiting: list[bytes] = []
         self._room_bytes = SHARED_FRAME_BYTES
@@ -75,13 +79,13 @@ class Stream:
         with self._lock:
             if not self._waiting:
                 now_ns = _now_ns()
-                if not 0 <= now_ns - self._window_ns < FLOOD_NS:
-                    self._window_ns, self._in_window = now_ns, 0
+                if now_ns >> MILLISECOND_BITS != self._window:
+                    self._window, self._in_window = now_ns >> MILLISECOND_BITS, 0
                 self._in_window += 1
                 if self._in_window <= FLOOD:
                     self._sequence += 1
-                    head = (self._start, self._sequence, now_ns, payload)
-                    _send(self._socket, b'%b%d,%d,"json"]\0%b' % head)
+                    head = to_json((self._node, self._sequence, now_ns, "json"))
+                    _send(self._socket, self._start + head + NUL + payload)
                     return
                 self._begin_to_wait(now_ns)
             self._waiting.append(payload)
@@ -101,7 +105,7 @@ class Stream:
         with self._lock:
             self._flush()
             self._sequence += 1
-            frame = join(self._start, self._sequence, _now_ns(), encoding.encode(), payload)
+            frame = join(self._start, self._node, self._sequence, _now_ns(), encoding, payload)
             _send(self._socket, frame)
             if latch:
                 self.latched = frame
@@ -112,12 +116,13 @@ class Stream:
         self._hurry()  # the I/O thread sends it if no more messages come
 
     def _flush(self) -> None:
-        if self._waiting:
-            waiting, self._waiting = self._waiting, []
-            since_ns, payloads = self._waiting_since_ns, b"\0".join(waiting)
-            _send(self._socket, join(self._start, self._sequence + 1, since_ns, b"json", payloads))
-            self._sequence += len(waiting)
-            self._window_ns, self._in_window = (
-                _now_ns(),
-                FLOOD,
-            )  # until a quiet moment
+        if not self._waiting:
+            return
+        waiting, self._waiting = self._waiting, []
+        first, since_ns = self._sequence + 1, self._waiting_since_ns
+        payloads = NUL.join(waiting)
+        frame = join(self._start, self._node, first, since_ns, "json", payloads)
+        _send(self._socket, frame)
+        self._sequence += len(waiting)
+        # It stays a flood until a quiet moment.
+        self._window, self._in_window = _now_ns() >> MILLISECOND_BITS, FLOOD

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import msgspec
 import pytest
 from hypothesis import given
@@ -9,17 +11,19 @@ from hypothesis import strategies as st
 
 from nep_core.errors import BadMessage, NetworkError
 from nep_core.frames import (
+    NUL,
+    Header,
     check_topic,
     decoders,
     encode,
-    frame_start,
     join,
     natural_encoding,
     read_header,
-    split,
     subscription,
 )
 from nep_core.messages import HumanBehavior
+from nep_core.network import DirectNetwork
+from nep_core.pubsub import Subscriber
 
 json_values = st.recursive(
     st.none()
@@ -33,45 +37,90 @@ json_values = st.recursive(
 messages = st.dictionaries(st.text(), json_values) | st.text() | st.binary()
 
 
+def taken_apart(frame: bytes) -> tuple[Header, bytes]:
+    """The header of a frame, and its payload or payloads."""
+    _, head, payload = frame.split(NUL, 2)
+    return read_header(head), payload
+
+
 @given(messages)
 def test_what_is_sent_is_what_is_read(message: object) -> None:
     encoding = natural_encoding(message)
 
-    head, payloads = split(
-        join(frame_start("/t", "näme"), 7, 15, encoding.encode(), encode(message, encoding))
-    )
+    frame = join(subscription("/t"), "näme", 7, 15, encoding, encode(message, encoding))
 
-    header = read_header(head)
-    assert header.node == "näme"
-    assert header.sequence == 7
-    assert header.time_ns == 15
-    assert [decoders(None)[encoding](payload) for payload in payloads] == [message]
+    header, payload = taken_apart(frame)
+    assert header == Header("näme", 7, 15, encoding)
+    assert decoders(None)[encoding](payload) == message
 
 
 @given(st.dictionaries(st.text(), json_values))
 def test_msgpack_carries_the_same(message: dict[str, object]) -> None:
-    payload = encode(message, "msgpack")
-
-    _, payloads = split(join(frame_start("/t", "n"), 1, 0, b"msgpack", payload))
-
-    assert decoders(None)["msgpack"](payloads[0]) == message
+    assert decoders(None)["msgpack"](encode(message, "msgpack")) == message
 
 
-@given(st.lists(st.dictionaries(st.text(), json_values), min_size=1, max_size=20))
-def test_several_json_messages_share_a_frame(several: list[dict[str, object]]) -> None:
-    encoded = [encode(message, "json") for message in several]
-
-    _, payloads = split(join(frame_start("/t", "n"), 1, 0, b"json", b"\0".join(encoded)))
-
-    assert [decoders(None)["json"](payload) for payload in payloads] == several
+@given(st.dictionaries(st.text(), json_values))
+def test_json_holds_no_nul_so_that_messages_can_share_a_frame(message: dict[str, object]) -> None:
+    assert NUL not in encode(message, "json")
 
 
 @given(st.binary())
-def test_any_bytes_are_read_or_refused(data: bytes) -> None:
+def test_any_header_is_read_or_refused(data: bytes) -> None:
     try:
-        read_header(split(data)[0])
+        read_header(data)
     except BadMessage as error:
         assert error.sentence.endswith(".")
+
+
+class Frames:
+    """An inbox with these frames."""
+
+    def __init__(self, *frames: bytes) -> None:
+        self._frames = list(frames)
+
+    def take(self, timeout_s: float | None) -> bytes | None:
+        return self._frames.pop(0) if self._frames else None
+
+
+@pytest.fixture(scope="module")
+def subscriber() -> Iterator[Subscriber[object]]:
+    with DirectNetwork("tcp://127.0.0.1:1", node="reader") as network:
+        yield Subscriber("/t", network=network)
+
+
+@given(frame=st.binary() | st.lists(st.binary()).map(NUL.join))
+def test_a_subscriber_reads_or_skips_any_frame(
+    subscriber: Subscriber[object], frame: bytes
+) -> None:
+    good = join(subscription("/t"), "n", 1, 0, "json", b'"the end"')
+    subscriber._inbox = Frames(frame, good)  # type: ignore[assignment]
+
+    received = [subscriber.receive() for _ in range(frame.count(NUL) + 2)]
+
+    assert "the end" in received
+
+
+@given(st.lists(st.dictionaries(st.text(), json_values), min_size=1, max_size=20))
+def test_a_subscriber_reads_all_messages_of_a_frame(
+    subscriber: Subscriber[object], several: list[dict[str, object]]
+) -> None:
+    payloads = NUL.join(encode(message, "json") for message in several)
+    frame = join(subscription("/t"), "n", 1, 0, "json", payloads)
+    subscriber._inbox = Frames(frame)  # type: ignore[assignment]
+
+    assert subscriber.pending() == several
+
+
+def test_a_gap_in_the_sequence_is_counted_as_lost(subscriber: Subscriber[object]) -> None:
+    def frame(first: int, *payloads: bytes) -> bytes:
+        return join(subscription("/t"), "counter", first, 0, "json", NUL.join(payloads))
+
+    lost_before = subscriber.lost
+    frames = (frame(5, b"5", b"6"), frame(7, b"7"), frame(10, b"10"), frame(1, b"1"))
+    subscriber._inbox = Frames(*frames)  # type: ignore[assignment]
+
+    assert subscriber.pending() == [5, 6, 7, 10, 1]
+    assert subscriber.lost - lost_before == 2
 
 
 def test_a_topic_is_no_prefix_of_another() -> None:

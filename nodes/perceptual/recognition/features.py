@@ -40,8 +40,8 @@ class Channels:
     @property
     def in_words(self) -> str:
         """For people: what the sensor must have."""
-        acceleration = "acceleration" if self.gravity else "acceleration without gravity"
-        return f"rotation and {acceleration}" if self.gyroscope else acceleration
+        acceleration = "acceleration with gravity" if self.gravity else "acceleration"
+        return f"{acceleration} and rotation" if self.gyroscope else acceleration
 
 
 @dataclass(frozen=True)

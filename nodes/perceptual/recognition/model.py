@@ -90,9 +90,10 @@ class Model:
             if found.channels.gravity <= gravity_included and found.channels.gyroscope <= gyroscope
         ]
         if not usable:
-            needed = " or ".join(found.channels.in_words for found in of_method)
+            least = min(of_method, key=lambda found: found.channels.signals)
             raise RecordingError(
-                f"This gesture model needs {needed}, and the sensor does not send that.",
+                f"This gesture model needs {least.channels.in_words},"
+                " and the sensor does not send that.",
                 checklist=(
                     "Use the kind of watch or phone that the gestures were recorded with.",
                     "Or record the gestures with this sensor and train again.",

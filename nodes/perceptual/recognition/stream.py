@@ -15,8 +15,8 @@ MAX_GAP_S = 0.5
 """A longer silence ends the movement: nothing is made up to fill it."""
 _CLOCK_RESET_S = 1.0
 _LATEST_S = 1e10  # later, two samples could have the same time; 1e10 s are 300 years
-_ACC_LIMIT_M_S2 = 320.0  # twice what the sensors of watches and phones can measure
-_GYR_LIMIT_RAD_S = 80.0
+# m/s² and rad/s: twice what the sensors of watches and phones can measure
+_LIMITS = np.array([320.0, 320.0, 320.0, 80.0, 80.0, 80.0])
 
 
 @dataclass(frozen=True)
@@ -54,12 +54,15 @@ class EvenStream:
         times_s, rows = times_s[usable], _within_limits(rows[usable])
         if not len(times_s):
             return
-        steps_s = np.diff(times_s, prepend=self._seen_s)
+        steps_s = times_s - np.concatenate([[self._seen_s], times_s[:-1]])
         self._seen_s = float(times_s[-1])
         breaks = np.flatnonzero(~((steps_s >= -_CLOCK_RESET_S) & (steps_s <= MAX_GAP_S)))
-        for part in np.split(np.arange(len(times_s)), breaks):
-            if len(part):
-                yield from self._resample(times_s[part], rows[part], part[0] in breaks)
+        begins = 0
+        for ends in (*breaks.tolist(), len(times_s)):
+            if ends > begins:
+                part = slice(begins, ends)
+                yield from self._resample(times_s[part], rows[part], begins in breaks)
+            begins = ends
 
     def _resample(self, t: Floats, values: Floats, starts: bool) -> Iterator[Stretch]:
         if starts:
@@ -75,8 +78,7 @@ class EvenStream:
         follows = self._made > 0
         self._made = max(self._made, last + 1)
         if len(even_s):
-            columns = [np.interp(even_s, t, column) for column in values.T]
-            yield Stretch(even_s, np.stack(columns, axis=1), follows)
+            yield Stretch(even_s, _interpolated(even_s, t, values), follows)
 
 
 class Memory:
@@ -109,6 +111,17 @@ class Memory:
         return self._rows[self._end - len(self) : self._end]
 
 
+def _interpolated(at: Floats, t: Floats, values: Floats) -> Floats:
+    """Values (n, columns) at rising times ``t`` (n,) as values at other times between them."""
+    if len(t) == 1:
+        return np.repeat(values, len(at), axis=0)
+    before = np.clip(np.searchsorted(t, at, side="right") - 1, 0, len(t) - 2)
+    part = np.clip((at - t[before]) / (t[before + 1] - t[before]), 0.0, 1.0)[:, None]
+    between: Floats = values[before] * (1 - part) + values[before + 1] * part
+    return between
+
+
 def _within_limits(values: Floats) -> Floats:
-    limits = np.array([_ACC_LIMIT_M_S2] * 3 + [_GYR_LIMIT_RAD_S] * (values.shape[1] - 3))
-    return np.clip(values, -limits, limits)
+    limits = _LIMITS[: values.shape[1]]
+    within: Floats = np.minimum(np.maximum(values, -limits), limits)
+    return within

@@ -42,15 +42,17 @@ class Trees:
 
         The same numbers as scikit-learn's ``predict_proba``.
         """
-        rows = np.repeat(np.arange(len(features)), len(self.roots))
+        values = np.ascontiguousarray(features).ravel()
+        first = np.repeat(np.arange(len(features)) * features.shape[1], len(self.roots))
         nodes = np.tile(self.roots, len(features))
-        on_the_way = np.flatnonzero(self.right[nodes] != nodes)
+        on_the_way = np.flatnonzero(self.right.take(nodes) != nodes)
         while len(on_the_way):
-            here = nodes[on_the_way]
-            above = features[rows[on_the_way], self.feature[here]] > self.threshold[here]
-            below = np.where(above, self.right[here], here + 1)
+            here = nodes.take(on_the_way)
+            asked = values.take(first.take(on_the_way) + self.feature.take(here))
+            above = asked > self.threshold.take(here)
+            below = np.where(above, self.right.take(here), here + 1)
             nodes[on_the_way] = below
-            on_the_way = on_the_way[self.right[below] != below]
+            on_the_way = on_the_way[self.right.take(below) != below]
         votes = self.votes[self.leaf[nodes]].reshape(len(features), len(self.roots), -1)
         shares: Floats = votes.mean(axis=1, dtype=np.float64)
         return shares

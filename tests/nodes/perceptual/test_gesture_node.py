@@ -153,7 +153,7 @@ def test_a_sensor_that_lacks_something_is_told_and_another_is_still_heard(progra
     program.state("ready")
 
     program.send(stranger, source="phone", gravity_included=False)
-    assert "needs rotation and acceleration" in program.state("warning").description
+    assert "needs acceleration with gravity" in program.state("warning").description
     program.send(stranger, source="torn", t=[0.0])
     assert "torn sends times and samples" in program.state("warning").description
     program.send(stranger, gyr=None)

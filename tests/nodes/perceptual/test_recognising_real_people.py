@@ -11,13 +11,12 @@ from nodes.recordings import read_recordings
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize("method", ["trees", "gmr"])
-def test_the_right_trigger_fires_for_most_gestures_and_hardly_ever_else(shared_data, method):
+def test_the_right_trigger_fires_for_most_gestures_and_hardly_ever_else(shared_data):
     sessions = [one for one in read_recordings(shared_data / "uhh_gestures") if one.person == "j"]
     parts = [first_takes(one, 5) for one in sessions]
-    model = train([first for first, _ in parts], simulated_everyday()[:3], [method])
+    model = train([first for first, _ in parts], simulated_everyday(), ["trees"])
 
-    tally = spot_all(model, [rest for _, rest in parts], method)
+    tally = spot_all(model, [rest for _, rest in parts], "trees")
 
     assert tally.made == 50
     assert tally.recall >= 0.85
@@ -25,4 +24,4 @@ def test_the_right_trigger_fires_for_most_gestures_and_hardly_ever_else(shared_d
     everyday = [
         replace(one, labels=None) for one in read_recordings(shared_data / "everyday_watch")
     ]
-    assert sum(len(triggers(model, one, method)) for one in everyday) <= 1
+    assert sum(len(triggers(model, one, "trees")) for one in everyday) <= 1
