@@ -22,6 +22,9 @@ from nep_core.pubsub import Subscriber
 
 log = logging.getLogger(__name__)
 
+SETTINGS = {"PYTHONUNBUFFERED": "1", "PYTHONUTF8": "1"}
+"""What every node finds in its environment, beside the master's endpoint."""
+
 MOST_RESTARTS = 5
 FIRST_PAUSE_S = 0.25
 HEALTHY_S = 10.0
@@ -85,12 +88,7 @@ class Launcher:
         self.catalog = NodeCatalog(folders or node_folders())
         self.logs = logs or log_folder()
         self.nodes: dict[str, LaunchedNode] = {}
-        self._environment = {
-            **os.environ,
-            MASTER_VARIABLE: master or master_endpoint(),
-            "PYTHONUNBUFFERED": "1",
-            "PYTHONUTF8": "1",
-        }
+        self.master = master or master_endpoint()
         self._on_end = on_end
         self._lock = threading.RLock()
         self._states: Subscriber[NodeState] | None = None
@@ -181,7 +179,7 @@ class Launcher:
         launched.process = ChildProcess(
             launched.name,
             launched.command,
-            environment=self._environment,
+            environment={**os.environ, **SETTINGS, MASTER_VARIABLE: self.master},
             log_file=self.logs / f"{_file_name(launched.name)}.log",
             on_end=lambda outcome: self._ended(launched, outcome),
         )

@@ -106,7 +106,7 @@ class Master:
                 return None
             case says.List():
                 told = [entry.registration for entry in self._registry.entries.values()]
-                return says.Listing(epoch=self.epoch, registrations=told)
+                return says.Listing(epoch=self.epoch, pid=os.getpid(), registrations=told)
 
     def _register(self, request: says.Register, address: bytes) -> says.Answer:
         self._drop_the_gone()

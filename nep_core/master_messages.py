@@ -65,9 +65,10 @@ class Publishers(msgspec.Struct, tag="publishers", tag_field="do", kw_only=True)
 
 
 class Listing(msgspec.Struct, tag="listing", tag_field="do", kw_only=True):
-    """The answer to List: everything that is registered."""
+    """The answer to List: the master's process, and everything that is registered."""
 
     epoch: str
+    pid: int
     registrations: list[Registration]
 
 

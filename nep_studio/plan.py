@@ -9,14 +9,13 @@ from pathlib import Path
 from nep_studio.blocks.deployment import (
     NodeEntry,
     RobotEntry,
-    gestures_recognised,
     gestures_used,
+    is_recognised,
     node_entries,
     robot_entries,
-    robots_used,
 )
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import ALL_ROBOTS, Project
+from nep_studio.blocks.program import Project
 
 VIRTUAL_WATCH = "sensory/virtual_watch"
 REPLAY = "sensory/replay"
@@ -62,20 +61,15 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
 
 
 def _robots(project: Project, language: Language, choices: Choices) -> list[PlannedNode]:
-    entries = {entry.name: entry for entry in robot_entries(project, language)}
-    nodes = [_robot(entry, choices, language.profile.node) for entry in entries.values()]
-    for name, block in robots_used(project, language).items():
-        if name not in entries and name != ALL_ROBOTS:
-            entry = RobotEntry(name, "virtual", "", block)
-            nodes.append(_robot(entry, choices, language.profile.node, "a rule speaks to it"))
-    return nodes
+    node = language.profile.node
+    return [_robot(entry, choices, node) for entry in robot_entries(project, language)]
 
 
-def _robot(entry: RobotEntry, choices: Choices, node: str, reason: str = "") -> PlannedNode:
+def _robot(entry: RobotEntry, choices: Choices, node: str) -> PlannedNode:
     address = choices.addresses.get(entry.name, entry.address)
     driver = "naoqi" if entry.name in choices.addresses else entry.driver
     settings: dict[str, Setting] = {"robot": entry.name, "driver": driver, "address": address}
-    return PlannedNode(node, entry.name, settings, reason, entry.block_id)
+    return PlannedNode(node, entry.name, settings, block_id=entry.block_id)
 
 
 def _listed(entry: NodeEntry, folder: Path) -> PlannedNode:
@@ -97,7 +91,7 @@ def _missing_gestures(
     missing = [
         gesture
         for gesture in gestures_used(project, language)
-        if gesture in known and gesture not in gestures_recognised(listed)
+        if gesture in known and not is_recognised(gesture, listed, known)
     ]
     reason = "a rule waits for this gesture"
     return [PlannedNode(GESTURE, gesture, {"gesture": gesture}, reason) for gesture in missing]

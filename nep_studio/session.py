@@ -28,6 +28,7 @@ PROGRAM = "program"
 MASTER = "master"
 STUDIO = "studio"
 MASTER_READY_S = 10.0
+MASTER_TRIES = 5
 ASK_TO_END_S = 1.0
 LAST_RULES_S = 2.0
 """How long a rule that a recording's end set off may still take."""
@@ -101,7 +102,7 @@ class Session:
         logs: Path | None = None,
         master: str | None = None,
     ) -> None:
-        self.master = master or free_endpoint(master_endpoint())
+        self._wanted_master = master
         self._program = program
         self._nodes = nodes
         self._listener = listener
@@ -110,7 +111,7 @@ class Session:
         self._changed = threading.Condition()
         self._stack = contextlib.ExitStack()
         self._voice: _Voice | None = None
-        self._launcher = Launcher(master=self.master, logs=logs, on_end=self._on_end)
+        self._launcher = Launcher(logs=logs, on_end=self._on_end)
 
     def wait(self, seconds: float | None = None) -> Ending:
         """Wait until the program ends, or for so long; how it ended."""
@@ -133,7 +134,7 @@ class Session:
         self._stack.callback(self._launcher.close)
         try:
             self._start_master()
-            network = self._stack.enter_context(PeerNetwork(STUDIO, master=self.master))
+            network = self._stack.enter_context(PeerNetwork(STUDIO, master=self._launcher.master))
             self._voice = _Voice(network)
             self._launcher.hear(network)
             for topic in HEARD:
@@ -150,17 +151,30 @@ class Session:
         self.stop()
 
     def _start_master(self) -> None:
-        command = program_command("master", "--endpoint", self.master)
-        launched = self._launcher.start_command(MASTER, command)
+        """Start a master of our own; another program may take the port at the same moment."""
+        for _ in range(MASTER_TRIES):
+            self._launcher.master = self._wanted_master or free_endpoint(master_endpoint())
+            command = program_command("master", "--endpoint", self._launcher.master)
+            launched = self._launcher.start_command(MASTER, command)
+            if self._is_up(launched):
+                return
+            self._launcher.stop(MASTER)
+            if self._wanted_master:
+                break
+        lines = launched.process.last_lines if launched.process else []
+        raise NodeStartError(
+            f"The NEP master did not start at {self._launcher.master}.",
+            checklist=("Is another program using that port?", "Try again."),
+            details="\n".join(lines),
+        )
+
+    def _is_up(self, launched: LaunchedNode) -> bool:
         deadline = time.monotonic() + MASTER_READY_S
-        while ask_master(self.master, timeout_s=0.1) is None:
-            if launched.ended.is_set() or time.monotonic() > deadline:
-                lines = launched.process.last_lines if launched.process else []
-                raise NodeStartError(
-                    f"The NEP master did not start at {self.master}.",
-                    checklist=("Is another program using that port?",),
-                    details="\n".join(lines),
-                )
+        while time.monotonic() < deadline and not launched.ended.is_set():
+            listing = ask_master(self._launcher.master, timeout_s=0.1)
+            if listing is not None and listing.pid == launched.pid:
+                return True
+        return False
 
     def _start_nodes(self, nodes: list[PlannedNode]) -> None:
         started = [self._launcher.launch(node.node, node.name, node.parameters) for node in nodes]

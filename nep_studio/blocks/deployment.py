@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import cast
 
@@ -76,9 +76,18 @@ def gestures_used(project: Project, language: Language) -> dict[str, str]:
     return used
 
 
-def gestures_recognised(nodes: tuple[NodeEntry, ...]) -> set[str]:
-    """The gestures that the nodes of the Nodes page recognise."""
-    return {str(entry.parameters.get("gesture")) for entry in nodes if entry.node == GESTURE_NODE}
+def is_recognised(gesture: str, nodes: tuple[NodeEntry, ...], shipped: Iterable[str]) -> bool:
+    """Whether a node of the Nodes page recognises a gesture.
+
+    A node that names no gesture recognises all of its model: the ``shipped`` ones, or those of a
+    model of its own, which only training knows.
+    """
+    for entry in nodes:
+        if entry.node == GESTURE_NODE:
+            named, model = entry.parameters.get("gesture"), entry.parameters.get("model")
+            if named == gesture or (not named and (model or gesture in shipped)):
+                return True
+    return False
 
 
 def rules(project: Project, language: Language) -> Iterator[list[str]]:

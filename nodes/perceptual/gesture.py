@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from functools import partial
 from pathlib import Path
 
@@ -15,6 +16,8 @@ from nodes.perceptual.recognition.spotting import Spotter
 from nodes.resources import resource_folder
 
 _MOST_SENSORS = 8
+_SILENCE_S = 0.3
+"""After so long the movement of a sensor has ended: a gesture that waits for a better one fires."""
 
 
 def run(node: Node, *, model: str, gesture: str, method: str, certainty: float) -> None:
@@ -28,9 +31,10 @@ def run(node: Node, *, model: str, gesture: str, method: str, certainty: float) 
     publisher = node.publisher(HUMAN_BEHAVIOR)
     node.ready(f"recognises {gesture or ', '.join(ears.model.names)}")
     while not node.stopping:
-        batch = movement.receive(timeout_s=0.5)
-        for found in ears.hear(batch) if batch else ():
-            publisher.send(_message(node, found))
+        batch = movement.receive(timeout_s=_SILENCE_S)
+        found = ears.hear(batch) if batch else []
+        for one in found + ears.end_of_silent():
+            publisher.send(_message(node, one))
 
 
 def _message(node: Node, found: Detection) -> HumanBehavior:
@@ -58,6 +62,7 @@ class _Ears:
         )
         self._make_spotter()  # what the model lacks is told at the start
         self._spotters: dict[tuple[str, bool, bool], Spotter | None] = {}
+        self._heard_s: dict[tuple[str, bool, bool], float] = {}
 
     def hear(self, batch: Imu) -> list[Detection]:
         """The gestures that end in a batch of samples."""
@@ -73,7 +78,19 @@ class _Ears:
             self._spotters[sensor] = None
             self._node.warn(f"{batch.source} sends times and samples that do not belong together")
             return []
+        self._heard_s[sensor] = time.monotonic()
         return spotter.push(batch.t, batch.acc, batch.gyr)
+
+    def end_of_silent(self) -> list[Detection]:
+        """What the sensors that have just fallen silent ended with."""
+        before_s = time.monotonic() - _SILENCE_S
+        silent = [sensor for sensor, heard_s in self._heard_s.items() if heard_s < before_s]
+        found: list[Detection] = []
+        for sensor in silent:
+            del self._heard_s[sensor]
+            spotter = self._spotters.get(sensor)
+            found += spotter.flush() if spotter else []
+        return found
 
     def _listen_to(self, batch: Imu) -> Spotter | None:
         gyroscope = batch.gyr is not None

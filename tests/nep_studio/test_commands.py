@@ -197,9 +197,7 @@ def test_stopping_after_some_seconds_is_no_failure() -> None:
     assert "Everything is stopped" in result.stdout
 
 
-def test_exec_runs_a_program_made_by_hand(
-    tmp_path: Path, master: object, network: object
-) -> None:
+def test_exec_runs_a_program_made_by_hand(tmp_path: Path, master: object, network: object) -> None:
     program = tmp_path / "mine.py"
     program.write_text("from nep_core import wait\nwait(0.01)\nprint('done')\n", encoding="utf-8")
 

@@ -29,13 +29,14 @@ class Play:
             text=True,
         )
         self.events: list[Event] = []
+        self.pids: dict[str, int] = {}
         self._coming: queue.Queue[Event | None] = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
 
     def wait_for(self, is_it: Callable[[Event], bool], timeout_s: float = WAIT_S) -> Event:
         """The next event of this kind; fails with all that was said when it does not come."""
         while (event := self._coming.get(timeout=timeout_s)) is not None:
-            self.events.append(event)
+            self._note(event)
             if is_it(event):
                 return event
         raise AssertionError("\n".join([*map(str, self.events), self.errors()]))
@@ -44,7 +45,7 @@ class Play:
         """Wait for the end; the exit code."""
         code = self.process.wait(timeout_s)
         while (event := self._coming.get(timeout=timeout_s)) is not None:
-            self.events.append(event)
+            self._note(event)
         return code
 
     def errors(self) -> str:
@@ -65,6 +66,11 @@ class Play:
     def rules(self) -> list[str]:
         """The rules that fired, in their order."""
         return [e["rule"] for e in self.events if e.get("event") == "rule_started"]
+
+    def _note(self, event: Event) -> None:
+        self.events.append(event)
+        if event["topic"] == "/node_state":
+            self.pids[event["node"]] = event["pid"]
 
     def _read(self) -> None:
         assert self.process.stdout is not None

@@ -37,10 +37,9 @@ def test_a_karate_gesture_makes_nao_say_impressive_and_play_its_sequence() -> No
 @pytest.mark.parametrize("node", ["karate", "watch"])
 def test_a_killed_node_is_told_and_started_again_and_the_story_goes_on(node: str) -> None:
     with playing(KARATE) as play:
-        ready = play.wait_for(node_is(node, "ready"))
-        play.wait_for(node_is("program", "ready"))
+        play.wait_for(node_is("watch", "ready"))  # the last to start
 
-        kill(ready["pid"])
+        kill(play.pids[node])
 
         crashed = play.wait_for(node_is(node, "crashed"))
         assert crashed["description"] == f"{node} was killed; it is started again"
@@ -52,11 +51,10 @@ def test_a_killed_node_is_told_and_started_again_and_the_story_goes_on(node: str
 @pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
 def test_a_robot_killed_while_it_speaks_says_it_again_when_it_is_back() -> None:
     with playing(KARATE) as play:
-        nao = play.wait_for(node_is("NAO", "ready"))
         play.wait_for(says("Impressive!"))
         play.wait_for(lambda e: e["topic"] == "/action_result" and e["state"] == "started")
 
-        kill(nao["pid"])
+        kill(play.pids["NAO"])
 
         play.wait_for(node_is("NAO", "crashed"))
         play.wait_for(node_is("NAO", "ready"))
@@ -73,7 +71,7 @@ def test_the_talk_goes_on_without_the_master_and_newcomers_join_the_next() -> No
         kill(master.pid)
 
         assert "killed" in play.wait_for(node_is("master", "crashed"))["description"]
-        kill(play_pid(play, "karate"))
+        kill(play.pids["karate"])
         play.wait_for(node_is("karate", "ready"))
         assert play.finish() == 0, play.errors()
     assert "Impressive!" in play.said()
@@ -83,8 +81,3 @@ def master_of(play: Play) -> psutil.Process:
     """The master's process, a child of the session."""
     children = psutil.Process(play.process.pid).children()
     return next(child for child in children if "master" in child.cmdline())
-
-
-def play_pid(play: Play, node: str) -> int:
-    """The process id that a node told last."""
-    return next(e["pid"] for e in reversed(play.events) if e.get("node") == node)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..deployment import (
-    gestures_recognised,
     gestures_used,
+    is_recognised,
     node_entries,
     robot_entries,
     robots_used,
@@ -46,9 +46,9 @@ def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
 
 
 def _unrecognised_gestures(project: Project, language: Language) -> Iterator[Problem]:
-    recognised = gestures_recognised(node_entries(project, language))
+    nodes, shipped = node_entries(project, language), language.choices.get("gestures", {})
     for gesture, block in gestures_used(project, language).items():
-        if gesture not in recognised and gesture.strip():
+        if gesture.strip() and not is_recognised(gesture, nodes, shipped):
             yield Problem(
                 "warning",
                 "gesture_unrecognised",

@@ -6,7 +6,6 @@ import os
 import signal
 import socket
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -19,82 +18,43 @@ from nep_core.manifest import read_manifest
 from nep_core.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
-    NODE_STATE,
     ROBOT_STATE,
     ActionRequest,
     ActionResult,
-    NodeState,
     RobotState,
 )
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
 from nep_core.robot import Robot
+from tests.node_running import NODES, NodeRunner, until
 
-MANIFEST = Path(__file__).resolve().parents[3] / "nodes" / "action" / "nao.toml"
-START = """
-import ast, sys
-from pathlib import Path
-from nep_core.manifest import read_manifest
-from nep_core.run_node import run_node
-sys.exit(run_node(read_manifest(Path(sys.argv[1])), sys.argv[2], ast.literal_eval(sys.argv[3])))
-"""
+MANIFEST = NODES / "action" / "nao.toml"
 
 
-class Theatre:
+class Theatre(NodeRunner):
     """Starts action nodes, asks them, and hears what they say."""
 
     def __init__(self, network: PeerNetwork) -> None:
-        self.network = network
-        self.node_states = Subscriber(NODE_STATE, NodeState, network=network)
+        super().__init__(network)
         self.results = Subscriber(ACTION_RESULT, ActionResult, network=network)
         self.robot_states = Subscriber(ROBOT_STATE, RobotState, network=network)
         self.requests = Publisher(ACTION_REQUEST, network=network)
-        self.nodes: list[subprocess.Popen[str]] = []
 
     def start(self, **parameters: object) -> subprocess.Popen[str]:
-        name = f"nao_{len(self.nodes)}"
-        node = subprocess.Popen(
-            [sys.executable, "-c", START, str(MANIFEST), name, repr(parameters)],
-            stdin=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        self.nodes.append(node)
-        return node
+        return self.start_node("action/nao", f"nao_{len(self.nodes)}", **parameters)
 
     def ready(self, **parameters: object) -> subprocess.Popen[str]:
         node = self.start(**parameters)
-        self.node_state("ready")
+        self.state("ready")
         assert self.requests.wait_for_subscribers(len(self.nodes), 10)
         return node
 
     def ask(self, id: str, action: str, *robots: str, **args: Any) -> None:
         self.requests.send(ActionRequest(id=id, robots=list(robots), action=action, args=args))
 
-    def node_state(self, event: str) -> NodeState:
-        return until(self.node_states, lambda state: state.event == event)[-1]
-
     def results_until(self, id: str, state: str) -> list[str]:
         heard = until(self.results, lambda result: (result.id, result.state) == (id, state))
         return [f"{result.robot} {result.id} {result.state}" for result in heard]
-
-    def close(self) -> None:
-        for node in self.nodes:
-            node.terminate()
-        for node in self.nodes:
-            node.communicate(timeout=5)
-
-
-def until(subscriber: Subscriber[Any], wanted: Callable[[Any], bool]) -> list[Any]:
-    """All messages up to the first that is wanted; fails when it does not come."""
-    end_s, heard = time.monotonic() + 10, []
-    while (left_s := end_s - time.monotonic()) > 0:
-        message = subscriber.receive(left_s)
-        if message is not None:
-            heard.append(message)
-            if wanted(message):
-                return heard
-    pytest.fail(f"what was wanted did not come, but {heard[-5:]}")
 
 
 @pytest.fixture
@@ -212,7 +172,7 @@ def test_a_real_robot_that_does_not_answer_is_told_and_requests_fail_with_the_sa
 ) -> None:
     theatre.start(driver="naoqi", address=f"127.0.0.1:{free_port}")
 
-    failed = theatre.node_state("connection_failed")
+    failed = theatre.state("connection_failed")
 
     assert failed.description.startswith("NAO does not answer")
     assert "[ ] Is NAO switched on?" in failed.description
@@ -224,7 +184,7 @@ def test_a_real_robot_that_answers_is_told_that_it_cannot_be_driven_yet(theatre:
     with socket.create_server(("127.0.0.1", 0)) as server:
         theatre.start(driver="naoqi", address=f"127.0.0.1:{server.getsockname()[1]}")
 
-        failed = theatre.node_state("connection_failed")
+        failed = theatre.state("connection_failed")
 
     assert "can drive the virtual NAO only" in failed.description
 

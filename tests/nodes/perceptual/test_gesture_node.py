@@ -1,56 +1,24 @@
 """The gesture node in a process of its own: it hears samples and tells gestures."""
 
-import subprocess
-import sys
-import time
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from nep_core.messages import HUMAN_BEHAVIOR, IMU, NODE_STATE, HumanBehavior, Imu, NodeState
+from nep_core.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
 from nep_core.pubsub import Publisher, Subscriber
 from nodes.perceptual.recognition.model_file import write_model
 from nodes.perceptual.recognition.passages import takes_of
-
-MANIFEST = Path(__file__).resolve().parents[3] / "nodes" / "perceptual" / "gesture.toml"
-START = """
-import ast, sys
-from pathlib import Path
-from nep_core.manifest import read_manifest
-from nep_core.run_node import run_node
-sys.exit(run_node(read_manifest(Path(sys.argv[1])), sys.argv[2], ast.literal_eval(sys.argv[3])))
-"""
-WAIT_S = 20.0
+from tests.node_running import WAIT_S, NodeRunner
 
 
-class Program:
+class Program(NodeRunner):
     """Starts gesture nodes, sends them samples and hears what they tell."""
 
     def __init__(self, network):
-        self.network = network
-        self.states = Subscriber(NODE_STATE, NodeState, network=network)
+        super().__init__(network)
         self.behaviors = Subscriber(HUMAN_BEHAVIOR, HumanBehavior, network=network)
-        self.nodes = []
 
     def start(self, name="gesture", **parameters):
-        node = subprocess.Popen(
-            [sys.executable, "-c", START, str(MANIFEST), name, repr(parameters)],
-            stdin=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        self.nodes.append(node)
-        return node
-
-    def state(self, event, node="gesture"):
-        """The next state of this kind."""
-        end_s = time.monotonic() + WAIT_S
-        while (left_s := end_s - time.monotonic()) > 0:
-            state = self.states.receive(left_s)
-            if state and (state.event, state.node) == (event, node):
-                return state
-        pytest.fail(f"{node} did not tell {event}")
+        return self.start_node("perceptual/gesture", name, **parameters)
 
     def told(self, count):
         """The next human states."""
@@ -72,12 +40,6 @@ class Program:
             }
             publisher.send(Imu(**message | changes))
         return publisher
-
-    def close(self):
-        for node in self.nodes:
-            node.terminate()
-        for node in self.nodes:
-            node.communicate(timeout=5)
 
 
 @pytest.fixture
@@ -113,9 +75,9 @@ def test_each_gesture_made_is_told_once_with_its_certainty(program, file, strang
 def test_a_process_for_each_gesture_tells_that_gesture_only(program, file, stranger):
     for name in ("hand_up", "karate"):
         program.start(name, model=file, gesture=name)
-    assert program.state("ready", "hand_up").description == "recognises hand_up"
+    assert program.state("ready", node="hand_up").description == "recognises hand_up"
     program.start("third", model=file, gesture="karate", method="gmr", certainty=1.0)
-    program.state("ready", "third")
+    program.state("ready", node="third")
 
     program.send(stranger, listeners=3)
     told = program.told(len(takes_of(stranger)))

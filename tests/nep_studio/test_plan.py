@@ -1,0 +1,135 @@
+"""Which nodes a project needs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.reading import from_bytes
+from nep_studio.plan import Choices, PlannedNode, plan
+from nep_studio.studio_language import studio_language
+
+
+@pytest.fixture(scope="module")
+def language() -> Language:
+    return studio_language()
+
+
+def project(
+    language: Language,
+    *,
+    rules: tuple[str, ...] = (),
+    speaks_to: str = "NAO",
+    robots: tuple[dict[str, Any], ...] = (),
+    nodes: tuple[dict[str, Any], ...] = (),
+) -> Project:
+    """A project with a rule for each gesture, in which a robot says hello."""
+    blocks: list[dict[str, Any]] = []
+    pages: dict[str, list[dict[str, Any]]] = {"behaviour": [], "robots": [], "nodes": []}
+
+    def stack(page: str, *chain: dict[str, Any]) -> None:
+        ids = []
+        for block in chain:
+            blocks.append({"id": f"b{len(blocks)}", **block})
+            ids.append(blocks[-1]["id"])
+        pages[page].append({"id": f"s{len(blocks)}", "x": 0, "y": 0, "body": ids})
+
+    say = {"type": "robot.say", "fields": {"robot": speaks_to, "text": "Hello"}}
+    for gesture in rules:
+        stack("behaviour", {"type": "event.gesture", "fields": {"gesture": gesture}}, say)
+    for fields in robots:
+        stack("robots", {"type": "robots.robot", "fields": fields})
+    for fields in nodes:
+        stack("nodes", {"type": "nodes.launch", "fields": fields})
+    whole = {
+        "format": "nep-studio-project",
+        "version": 1,
+        "name": "Test",
+        "variables": [],
+        "blocks": blocks,
+        "pages": pages,
+    }
+    return from_bytes(msgspec.json.encode(whole), "test.nep", language)
+
+
+def planned(
+    project: Project, language: Language, folder: Path = Path(), choices: Choices | None = None
+) -> dict[str, PlannedNode]:
+    return {node.name: node for node in plan(project, language, choices or Choices(), folder)}
+
+
+def test_what_rules_need_is_added_and_says_why(language: Language) -> None:
+    robots = ({"name": "NAO", "driver": "virtual", "address": ""},)
+    nodes = planned(project(language, rules=("karate",), robots=robots), language)
+
+    assert {name: node.node for name, node in nodes.items()} == {
+        "NAO": "action/nao",
+        "karate": "perceptual/gesture",
+        "virtual_watch": "sensory/virtual_watch",
+    }
+    assert nodes["NAO"].parameters["driver"] == "virtual"
+    assert nodes["karate"].parameters == {"gesture": "karate"}
+    assert nodes["virtual_watch"].parameters == {"gestures": "karate"}
+    assert {name for name, node in nodes.items() if node.reason} == {"karate", "virtual_watch"}
+
+
+def test_what_the_pages_name_is_not_added_again(language: Language) -> None:
+    given = project(
+        language,
+        rules=("karate",),
+        robots=({"name": "NAO", "driver": "virtual", "address": ""},),
+        nodes=(
+            {"node": "sensory/smartwatch", "name": "watch", "parameters": {}},
+            {"node": "perceptual/gesture", "name": "mine", "parameters": {"gesture": "karate"}},
+        ),
+    )
+
+    nodes = planned(given, language)
+
+    assert set(nodes) == {"NAO", "watch", "mine"}
+    assert not any(node.reason for node in nodes.values())
+
+
+def test_a_node_for_a_whole_set_of_gestures_is_enough(language: Language) -> None:
+    whole = ({"node": "perceptual/gesture", "name": "all", "parameters": {}},)
+
+    nodes = planned(project(language, rules=("karate", "katana"), nodes=whole), language)
+
+    assert [name for name, node in nodes.items() if node.node == "perceptual/gesture"] == ["all"]
+
+
+def test_a_recording_takes_the_place_of_all_sensors(language: Language) -> None:
+    watch = ({"node": "sensory/smartwatch", "name": "watch", "parameters": {}},)
+    given = project(language, rules=("karate",), nodes=watch)
+
+    nodes = planned(given, language, choices=Choices(Path("mine.csv"), 2.0))
+
+    sensors = [node for node in nodes.values() if node.is_sensory]
+    assert [node.node for node in sensors] == ["sensory/replay"]
+    assert sensors[0].parameters["recording"] == "mine.csv"
+    assert sensors[0].parameters["speed"] == 2.0
+
+
+def test_an_address_makes_a_robot_real(language: Language) -> None:
+    robots = ({"name": "NAO", "driver": "virtual", "address": ""},)
+    given = project(language, rules=("karate",), robots=robots)
+
+    nodes = planned(given, language, choices=Choices(addresses={"NAO": "10.0.0.7"}))
+
+    assert nodes["NAO"].parameters == {"robot": "NAO", "driver": "naoqi", "address": "10.0.0.7"}
+
+
+def test_files_of_nodes_are_found_beside_the_project(language: Language, tmp_path: Path) -> None:
+    (tmp_path / "mine.gestures").touch()
+    settings = {"model": "mine.gestures", "gesture": "jump"}
+    own = ({"node": "perceptual/gesture", "name": "jump", "parameters": settings},)
+
+    nodes = planned(project(language, nodes=own), language, tmp_path)
+
+    assert nodes["jump"].parameters["model"] == str(tmp_path / "mine.gestures")
+    assert nodes["jump"].parameters["gesture"] == "jump"
