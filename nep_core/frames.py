@@ -3,7 +3,7 @@
 The header is a JSON array ``[node, number of the first payload, time in ns, encoding]``. The
 NUL behind the topic matters: ZeroMQ matches subscriptions by prefix, and ``/gesture`` must not
 receive ``/gesture_debug``. Only JSON payloads, which hold no NUL, may share a frame. Frames
-whose first byte is NUL are private: see handshake.py.
+whose first byte is 0xFF are private: see handshake.py.
 """
 
 from __future__ import annotations

@@ -1,15 +1,19 @@
 """The private subscriptions by which two peers know that they hear each other.
 
-After its data subscription a subscriber makes a private one. ZeroMQ keeps their order on a
-connection, so when a publisher sees the private one, the data subscription is in force. It
-answers with a *welcome* on the private topic, which no other subscriber gets.
+After its data subscription a subscriber makes a private one. When a publisher sees the private
+one, the data subscription is in force, and it answers with a *welcome* on the private topic,
+which no other subscriber gets.
+
+The order holds because ZeroMQ sends what is already subscribed in the order of the bytes when a
+connection is made: private topics begin with 0xFF, which no UTF-8 text holds, and come last.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-PRIVATE = b"\0s"
+PRIVATE = b"\xffs"
+PRIVATE_BYTE = 0xFF
 _NUL = b"\0"
 
 

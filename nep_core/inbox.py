@@ -168,7 +168,7 @@ class Inbox:
                 frame = self._socket.recv()
             except zmq.Again:
                 return None
-            if frame[0]:  # no NUL: not private
+            if frame[0] != handshake.PRIVATE_BYTE:
                 return frame
             latched = self._greet(frame)
             if latched is not None or timeout_s != 0.0:

@@ -9,10 +9,13 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 
 import pytest
+import zmq
 
 from nep_core import inbox
 from nep_core.broker import Broker
 from nep_core.errors import MasterNotFound, NameTaken, NetworkError, PortTaken
+from nep_core.frames import subscription
+from nep_core.handshake import read_subscription
 from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.network import BrokerNetwork, DirectNetwork, Network
 from nep_core.p2p import PeerNetwork
@@ -277,3 +280,17 @@ def test_a_second_node_of_the_same_name_is_refused_and_nobody_is_killed(join: Jo
         second.join()
 
     Publisher("/x", network=first).send("the first goes on")
+
+
+def test_the_private_subscription_is_sent_after_the_data_one(free_port: int) -> None:
+    """ZeroMQ sends subscriptions in the order of their bytes, and the handshake rests on it."""
+    with zmq.Context() as context, context.socket(zmq.XPUB) as publisher:
+        publisher.linger = 0
+        publisher.bind(f"tcp://127.0.0.1:{free_port}")
+        with DirectNetwork(f"tcp://127.0.0.1:{free_port}") as hearer:
+            Subscriber("/\U0010ffff", network=hearer)
+
+            events = [publisher.recv(), publisher.recv()]
+
+    assert events[0] == b"\x01" + subscription("/\U0010ffff")
+    assert read_subscription(events[1]) is not None
