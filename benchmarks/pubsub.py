@@ -9,6 +9,7 @@ struct and decoded into one; theirs are bytes.
 from __future__ import annotations
 
 import contextlib
+import socket as sockets
 import statistics
 import subprocess
 import sys
@@ -103,9 +104,9 @@ def _pings(size: int) -> tuple[float, float]:
 @contextlib.contextmanager
 def _hearer(kind: str, size: int) -> Iterator[Hearer]:
     with zmq.Context() as context, context.socket(zmq.SUB) as socket:
-        with context.socket(zmq.SUB) as probe:
-            port = probe.bind_to_random_port("tcp://127.0.0.1")
-        ours = f"tcp://127.0.0.1:{port}"
+        with sockets.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            ours = f"tcp://127.0.0.1:{probe.getsockname()[1]}"
         socket.rcvhwm = 0
         socket.subscribe(b"")
         theirs = f"tcp://127.0.0.1:{socket.bind_to_random_port('tcp://127.0.0.1')}"

@@ -55,6 +55,7 @@ def _rows(name: str, spotters: Sequence[Spotter]) -> Iterator[dict[str, Any]]:
 
 
 def _pushes_us(recording: Recording, spotters: Sequence[Spotter]) -> Iterator[float]:
+    assert recording.gyr is not None
     samples = zip(recording.t, recording.acc, recording.gyr, strict=True)
     for (t, acc, gyr), _ in zip(samples, range(_SAMPLES), strict=False):
         before_ns = time.thread_time_ns()

@@ -76,7 +76,7 @@ def mean_curve(gesture: str, length: int) -> np.ndarray:
             recording = perform(gesture, person, take, _RATE_HZ)
             made = np.array([label == gesture for label in recording.labels or []])
             curves.append(resampled(recording.acc[made], length))
-    return np.mean(curves, axis=0)
+    return np.asarray(np.mean(curves, axis=0))
 
 
 def resampled(curve: np.ndarray, length: int) -> np.ndarray:

@@ -88,7 +88,13 @@ class ActionClient:
             del self._calls[request.id]
         for result in call.results.values():
             if result.state == "failed":
-                raise ActionFailed(f"{result.robot} could not {action}: {result.description}")
+                raise ActionFailed(
+                    f"{result.robot} could not {action}: {result.description}",
+                    checklist=(
+                        "Change this block, or what comes before it.",
+                        "Try the program on the virtual robot first.",
+                    ),
+                )
 
     def send(self, robots: list[str], action: str, args: dict[str, Any]) -> None:
         """Ask without waiting."""

@@ -10,15 +10,14 @@ from typing import Literal
 from nep_core.default_network import default_network
 from nep_core.human import human_listener
 from nep_core.messages import (
-    HUMAN_BEHAVIOR,
     PROGRAM_STATE,
     HumanBehavior,
     ProgramEvent,
     ProgramState,
 )
 from nep_core.network import Network
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.tasks import PROGRAM, Cancelled, Part
+from nep_core.pubsub import Publisher
+from nep_core.tasks import PROGRAM, Part, current_task
 
 Action = Callable[[], object]
 Again = Literal["ignore", "restart", "queue"]
@@ -74,23 +73,21 @@ class Behavior:
         """Run until the program is stopped; raises the first error of any of its parts."""
         network = self._network or default_network()
         self._states = Publisher(PROGRAM_STATE, network=network)
-        human_listener(network)  # so that human_state() knows from now on
-        behavior = Subscriber(
-            HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
-        )
+        listener = human_listener(network)
+        listener.listen(self._on_behavior)
         try:
             for action in self._starts:
                 self._start(action, "")
             self._supervise()
         finally:
-            behavior.close()
+            listener.unlisten(self._on_behavior)
             self._cancel_all()
             self._states.close()
 
     def _supervise(self) -> None:
         while self._rules or self._parts:
             if PROGRAM.cancelled.wait(0.02):
-                raise Cancelled
+                return
             self._raise_errors()
 
     def _raise_errors(self) -> None:
@@ -125,6 +122,7 @@ class Behavior:
 
     def _restart_rule(self, rule: Rule, old: Part) -> None:
         old.join()
+        current_task().check()  # a newer one may have taken its place meanwhile
         self._run_rule(rule)
 
     def _run_rule(self, rule: Rule) -> None:
@@ -134,15 +132,16 @@ class Behavior:
             self._tell("rule_finished", rule.state)
             with rule.lock:
                 if rule.queued == 0:
-                    rule.running = None
+                    if rule.running is not None and rule.running.task is current_task():
+                        rule.running = None
                     return
                 rule.queued -= 1
 
     def _start(self, action: Action, state: str) -> Part:
         part = Part(action, f"nep-{state or 'start'}", PROGRAM)
-        with self._parts_lock:
+        with self._parts_lock:  # a part that has not started yet must not count as ended
             self._parts.append(part)
-        return part.start()
+            return part.start()
 
     def _tell(self, event: ProgramEvent, rule: str) -> None:
         name = threading.current_thread().name

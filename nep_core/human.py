@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 import time
+from collections import deque
+from collections.abc import Callable
 from typing import cast
 
 from nep_core.default_network import default_network
@@ -14,22 +17,48 @@ REMEMBER_S = 3.0
 """How long a state such as a gesture stays the human's state after it was seen."""
 
 
+Listener = Callable[[HumanBehavior], None]
+
+
 class HumanListener:
-    """Remembers what ``/human_behavior`` said last."""
+    """Hears ``/human_behavior`` for a whole program.
+
+    What comes before the first listener is there is kept for it (the last 100 messages).
+    """
 
     def __init__(self, network: Network) -> None:
         self._state = ""
         self._heard_s = 0.0
+        self._lock = threading.RLock()
+        self._listeners: list[Listener] = []
+        self._kept: deque[HumanBehavior] = deque(maxlen=100)
         self._states = Subscriber(
             HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
         )
+
+    def listen(self, listener: Listener) -> None:
+        """Call ``listener`` with every message, in their order, from another thread."""
+        with self._lock:
+            self._listeners.append(listener)
+            while self._kept:
+                listener(self._kept.popleft())
+
+    def unlisten(self, listener: Listener) -> None:
+        """Call ``listener`` no more."""
+        with self._lock:
+            self._listeners.remove(listener)
 
     def state(self) -> str:
         """The last state, "" when nothing was seen for 3 s."""
         return self._state if time.monotonic() - self._heard_s <= REMEMBER_S else ""
 
     def _on_behavior(self, behavior: HumanBehavior) -> None:
-        self._state, self._heard_s = behavior.human_state, time.monotonic()
+        with self._lock:
+            self._state, self._heard_s = behavior.human_state, time.monotonic()
+            if not self._listeners:
+                self._kept.append(behavior)
+            for listener in list(self._listeners):
+                listener(behavior)
 
 
 def human_listener(network: Network | None = None) -> HumanListener:

@@ -114,8 +114,9 @@ class Inbox:
                 return False
             with self._lock:
                 self._run_commands()
-                self._socket.poll(min(20, math.ceil(left_s * 1000)))
-                self._drain()
+                if not self.closed:
+                    self._socket.poll(min(20, math.ceil(left_s * 1000)))
+                    self._drain()
         return True
 
     def interrupt(self) -> None:

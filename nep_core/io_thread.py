@@ -51,6 +51,8 @@ class Wake:
         self._reader.close()
         self._writer.close()
 
+    __del__ = close
+
 
 class IoThread:
     """Calls each tending function at least every TICK_MS, and when a socket has something."""

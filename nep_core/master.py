@@ -78,11 +78,14 @@ class Master:
     def _run(self) -> None:
         next_check_s = 0.0
         while not self._stopping.is_set():
-            if self._socket.poll(int(CHECK_S * 1000)):
-                self._serve(self._socket.recv_multipart())
-            if time.monotonic() >= next_check_s:
-                next_check_s = time.monotonic() + CHECK_S
-                self._drop_the_gone()
+            try:
+                if self._socket.poll(int(CHECK_S * 1000)):
+                    self._serve(self._socket.recv_multipart())
+                if time.monotonic() >= next_check_s:
+                    next_check_s = time.monotonic() + CHECK_S
+                    self._drop_the_gone()
+            except Exception:  # a fault of ours must not end everybody's name server
+                log.exception("the master goes on after an error")
 
     def _serve(self, frames: list[bytes]) -> None:
         address, *rest = frames

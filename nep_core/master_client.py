@@ -15,7 +15,7 @@ import msgspec
 import zmq
 
 from nep_core import master_messages as says
-from nep_core.errors import NameTaken
+from nep_core.errors import NameTaken, NetworkError
 from nep_core.io_thread import IoThread
 from nep_core.master_probe import no_master
 from nep_core.registry import Publishing, Registration
@@ -55,6 +55,7 @@ class MasterClient:
         self._answer: says.Registered | says.Refused | None = None
         self._epoch = ""
         self._next_beat_s = 0.0
+        self._closed = False
         io.watch(self._socket)
         io.tend(self.tend)
 
@@ -78,8 +79,10 @@ class MasterClient:
             self._version += 1
             version = self._version
             self._io.wake()
-            answered = self._changed.wait_for(lambda: self._answered(version), ANSWER_S)
-            answer = self._answer
+            self._changed.wait_for(lambda: self._closed or self._answered(version), ANSWER_S)
+            answer, answered = self._answer, self._answered(version)
+        if self._closed:
+            raise NetworkError(f"The network of {told.node} is closed.")
         if not answered or answer is None:
             raise no_master(self.master)
         if isinstance(answer, says.Refused):
@@ -108,6 +111,9 @@ class MasterClient:
         """Say good-bye; after the I/O thread has ended."""
         self._say(says.Bye(instance=self._told.instance))
         self._socket.close()
+        with self._changed:
+            self._closed = True
+            self._changed.notify_all()
 
     def _answered(self, version: int) -> bool:
         return self._answer is not None and self._answer.version >= version

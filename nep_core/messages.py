@@ -145,7 +145,7 @@ class ProgramState(msgspec.Struct, kw_only=True, omit_defaults=True):
 class ProgramControl(msgspec.Struct, kw_only=True, omit_defaults=True):
     """What a running program is asked to do (``/program_control``)."""
 
-    command: Literal["stop"]
+    command: Literal["start", "stop"]
     program: str = ""
 
 

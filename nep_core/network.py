@@ -16,6 +16,7 @@ from typing import Any, Literal, Self
 import zmq
 
 from nep_core.endpoints import broker_endpoints, check_endpoint
+from nep_core.errors import NetworkError
 from nep_core.inbox import WAKE_ENDPOINT, Inbox
 from nep_core.io_thread import IoThread
 from nep_core.outbox import HIGH_WATER_MARK, Outbox
@@ -68,17 +69,19 @@ class Network(ABC):
             self.io.forget(inbox.tend)
 
     def open_inbox(self, topic: str) -> tuple[str, Inbox]:
-        """A new subscriber's id and inbox."""
+        """A new subscriber's id and inbox; raises NetworkError when the network is closed."""
         subscriber = uuid.uuid4().hex
-        inbox = Inbox(
-            self.context,
-            topic,
-            subscriber,
-            wake=self.io.wake,
-            waker=self._waker,
-            high_water_mark=self._high_water_mark,
-        )
         with self._lock:
+            if self.closed:  # a socket that close() does not know of would keep it waiting
+                raise NetworkError(f"The network of {self.node} is closed.")
+            inbox = Inbox(
+                self.context,
+                topic,
+                subscriber,
+                wake=self.io.wake,
+                waker=self._waker,
+                high_water_mark=self._high_water_mark,
+            )
             self._inboxes[subscriber] = inbox
         self.io.tend(inbox.tend)
         return subscriber, inbox
@@ -97,10 +100,12 @@ class Network(ABC):
 
     def close(self) -> None:
         """Leave the network: what waits is sent (half a second at most), sockets are closed."""
-        if self.closed:
-            return
-        self.closed = True
-        for subscriber in list(self._inboxes):
+        with self._lock:
+            if self.closed:
+                return
+            self.closed = True
+            subscribers = list(self._inboxes)
+        for subscriber in subscribers:
             self.remove_subscriber(subscriber)
         self.io.close()
         self._leave()
@@ -167,7 +172,11 @@ class BrokerNetwork(Network):
         self.io.start()
 
     def add_publisher(self, topic: str) -> set[str]:
-        """Nothing to do: the broker passes the subscriptions on."""
+        """Wait until a subscription of our own has come back to us: then all others have."""
+        probe, inbox = self.open_inbox(topic)
+        inbox.connect({self._subscribers_end})
+        self.outbox.wait_for(topic, {probe}, 1, HANDSHAKE_S)
+        self.remove_subscriber(probe)
         return set()
 
     def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:

@@ -43,7 +43,12 @@ class Node:
         self._stopped = Wake()  # an Event could deadlock in a signal handler
         self._host = socket.gethostname()
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
-        self._states = Publisher(NODE_STATE, network=self.network)
+        try:
+            self._states = Publisher(NODE_STATE, network=self.network)
+        except BaseException:
+            if network is None:
+                self.network.close()  # else it would go on asking for the name
+            raise
         self.state("starting")
         self.network.io.tend(self._beat)
 
@@ -87,7 +92,7 @@ class Node:
             select.select([self._stopped], [], [], max(0.0, seconds))
         return self._stopping
 
-    def stop(self, *_signal: Any) -> None:
+    def stop(self) -> None:
         """Ask the node to stop; safe in a signal handler and from any thread."""
         self._stopping = True
         self._stopped()
@@ -96,7 +101,7 @@ class Node:
     def stop_on_signals(self) -> None:
         """Stop cleanly on SIGTERM, Ctrl-C and (Windows) Ctrl-Break; only in the main thread."""
         for number in STOP_SIGNALS:
-            signal.signal(number, self.stop)
+            signal.signal(number, self._on_signal)
 
     def close(self, event: NodeEvent = "stopped", description: str = "") -> None:
         """Say how it ended and leave the network."""
@@ -113,6 +118,12 @@ class Node:
             self.close()
         else:
             self.close("crashed", str(error) or type(error).__name__)
+
+    def _on_signal(self, number: int, _frame: Any) -> None:
+        if self._stopping and number == signal.SIGINT:  # a second Ctrl-C: somebody is in a hurry
+            signal.signal(number, signal.SIG_DFL)
+            signal.raise_signal(number)
+        self.stop()
 
     def _state(self, event: NodeEvent, description: str = "") -> NodeState:
         return NodeState(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import errno
+import os
 import threading
 from collections import defaultdict
 from collections.abc import Callable
@@ -42,12 +42,14 @@ class Outbox:
 
     def bind(self, endpoint: str) -> str:
         """Bind to ``endpoint``, say where; raises PortTaken."""
-        bind(self._socket, endpoint)
-        return self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
+        with self._lock:
+            bind(self._socket, endpoint)
+            return self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
 
     def connect(self, endpoint: str) -> None:
         """Send to ``endpoint``, where a broker or a subscriber is bound."""
-        self._socket.connect(endpoint)
+        with self._lock:
+            self._socket.connect(endpoint)
 
     @property
     def file_number(self) -> int:
@@ -121,16 +123,16 @@ class Outbox:
 
 
 def bind(socket: zmq.Socket[bytes], endpoint: str) -> None:
-    """Bind, or raise PortTaken with a sentence when another program has the endpoint."""
+    """Bind, or raise PortTaken with a sentence when the endpoint cannot be had."""
     try:
+        socket.setsockopt(zmq.IPV6, int("[" in endpoint))
         socket.bind(endpoint)
     except zmq.ZMQError as error:
-        if error.errno not in (zmq.EADDRINUSE, errno.EACCES, zmq.EADDRNOTAVAIL):
-            raise
         raise PortTaken(
-            f"{endpoint} cannot be used: {error.strerror.lower()}.",
+            f"{endpoint} cannot be used: {os.strerror(error.errno or 0).lower()}.",
             checklist=(
                 "Is the same program running twice? Stop the other one.",
                 "Choose another port.",
+                "Is that an address of this computer?",
             ),
         ) from error

@@ -6,16 +6,19 @@ A thin coat: ``from nep_core.paper import *`` and the paper's listings run as th
 from __future__ import annotations
 
 import atexit
+import contextlib
 import inspect
+import queue
 from collections.abc import Callable
 from typing import Any
 
 from nep_core.errors import NepError
+from nep_core.human import human_listener
 from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.messages import HumanBehavior
 from nep_core.pubsub import Publisher, Subscriber
 from nep_core.robot import Robot
-from nep_core.tasks import PROGRAM
+from nep_core.tasks import PROGRAM, Cancelled
 
 __all__ = ["launcher", "publisher", "robot", "robot_behaviors", "subscriber"]
 
@@ -44,6 +47,8 @@ class subscriber:  # noqa: N801  the paper's name
     def listen_info(self, block: bool = True) -> tuple[bool, Any]:
         """Whether a message came, and the message; without ``block`` waits a tenth of a second."""
         message = self._subscriber.receive(None if block else self.TIMEOUT_S)
+        if message is None and block:
+            raise Cancelled  # the program is asked to end: without this, its loop would not
         return message is not None, {} if message is None else message
 
 
@@ -113,9 +118,11 @@ class robot_behaviors:  # noqa: N801  the paper's name
                 checklist=('Write setattr(behavior, "reactive_function", your_function).',),
             )
         takes_self = len(inspect.signature(function).parameters) > 1
-        states = Subscriber(HUMAN_BEHAVIOR, HumanBehavior)
+        states: queue.SimpleQueue[HumanBehavior] = queue.SimpleQueue()
+        listener = human_listener()
+        listener.listen(states.put)
         while not PROGRAM.cancelled.is_set():
-            state = states.receive(0.1)
-            if state is not None:
-                said = (self, state.human_state) if takes_self else (state.human_state,)
-                function(*said)
+            with contextlib.suppress(queue.Empty):
+                state = states.get(timeout=0.1).human_state
+                function(self, state) if takes_self else function(state)
+        listener.unlisten(states.put)

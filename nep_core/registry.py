@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import msgspec
 
@@ -28,7 +29,7 @@ class Registration(msgspec.Struct, kw_only=True):
 
     instance: str
     node: str
-    pid: int
+    pid: Annotated[int, msgspec.Meta(ge=0, le=2**31 - 1)]
     host: str
     endpoint: str
     publishes: list[str] = []

@@ -123,11 +123,12 @@ def together(*functions: Callable[[], object]) -> None:
     """Run the functions side by side and wait for all; an error ends the others and is raised."""
     task = current_task()
     parts = [Part(f, f"nep-together-{i}", task).start() for i, f in enumerate(functions, 1)]
-    while any(part.is_running for part in parts):
-        if task.cancelled.is_set() or any(part.error for part in parts):
-            for part in parts:
-                part.task.cancel()
-        next(part for part in [*parts] if part.is_running or part is parts[-1]).join(POLL_S)
+    for part in parts:
+        while part.is_running:
+            part.join(POLL_S)
+            if task.cancelled.is_set() or any(other.error for other in parts):
+                for other in parts:
+                    other.task.cancel()
     task.check()
     for part in parts:
         if part.error is not None:

@@ -20,14 +20,16 @@ def shipped_gestures() -> dict[str, str]:
 
 
 def launchable_nodes() -> dict[str, str]:
-    """The nodes that can be launched: "type/name" to title; wrong manifests are left out."""
+    """The nodes that can be launched: "type/name" to title.
+
+    A node whose manifest is wrong is there too, so that a check can say what is wrong with it.
+    """
     nodes = {}
     for path in NodeCatalog(node_folders()).paths():
         try:
-            manifest = read_manifest(path)
+            nodes[f"{path.parent.name}/{path.stem}"] = read_manifest(path).title
         except ManifestError:
-            continue  # starting the node tells what is wrong with it
-        nodes[manifest.id] = manifest.title
+            nodes[f"{path.parent.name}/{path.stem}"] = path.stem
     return nodes
 
 

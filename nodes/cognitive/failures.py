@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import traceback
 
 from nep_core.errors import NepError
@@ -20,18 +21,27 @@ def describe(error: BaseException) -> str:
             return error.sentence
         case ZeroDivisionError():
             return "A number was divided by zero."
-        case UnboundLocalError() | NameError():
-            return f'Something called "{error.name}" was used before it had a value.'
+        case NameError():
+            return f'Something called "{_name_in(error)}" was used before it had a value.'
+        case SystemExit():
+            return f"The program ended itself with: {error.code}."
         case SyntaxError():
             return f"The program is not Python that can run: {error.msg}."
         case OverflowError():
             return "A number became too large."
         case RecursionError():
             return "The program called itself too many times."
-        case ValueError() | TypeError():
+        case TypeError():
+            return f"Texts and numbers were mixed where only one kind fits ({error})."
+        case ValueError():
             return f"A value did not fit: {error}."
         case _:
             return f"{type(error).__name__}: {error}"
+
+
+def _name_in(error: NameError) -> str:
+    quoted = re.search(r"'(\w+)'", str(error))
+    return error.name or (quoted[1] if quoted else "a variable")
 
 
 def line_of(error: BaseException, file: str) -> int:

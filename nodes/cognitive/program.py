@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import runpy
+import signal
 import threading
 import traceback
 from pathlib import Path
+from typing import Any
 
 from nep_core.default_network import set_default_network
+from nep_core.human import human_listener
 from nep_core.messages import (
     PROGRAM_CONTROL,
     PROGRAM_STATE,
@@ -15,52 +18,84 @@ from nep_core.messages import (
     ProgramEvent,
     ProgramState,
 )
-from nep_core.node import Node
-from nep_core.tasks import PROGRAM, Cancelled
+from nep_core.node import STOP_SIGNALS, Node
+from nep_core.pubsub import Publisher
+from nep_core.tasks import PROGRAM, Cancelled, wait_until
 from nodes.cognitive.failures import ProgramFailed, describe, line_of
 
 ONE_HOUR_S = 3600.0
 
 
-def run(node: Node, *, file: str) -> None:
-    """Run the Python program ``file`` until it ends, fails or is stopped."""
+def run(node: Node, *, file: str, hold: bool) -> None:
+    """Run the Python program ``file`` until it ends, fails or is stopped.
+
+    With ``hold`` it is ready first, and begins when the studio says start.
+    """
     if not Path(file).is_file():
         raise ProgramFailed(
             f"There is no program {file}.", checklist=("Check the name of the file.",)
         )
     states = node.publisher(PROGRAM_STATE)
-
-    def tell(event: ProgramEvent, description: str = "", line: int = 0) -> None:
-        states.send(
-            ProgramState(program=node.name, event=event, description=description, line=line)
-        )
-
-    node.subscriber(PROGRAM_CONTROL, ProgramControl, callback=lambda order: _obey(order, node))
-    threading.Thread(target=_cancel_on_stop, args=(node,), daemon=True).start()
+    begin = threading.Event()
+    _listen_for_orders(node, begin)
     set_default_network(node.network)
+    human_listener(node.network)  # what the person does from now on reaches the rules
     node.ready(f"runs {Path(file).name}")
-    tell("started")
     try:
+        if hold:
+            wait_until(begin.is_set)
+        _tell(states, node, "started")
         runpy.run_path(file, run_name="__main__")
-    except (Cancelled, SystemExit):
-        tell("finished", "stopped")
+    except Cancelled:
+        _tell(states, node, "finished", "stopped")
+    except SystemExit as error:
+        if error.code not in (None, 0):
+            _fail(states, node, file, error)
+        _tell(states, node, "finished")
     except BaseException as error:
         if node.stopping:
             return
         traceback.print_exc()  # into the node's log
-        sentence = describe(error)
-        tell("failed", sentence, line_of(error, file))
-        raise ProgramFailed(sentence, checklist=getattr(error, "checklist", ())) from error
+        _fail(states, node, file, error)
     else:
-        tell("finished")
+        _tell(states, node, "finished")
+    finally:
+        node.stop_on_signals()  # the program is over: end the node in the usual way
 
 
-def _obey(order: ProgramControl, node: Node) -> None:
-    if order.program in ("", node.name):
+def _tell(
+    states: Publisher, node: Node, event: ProgramEvent, description: str = "", line: int = 0
+) -> None:
+    states.send(ProgramState(program=node.name, event=event, description=description, line=line))
+
+
+def _fail(states: Publisher, node: Node, file: str, error: BaseException) -> None:
+    sentence = describe(error)
+    _tell(states, node, "failed", sentence, line_of(error, file))
+    raise ProgramFailed(sentence, checklist=getattr(error, "checklist", ())) from error
+
+
+def _listen_for_orders(node: Node, begin: threading.Event) -> None:
+    """End the program on signals, when the node is stopped, and when the studio asks."""
+
+    def obey(order: ProgramControl) -> None:
+        if order.program not in ("", node.name):
+            return
+        if order.command == "start":
+            begin.set()
+        else:
+            PROGRAM.cancel()
+
+    def cancel_on_stop() -> None:
+        while not node.wait(ONE_HOUR_S):
+            pass
         PROGRAM.cancel()
 
+    def on_signal(*_: Any) -> None:
+        node.stop()
+        raise Cancelled  # programs run in the main thread, as signals do
 
-def _cancel_on_stop(node: Node) -> None:
-    while not node.wait(ONE_HOUR_S):
-        pass
-    PROGRAM.cancel()
+    node.subscriber(PROGRAM_CONTROL, ProgramControl, callback=obey)
+    threading.Thread(target=cancel_on_stop, name="nep-program-stop", daemon=True).start()
+    for number in STOP_SIGNALS:
+        signal.signal(number, on_signal)

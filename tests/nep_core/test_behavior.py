@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -133,6 +134,65 @@ def test_a_rule_that_fires_while_it_runs(
     assert not finished.acquire(timeout=0.2)
 
 
+def test_a_rule_that_is_started_again_runs_once_at_a_time(
+    person: Person, run: Callable[[Behavior], Running]
+) -> None:
+    behavior = Behavior()
+    begun, at_once, most = threading.Semaphore(0), [0], [0]
+
+    @behavior.when("gesture_karate", again="restart")
+    def rule() -> None:
+        at_once[0] += 1
+        most[0] = max(most[0], at_once[0])
+        begun.release()
+        with contextlib.suppress(Cancelled):  # it ends well although it was cancelled
+            wait(0.2)
+        at_once[0] -= 1
+
+    run(behavior)
+
+    for _ in range(4):
+        person.does("gesture_karate")
+        assert begun.acquire(timeout=5)
+
+    assert most[0] == 1
+
+
+def test_what_the_person_does_before_the_rules_listen_is_not_lost(
+    person: Person, run: Callable[[Behavior], Running]
+) -> None:
+    person.does("gesture_karate")
+    wait_until(lambda: human_state() == "gesture_karate")
+    behavior = Behavior()
+    fired = threading.Event()
+    behavior.when("gesture_karate")(fired.set)
+
+    run(behavior)
+
+    assert fired.wait(5)
+
+
+def test_an_error_is_not_lost_when_its_thread_starts_late(
+    network: PeerNetwork, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    start = threading.Thread.start
+
+    def start_late(thread: threading.Thread) -> None:
+        if thread.name.startswith("nep-start"):
+            threading.Event().wait(0.1)
+        start(thread)
+
+    monkeypatch.setattr(threading.Thread, "start", start_late)
+    behavior = Behavior()
+
+    @behavior.when_started
+    def fail() -> None:
+        raise ValueError("at the start")
+
+    with pytest.raises(ValueError, match="at the start"):
+        behavior.run()
+
+
 def test_two_rules_run_side_by_side(person: Person, run: Callable[[Behavior], Running]) -> None:
     behavior = Behavior()
     meet = threading.Barrier(3)
@@ -193,7 +253,7 @@ def test_stop_program_ends_everything_at_its_next_wait(
     running.thread.join(5)
 
     assert ended.is_set()
-    assert isinstance(running.error, Cancelled)
+    assert running.error is None
 
 
 def test_rules_are_told_on_the_program_state(

@@ -99,6 +99,8 @@ def test_any_request_gets_an_answer_and_the_master_goes_on(
         b"null",
         b'{"do":"register"}',
         b'{"do":"register","version":1,"registration":{"node":5}}',
+        b'{"do":"register","version":1,"registration":{"instance":"i","node":"n","pid":-1,'
+        b'"host":"h","endpoint":"e"}}',
         b"[" * 5000,
         b'{"node":"a","topic":"/t1","mode":"many2many"}',
     ],

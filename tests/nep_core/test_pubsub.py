@@ -294,3 +294,23 @@ def test_the_private_subscription_is_sent_after_the_data_one(free_port: int) -> 
 
     assert events[0] == b"\x01" + subscription("/\U0010ffff")
     assert read_subscription(events[1]) is not None
+
+
+def test_a_subscriber_of_a_closed_network_is_refused_and_nothing_hangs(join: Join) -> None:
+    hearer = join("hearer")
+    hearer.close()
+
+    with pytest.raises(NetworkError, match="closed"):
+        Subscriber("/x", network=hearer)
+
+
+def test_through_a_broker_no_first_message_is_lost(free_port: int) -> None:
+    endpoint = f"tcp://127.0.0.1:{free_port}"
+    broker = Broker(endpoint)
+    for trial in range(10):
+        with BrokerNetwork(endpoint) as talker, BrokerNetwork(endpoint) as hearer:
+            subscriber = Subscriber[list[int]]("/x", network=hearer)
+            Publisher("/x", network=talker).send([trial])
+
+            assert subscriber.receive(5) == [trial]
+    broker.close()
