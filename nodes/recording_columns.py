@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 _UNIT_IN_BRACKETS = re.compile(r"[(\[].*?[)\]]")
 _ACCELERATION = r"(?:lin|linear|user)?(?:a|acc|accel|acceleration|accelerometer)"
 _ROTATION = r"(?:g|gyr|gyro|gyroscope|rotation|rotationrate)"
@@ -27,6 +30,10 @@ class Columns:
     def numbers(self) -> tuple[int, ...]:
         """The columns that hold numbers, in the order time, acceleration, gyroscope."""
         return (self.time, *self.acc, *(self.gyr or ()))
+
+    def unit_of(self, steps: NDArray[np.float64]) -> float:
+        """The unit of time in s: as the column's name says, or as ``steps`` (n - 1,) suggest."""
+        return self.time_unit_s or guess_time_unit_s(float(np.median(steps)))
 
 
 def find_columns(header: list[str]) -> Columns | None:

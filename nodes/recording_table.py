@@ -18,10 +18,17 @@ Floats = NDArray[np.float64]
 MAX_SAMPLES = 1_000_000
 _MAX_BYTES = 500_000_000
 _HEAD_BYTES = 65_536
+_LONGEST_GAP_S = 3600.0
+_MOST_MEASURED = 10_000.0  # m/s² (a thousand times gravity), and rotation even in degrees
+_LATEST = 1e20  # in any unit: nanoseconds since 1970 are 2e18
 _COLUMNS_CHECKLIST = (
     "The first line names the columns, for example t_s,ax,ay,az,gx,gy,gz,gesture.",
     "Every line below it has one value for each column.",
     "Numbers are written with a dot: 9.81.",
+)
+IS_TEXT = (
+    "Choose the CSV file that the app of the watch or phone has saved.",
+    "From a spreadsheet, save it as CSV with the encoding UTF-8.",
 )
 _RECORD_AGAIN = ("Record the movement once more.",)
 
@@ -48,10 +55,14 @@ def check_size(path: Path) -> None:
     with path.open("rb") as file:
         head = file.read(_HEAD_BYTES)
     if b"\0" in head:
-        raise RecordingError(f"{path.name} is not a text file; a recording is a CSV file.")
+        raise RecordingError(
+            f"{path.name} is not a text file; a recording is a CSV file.", checklist=IS_TEXT
+        )
     lines_in_head = head.count(b"\n")
     if size >= _HEAD_BYTES and not lines_in_head:
-        raise RecordingError(f"{path.name} is one endless line; a recording has a line a sample.")
+        raise RecordingError(
+            f"{path.name} is one endless line; a recording has a line a sample.", checklist=IS_TEXT
+        )
     samples = size * lines_in_head // max(1, len(head))
     if samples > MAX_SAMPLES * 1.1 or size > _MAX_BYTES:
         raise _too_long(path, f"about {samples:,}")
@@ -116,6 +127,7 @@ class _Rows:
                 f"{self._path.name} has too few samples: {len(numbers)}.", checklist=_RECORD_AGAIN
             )
         self._check_finite(numbers)
+        self._check_measurable(numbers)
         self._check_times(numbers[:, 0])
         return numbers
 
@@ -128,8 +140,23 @@ class _Rows:
                 checklist=("Remove that line, or record the movement once more.",),
             )
 
+    def _check_measurable(self, numbers: Floats) -> None:
+        limits = np.full(numbers.shape[1], _MOST_MEASURED)
+        limits[0] = _LATEST
+        rows, columns = np.nonzero(np.abs(numbers) > limits)
+        if len(rows):
+            raise RecordingError(
+                f"Line {self._line_numbers[rows[0]]} of {self._path.name} has the number "
+                f"{numbers[rows[0], columns[0]]:g}, which no sensor can measure.",
+                checklist=(
+                    "Remove that line, or record the movement once more.",
+                    "Acceleration is in m/s², rotation in rad/s.",
+                ),
+            )
+
     def _check_times(self, times: Floats) -> None:
-        back = np.flatnonzero(np.diff(times) < 0)
+        steps = np.diff(times)
+        back = np.flatnonzero(steps < 0)
         if len(back):
             raise RecordingError(
                 f"The times of {self._path.name} go backwards at line "
@@ -141,6 +168,17 @@ class _Rows:
                 f"The times of {self._path.name} are all the same.",
                 checklist=("The first column is the time of each sample, in seconds.",),
             )
+        gaps = np.flatnonzero(steps * self._columns.unit_of(steps) > _LONGEST_GAP_S)
+        if len(gaps):
+            line = self._line_numbers[gaps[0] + 1]
+            raise RecordingError(
+                f"Line {line} of {self._path.name} is more than an hour later than the one before.",
+                checklist=(
+                    f"Cut the recording there: save line {line} and all below it in a file of "
+                    "their own, with the same header.",
+                    "Is only this time wrong? Remove the line.",
+                ),
+            )
 
     def _unreadable(self, line_number: int, cells: list[str]) -> RecordingError:
         where = f"Line {line_number} of {self._path.name}"
@@ -148,7 +186,7 @@ class _Rows:
             if at >= len(cells):
                 break
             if not _is_number(cells[at]):
-                what = f'"{cells[at][:40]}"' if cells[at] else "nothing"
+                what = f'"{_shown(cells[at][:40])}"' if cells[at] else "nothing"
                 return RecordingError(
                     f"{where} has {what} in column {at + 1}, where a number belongs.",
                     checklist=_COLUMNS_CHECKLIST,
@@ -162,6 +200,11 @@ def _cells(line: str, separator: str) -> list[str]:
     if separator == ";":
         line = line.replace(",", ".")  # semicolons come with decimal commas
     return [cell.strip() for cell in line.replace('"', "").split(separator)]
+
+
+def _shown(text: str) -> str:
+    """Text from a file, without the characters that would command a terminal."""
+    return "".join(one if one.isprintable() else "?" for one in text)
 
 
 def _is_number(text: str) -> bool:
@@ -183,7 +226,7 @@ def _unknown_columns(path: Path, line_number: int, names: list[str]) -> Recordin
     if all(_is_number(name) for name in names):
         sentence = f"{path.name} has no header: line {line_number} holds numbers already."
     else:
-        found = ", ".join(name[:20] for name in names[:8])
+        found = ", ".join(_shown(name[:20]) for name in names[:8])
         sentence = (
             f"{path.name} needs the columns t_s, ax, ay and az; "
             f"its header, line {line_number}, names {found}."

@@ -11,10 +11,16 @@ from pathlib import Path
 import numpy as np
 
 from nep_core.errors import RecordingError
-from nodes.recording_columns import Columns, guess_time_unit_s
-from nodes.recording_table import Floats, Table, check_size, read_table
+from nodes.recording_columns import Columns
+from nodes.recording_table import IS_TEXT, Floats, Table, check_size, read_table
 
 _NO_GESTURE = {"", "0", "none", "nothing"}
+_IS_THERE = ("Is the name spelled right, and is the file still there?",)
+_MAY_OPEN = ("May you open it? Ask whoever owns it, or make a copy in your home folder.",)
+_MAY_WRITE = (
+    "Choose a folder that you may write into, such as one in your home folder.",
+    "Is there room on the disk?",
+)
 _EARTH_M_S2 = (6.0, 14.0)  # a sensor whose usual |acceleration| is in here feels gravity
 
 
@@ -46,8 +52,17 @@ class Recording:
 def read_recordings(directory: Path) -> list[Recording]:
     """Read every CSV file of a folder, in the order of their names; RecordingError says why not."""
     if not directory.is_dir():
-        raise RecordingError(f"{directory} is not a folder of recordings.")
-    paths = sorted(path for path in directory.iterdir() if path.suffix.lower() == ".csv")
+        raise RecordingError(
+            f"{directory} is not a folder of recordings.",
+            checklist=(
+                "Put the recordings into a folder, as files that end with .csv.",
+                "Give the name of that folder.",
+            ),
+        )
+    try:
+        paths = sorted(path for path in directory.iterdir() if path.suffix.lower() == ".csv")
+    except OSError as error:
+        raise _unreadable(directory, error) from error
     if not paths:
         raise RecordingError(
             f"The folder {directory} has no recordings.",
@@ -65,15 +80,17 @@ def read_recording(path: Path) -> Recording:
     except UnicodeDecodeError as error:
         raise RecordingError(
             f"{path.name} is not a text file (UTF-8).",
-            checklist=("Save it as CSV with the encoding UTF-8.",),
+            checklist=IS_TEXT,
             details=str(error),
         ) from error
     except FileNotFoundError as error:
-        raise RecordingError(f"There is no recording {path}.") from error
+        raise RecordingError(f"There is no recording {path}.", checklist=_IS_THERE) from error
     except IsADirectoryError as error:
-        raise RecordingError(f"{path} is a folder, not a recording.") from error
+        raise RecordingError(
+            f"{path} is a folder, not a recording.", checklist=("Choose a CSV file in it.",)
+        ) from error
     except OSError as error:
-        raise RecordingError(f"{path} cannot be read: {error.strerror}.") from error
+        raise _unreadable(path, error) from error
 
 
 def write_recording(path: Path, recording: Recording) -> None:
@@ -86,9 +103,17 @@ def write_recording(path: Path, recording: Recording) -> None:
             os.fsync(file.fileno())
         unfinished.replace(path)
     except OSError as error:
-        raise RecordingError(f"{path} cannot be written: {error.strerror}.") from error
+        raise RecordingError(
+            f"{path} cannot be written: {error.strerror}.", checklist=_MAY_WRITE, details=str(error)
+        ) from error
     finally:
         unfinished.unlink(missing_ok=True)
+
+
+def _unreadable(path: Path, error: OSError) -> RecordingError:
+    return RecordingError(
+        f"{path} cannot be read: {error.strerror}.", checklist=_MAY_OPEN, details=str(error)
+    )
 
 
 def _recording(stem: str, table: Table) -> Recording:
@@ -107,8 +132,7 @@ def _recording(stem: str, table: Table) -> Recording:
 
 
 def _seconds(times: Floats, columns: Columns) -> Floats:
-    unit_s = columns.time_unit_s or guess_time_unit_s(float(np.median(np.diff(times))))
-    seconds: Floats = (times - times[0]) * unit_s
+    seconds: Floats = (times - times[0]) * columns.unit_of(np.diff(times))
     return seconds
 
 

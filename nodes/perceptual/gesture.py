@@ -98,10 +98,10 @@ class _Ears:
             spotter = self._make_spotter(gravity_included=batch.gravity_included)
             spotter.listen(gyroscope)
         except RecordingError as error:
-            self._node.warn(error.sentence)
+            self._node.warn(" ".join([error.sentence, *error.checklist]))
             return None
-        with_rotation = "with rotation" if gyroscope else "without rotation"
-        self._node.state("running", f"hears {batch.source} {with_rotation}")
+        lacking = "" if gyroscope else ", which sends no rotation"
+        self._node.state("running", f"listens to {batch.source}{lacking}")
         return spotter
 
     def _forget_oldest(self) -> None:

@@ -99,6 +99,6 @@ class _Watch:
     def _tell(self, gesture: str) -> None:
         if gesture != self._told:
             person = f"(simulated person {self._wearer.number})"
-            what = f"makes the gesture {gesture}" if gesture else "everyday movement"
-            self._node.state("running", f"{what} {person}")
+            makes = f"makes the gesture {gesture} {person}"
+            self._node.state("running", makes if gesture else "goes on with everyday movement")
         self._told = gesture

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import threading
-import time
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -20,7 +19,7 @@ from nep_core.messages import (
 )
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
-from nep_core.tasks import Cancelled, Task, stop_program, together, wait, wait_until
+from nep_core.tasks import Cancelled, stop_program, wait, wait_until
 
 Join = Callable[[str], PeerNetwork]
 
@@ -269,37 +268,6 @@ def test_rules_are_told_on_the_program_state(
     assert first is not None and second is not None
     assert (first.program, first.event, first.rule) == ("Karate", "rule_started", "gesture_karate")
     assert second.event == "rule_finished"
-
-
-def test_together_waits_for_the_slowest() -> None:
-    done: list[str] = []
-
-    together(lambda: (wait(0.05), done.append("slow")), lambda: done.append("fast"))
-
-    assert done == ["fast", "slow"]
-
-
-def test_an_error_in_one_part_ends_the_others() -> None:
-    def fail() -> None:
-        raise ValueError("one part fails")
-
-    started_s = time.monotonic()
-    with pytest.raises(ValueError, match="one part fails"):
-        together(lambda: wait(60), fail)
-    assert time.monotonic() - started_s < 10
-
-
-def test_together_of_nothing_is_done_at_once() -> None:
-    together()
-
-
-def test_cancelling_reaches_the_parts_of_parts() -> None:
-    child = Task(Task(root := Task()))
-
-    root.cancel()
-
-    assert child.cancelled.is_set()
-    assert Task(root).cancelled.is_set()
 
 
 def test_the_human_state_is_forgotten_after_a_while(

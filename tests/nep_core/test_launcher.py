@@ -3,44 +3,22 @@
 from __future__ import annotations
 
 import os
-import queue
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import psutil
 import pytest
 
 from nep_core.errors import NameTaken, NodeStartError, ParameterError
-from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.launcher import Launcher
 from nep_core.messages import NODE_STATE, NodeState
 from nep_core.outcome import Outcome
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Subscriber
+from tests.nep_core.launching import WAIT, Ends
 from tests.nep_core.node_making import write_node
-
-Ends = queue.Queue[tuple[LaunchedNode, Outcome, bool]]
-WAIT = 'node.ready("waits")\nwhile not node.wait(1): pass'
-
-
-@pytest.fixture
-def ends() -> Ends:
-    return queue.Queue()
-
-
-@pytest.fixture
-def launcher(network: PeerNetwork, tmp_path: Path, ends: Ends) -> Iterator[Launcher]:
-    with Launcher(
-        folders=(tmp_path / "nodes",),
-        logs=tmp_path / "logs",
-        master=network.master,
-        on_end=lambda *end: ends.put(end),
-    ) as launcher:
-        launcher.hear(network)
-        write_node(tmp_path / "nodes", "waiter", WAIT)
-        yield launcher
 
 
 def test_a_node_becomes_ready_and_stops_when_asked(launcher: Launcher, ends: Ends) -> None:

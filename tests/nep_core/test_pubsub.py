@@ -9,13 +9,10 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 
 import pytest
-import zmq
 
 from nep_core import inbox
 from nep_core.broker import Broker
-from nep_core.errors import MasterNotFound, NameTaken, NetworkError, PortTaken
-from nep_core.frames import subscription
-from nep_core.handshake import read_subscription
+from nep_core.errors import NetworkError
 from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.network import BrokerNetwork, DirectNetwork, Network
 from nep_core.p2p import PeerNetwork
@@ -244,73 +241,3 @@ def test_two_publishers_of_a_topic_must_agree_on_the_encoding(join: Join) -> Non
 
     with pytest.raises(NetworkError, match="msgpack"):
         Publisher("/x", network=talker, encoding="json")
-
-
-def test_a_taken_port_is_told_in_a_sentence(free_port: int) -> None:
-    endpoint = f"tcp://127.0.0.1:{free_port}"
-    with DirectNetwork(endpoint) as first, DirectNetwork(endpoint) as second:
-        Publisher("/x", network=first)
-
-        with pytest.raises(PortTaken, match=str(free_port)):
-            Publisher("/x", network=second)
-
-
-@pytest.mark.parametrize("endpoint", ["", "127.0.0.1:7000", "tcp://127.0.0.1:99999", "tcp://a b:1"])
-def test_what_is_no_endpoint_is_told(endpoint: str, free_port: int) -> None:
-    with pytest.raises(NetworkError, match="not an endpoint"):
-        DirectNetwork(endpoint)
-
-
-def test_without_a_master_the_sentence_says_how_to_start_one(
-    free_port: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("nep_core.master_client.ANSWER_S", 0.2)
-    nobody = f"tcp://127.0.0.1:{free_port}"
-    with PeerNetwork("lonely", master=nobody) as network, pytest.raises(MasterNotFound) as raised:
-        Publisher("/x", network=network)
-
-    assert any("nep master" in step for step in raised.value.checklist)
-
-
-def test_a_second_node_of_the_same_name_is_refused_and_nobody_is_killed(join: Join) -> None:
-    first, second = join("watch"), join("watch")
-    first.join()
-
-    with pytest.raises(NameTaken, match="watch"):
-        second.join()
-
-    Publisher("/x", network=first).send("the first goes on")
-
-
-def test_the_private_subscription_is_sent_after_the_data_one(free_port: int) -> None:
-    """ZeroMQ sends subscriptions in the order of their bytes, and the handshake rests on it."""
-    with zmq.Context() as context, context.socket(zmq.XPUB) as publisher:
-        publisher.linger = 0
-        publisher.bind(f"tcp://127.0.0.1:{free_port}")
-        with DirectNetwork(f"tcp://127.0.0.1:{free_port}") as hearer:
-            Subscriber("/\U0010ffff", network=hearer)
-
-            events = [publisher.recv(), publisher.recv()]
-
-    assert events[0] == b"\x01" + subscription("/\U0010ffff")
-    assert read_subscription(events[1]) is not None
-
-
-def test_a_subscriber_of_a_closed_network_is_refused_and_nothing_hangs(join: Join) -> None:
-    hearer = join("hearer")
-    hearer.close()
-
-    with pytest.raises(NetworkError, match="closed"):
-        Subscriber("/x", network=hearer)
-
-
-def test_through_a_broker_no_first_message_is_lost(free_port: int) -> None:
-    endpoint = f"tcp://127.0.0.1:{free_port}"
-    broker = Broker(endpoint)
-    for trial in range(10):
-        with BrokerNetwork(endpoint) as talker, BrokerNetwork(endpoint) as hearer:
-            subscriber = Subscriber[list[int]]("/x", network=hearer)
-            Publisher("/x", network=talker).send([trial])
-
-            assert subscriber.receive(5) == [trial]
-    broker.close()

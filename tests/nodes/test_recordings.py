@@ -26,6 +26,7 @@ def rows(gestures):
 def refusal(path):
     with pytest.raises(RecordingError) as raised:
         read_recording(path)
+    assert raised.value.checklist
     return raised.value.sentence
 
 
@@ -97,6 +98,13 @@ def test_a_sensor_without_gravity_is_told_by_its_numbers_or_its_name(tmp_path):
         (HEADER + rows("0") + "0.02,,0,9,0,0,0,0\n", "Line 3 of j_bounce_up.csv has nothing"),
         (HEADER + rows("0") + "0.02,nan,0,9,0,0,0,0\n", "Line 3 of j_bounce_up.csv has a number"),
         (HEADER + rows("0") + "0.02,-inf,0,9,0,0,0,0\n", "not finite"),
+        (
+            HEADER + rows("0") + "0.02,1e300,0,9,0,0,0,0\n",
+            "Line 3 of j_bounce_up.csv has the number",
+        ),
+        (HEADER + rows("0") + "1e300,1,0,9,0,0,0,0\n", "has the number 1e+300, which no sensor"),
+        (HEADER + rows("00") + "3600.1,1,0,9,0,0,0,0\n", "Line 4 of j_bounce_up.csv is more than"),
+        (HEADER + rows("0") + "0.02,\x1b[2J,0,9,0,0,0,0\n", 'has "?[2J" in column 2'),
         (HEADER + rows("0") + "0.02,1,2\n", "Line 3 of j_bounce_up.csv has only 3 columns"),
         (HEADER + rows("00") + "0.01,1,2,9,0,0,0,0\n", "go backwards at line 4"),
         (HEADER + "0,1,2,9,0,0,0,0\n" * 2, "are all the same"),
@@ -107,12 +115,24 @@ def test_a_sensor_without_gravity_is_told_by_its_numbers_or_its_name(tmp_path):
         ("", "is empty"),
         ("\n \n# person: x\n", "is empty"),
         (b"t,x,y,z\n\xff\xfe1,2,3,4\n", "is not a text file (UTF-8)"),
+        ((HEADER + rows("00")).encode("utf-16"), "is not a text file"),
         (b"\x89PNG\r\n\x00\x00\x00", "is not a text file; a recording is a CSV file"),
         ("x" * 70_000, "is one endless line"),
     ],
 )
 def test_what_is_no_recording_is_refused_with_its_place(tmp_path, text, said):
     assert said in refusal(recorded(tmp_path, text))
+
+
+def test_a_recording_with_a_break_of_a_year_says_where_to_cut_it(tmp_path):
+    year_ms = 365 * 24 * 3_600_000
+    times = [*range(0, 1000, 20), *range(year_ms, year_ms + 1000, 20)]
+    text = "time_ms,x,y,z\n" + "".join(f"{time},1,2,9\n" for time in times)
+
+    with pytest.raises(RecordingError, match=r"Line 52 .* more than an hour later") as told:
+        read_recording(recorded(tmp_path, text))
+
+    assert "save line 52 and all below it" in told.value.checklist[0]
 
 
 def test_a_file_that_is_not_there_and_a_folder_are_told_apart(tmp_path):
@@ -140,8 +160,9 @@ def test_a_folder_of_recordings_is_read_in_the_order_of_names(tmp_path):
 def test_a_folder_without_recordings_says_what_belongs_there(tmp_path):
     with pytest.raises(RecordingError, match="has no recordings"):
         read_recordings(tmp_path)
-    with pytest.raises(RecordingError, match="is not a folder"):
+    with pytest.raises(RecordingError, match="is not a folder") as told:
         read_recordings(tmp_path / "gone")
+    assert told.value.checklist
 
 
 @given(

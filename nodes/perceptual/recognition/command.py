@@ -12,7 +12,7 @@ from pathlib import Path
 from nep_core.errors import NepError, RecordingError
 from nodes.perceptual.recognition.everyday import simulated_everyday
 from nodes.perceptual.recognition.model import METHODS, Model
-from nodes.perceptual.recognition.model_file import SUFFIX, write_model
+from nodes.perceptual.recognition.model_file import SUFFIX, check_writable, write_model
 from nodes.perceptual.recognition.report import advice, in_words
 from nodes.perceptual.recognition.training import train
 from nodes.recordings import Recording, read_recordings
@@ -23,7 +23,7 @@ def main(arguments: list[str]) -> int:
     asked = _parser().parse_args(arguments)
     methods = METHODS if asked.method == "both" else (asked.method,)
     try:
-        _check_goal(asked.output)
+        _check_goal(asked.output, asked.replace)
         model = _train(asked.directory, asked.everyday, methods)
     except RecordingError as error:
         return _tell_error(error, 2)
@@ -31,7 +31,7 @@ def main(arguments: list[str]) -> int:
         write_model(asked.output, model)
     except NepError as error:
         return _tell_error(error, 1)
-    print("\n".join(_report(asked.output, model)))
+    print("\n".join(_report(asked.output, model, asked.everyday is not None)))
     return 0
 
 
@@ -45,6 +45,9 @@ def _parser() -> argparse.ArgumentParser:
         "-o", "--output", type=Path, required=True, help=f"the model to write (*{SUFFIX})"
     )
     parser.add_argument(
+        "--replace", action="store_true", help="write over the model if it is already there"
+    )
+    parser.add_argument(
         "--method", choices=(*METHODS, "both"), default="both", help="how it will recognise"
     )
     parser.add_argument(
@@ -56,7 +59,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _check_goal(output: Path) -> None:
+def _check_goal(output: Path, replaces: bool) -> None:
     if output.suffix != SUFFIX:
         raise RecordingError(
             f"{output} would not be known as a gesture model.",
@@ -65,6 +68,16 @@ def _check_goal(output: Path) -> None:
     if not output.parent.is_dir():
         raise RecordingError(
             f"The folder {output.parent} is not there.", checklist=("Make it, or choose another.",)
+        )
+    check_writable(output)
+    if output.is_dir():
+        raise RecordingError(
+            f"{output} is a folder.", checklist=("Choose another name for the model.",)
+        )
+    if output.exists() and not replaces:
+        raise RecordingError(
+            f"{output} is already there, and would be lost.",
+            checklist=("Choose another name.", "Or add --replace to write over it."),
         )
 
 
@@ -82,11 +95,11 @@ def _without_labels(recording: Recording) -> Recording:
     return replace(recording, labels=None)
 
 
-def _report(output: Path, model: Model) -> list[str]:
+def _report(output: Path, model: Model, has_own_everyday: bool) -> list[str]:
     lines = [""]
     for method, report in model.report.items():
         lines += [*in_words(method, report), ""]
-    lines += advice(next(iter(model.report.values())))
+    lines += advice(next(iter(model.report.values())), has_own_everyday)
     return [*lines, f"The model is in {output}."]
 
 

@@ -95,7 +95,8 @@ class Model:
                 f"This gesture model needs {least.channels.in_words},"
                 " and the sensor does not send that.",
                 checklist=(
-                    "Use the kind of watch or phone that the gestures were recorded with.",
+                    f"In the app of the watch or phone, switch on {least.channels.in_words}.",
+                    "Or use the kind of watch or phone that the gestures were recorded with.",
                     "Or record the gestures with this sensor and train again.",
                 ),
             )

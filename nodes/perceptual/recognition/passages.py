@@ -13,6 +13,7 @@ from nodes.perceptual.recognition.stream import RATE_HZ, EvenStream, Floats
 from nodes.recordings import Recording
 
 SHORTEST_S, LONGEST_S = 0.2, 8.0
+_LONGEST_NAME = 100
 _SLOWEST_HZ = 10.0
 
 
@@ -44,6 +45,11 @@ class Passage:
     def duration_s(self) -> float:
         """How long it lasts."""
         return len(self.samples) / RATE_HZ
+
+
+def is_gesture_name(name: str) -> bool:
+    """Whether a gesture may have this name: it can be shown on one line."""
+    return bool(name.strip()) and len(name) <= _LONGEST_NAME and name.isprintable()
 
 
 def passages_of(recordings: Sequence[Recording], gyroscope: bool) -> list[Passage]:
@@ -84,6 +90,12 @@ def _passages(recording: Recording, gyroscope: bool) -> Iterator[Passage]:
 
 
 def _check(recording: Recording, take: Take) -> None:
+    if not is_gesture_name(take.gesture):
+        raise RecordingError(
+            f"{recording.source}: the gesture at {take.start_s:.2f} s has a name that is too long,"
+            " or that cannot be shown.",
+            checklist=(f"Name it with letters, digits and _, {_LONGEST_NAME} at most.",),
+        )
     if SHORTEST_S <= take.duration_s <= LONGEST_S:
         return
     size = "short" if take.duration_s < SHORTEST_S else "long"

@@ -32,19 +32,28 @@ def in_words(method: str, report: Mapping[str, Any]) -> list[str]:
     counts = {(made, found): count for made, found, count in report["confusion"]}
     takes: dict[str, int] = report["takes"]
     if min(takes.values()) < 2:
-        return [f"{method}: not checked, for that each gesture must be recorded twice or more."]
+        return [f"{method}: not checked. To check it, record each gesture at least twice."]
     lines = [f"{method}: gestures recognised in recordings that were left out of the training"]
     lines += [_gesture_line(name, takes[name], counts) for name in takes]
     lines.append(_everyday_line(report))
     return lines
 
 
-def advice(report: Mapping[str, Any]) -> list[str]:
+def advice(report: Mapping[str, Any], has_own_everyday: bool) -> list[str]:
     """What would make the model better."""
-    few = [name for name, count in report["takes"].items() if count < _FEW_TAKES]
-    if not few:
-        return []
-    return [f"Record {', '.join(few)} {_FEW_TAKES} times or more: it will be recognised better."]
+    takes: dict[str, int] = report["takes"]
+    few = [name for name, count in takes.items() if count < _FEW_TAKES]
+    lines = []
+    if few:
+        names = ", ".join(few)
+        lines.append(f"Record {names} {_FEW_TAKES} times or more: it will be recognised better.")
+    if len(takes) == 1:
+        or_everyday = "" if has_own_everyday else ", or your everyday movement with --everyday"
+        lines.append(
+            f"Nothing could be confused with {next(iter(takes))} yet:"
+            f" add another gesture{or_everyday}."
+        )
+    return lines
 
 
 def _gesture_line(name: str, takes: int, counts: Mapping[tuple[str, str], int]) -> str:

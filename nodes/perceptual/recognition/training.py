@@ -113,6 +113,5 @@ def _in_words(recordings: Sequence[Recording], everyday: Sequence[Recording]) ->
     minutes = sum(float(recording.t[-1]) for recording in everyday) / 60
     who = f"{len(people)} {'person' if len(people) == 1 else 'people'}" if people else "someone"
     kind = " simulated" if simulated == len(recordings) else ""
-    return (
-        f"{len(recordings)}{kind} recordings of {who}, {minutes:.1f} minutes of everyday movement"
-    )
+    noun = "recording" if len(recordings) == 1 else "recordings"
+    return f"{len(recordings)}{kind} {noun} of {who}, {minutes:.1f} minutes of everyday movement"

@@ -1,5 +1,7 @@
 """``nep-studio train``: recordings in, a model and a report out."""
 
+import sys
+
 import pytest
 
 from nodes.perceptual.recognition.command import main
@@ -32,6 +34,8 @@ def test_recordings_become_a_model_and_a_report(folders, tmp_path, capsys):
     assert "karate: 3 of 3" in told
     assert "false triggers a minute, in 0.5 minutes" in told
     assert "Record karate 5 times or more" in told
+    assert "Nothing could be confused with karate yet: add another gesture." in told
+    assert "on 1 simulated recording of 1 person" in told
     assert f"The model is in {model}." in told
     assert read_model(model).names == ("karate",)
     assert {path: path.read_bytes() for path in folders.rglob("*.csv")} == before
@@ -65,6 +69,8 @@ def moving(seconds, rate_hz, gesture):
         (moving(30, 50, lambda n: int(n > 50)), "which is too long"),
         (moving(9, 5, lambda n: int(n % 10 > 5)), "5.0 samples a second, which is too few"),
         (["0,1,2,three,0"], "ann_wave.csv"),
+        (moving(4, 50, lambda n: "\x1b[2J" if n < 50 else 0), "has a name that is too long, or"),
+        (moving(4, 50, lambda n: "x" * 101 if n < 50 else 0), "the gesture at 0.00 s has a name"),
     ],
 )
 def test_recordings_that_cannot_be_learned_from_are_told(tmp_path, capsys, lines, sentence):
@@ -77,6 +83,7 @@ def test_recordings_that_cannot_be_learned_from_are_told(tmp_path, capsys, lines
     assert sentence in told
     assert "[ ]" in told
     assert "Traceback" not in told
+    assert "\x1b" not in told
     assert not (tmp_path / "mine.gestures").exists()
 
 
@@ -87,6 +94,45 @@ def test_an_empty_folder_a_wrong_name_and_a_place_that_is_not_there_are_told(tmp
     assert "would not be known as a gesture model" in capsys.readouterr().err
     assert main([str(tmp_path), "-o", str(tmp_path / "nowhere" / "mine.gestures")]) == 2
     assert "nowhere is not there" in capsys.readouterr().err
+
+
+def test_a_model_that_is_already_there_is_kept_unless_it_shall_be_replaced(
+    folders, tmp_path, capsys
+):
+    model = tmp_path / "mine.gestures"
+    model.write_text("old")
+    words = [str(folders / "gestures"), "-o", str(model), "--method", "gmr"]
+    words += ["--everyday", str(folders / "everyday")]
+
+    assert main(words) == 2
+    told = capsys.readouterr()
+    assert f"{model} is already there" in told.err
+    assert "--replace" in told.err
+    assert "Training" not in told.out
+    assert model.read_text() == "old"
+
+    assert main([*words, "--replace"]) == 0
+    assert read_model(model).names == ("karate",)
+
+
+def test_a_folder_in_the_models_place_is_told(folders, tmp_path, capsys):
+    (tmp_path / "mine.gestures").mkdir()
+
+    code = main([str(folders / "gestures"), "-o", str(tmp_path / "mine.gestures"), "--replace"])
+
+    assert code == 2
+    assert "is a folder" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs a folder that nobody may write into")
+def test_a_place_that_cannot_be_written_is_told_before_the_training(folders, capsys):
+    code = main([str(folders / "gestures"), "-o", "/proc/mine.gestures"])
+
+    told = capsys.readouterr()
+    assert code == 2
+    assert "mine.gestures cannot be written" in told.err
+    assert "[ ] Choose a folder that you may write into" in told.err
+    assert "Training" not in told.out
 
 
 def test_a_gesture_made_once_is_trained_but_not_checked(tmp_path, capsys, folders):
@@ -103,4 +149,6 @@ def test_a_gesture_made_once_is_trained_but_not_checked(tmp_path, capsys, folder
     )
 
     assert code == 0
-    assert "not checked" in capsys.readouterr().out
+    assert (
+        "not checked. To check it, record each gesture at least twice." in capsys.readouterr().out
+    )

@@ -65,6 +65,7 @@ def test_each_gesture_made_is_told_once_with_its_certainty(program, file, strang
 
     assert program.state("ready").description == "recognises hand_up, karate"
     program.send(stranger)
+    assert program.state("running").description == "listens to watch"
     told = program.told(len(takes_of(stranger)))
 
     assert [one.human_state for one in told] == made_in(stranger)
@@ -115,10 +116,12 @@ def test_a_sensor_that_lacks_something_is_told_and_another_is_still_heard(progra
     program.state("ready")
 
     program.send(stranger, source="phone", gravity_included=False)
-    assert "needs acceleration with gravity" in program.state("warning").description
+    lacking = program.state("warning").description
+    assert "needs acceleration with gravity" in lacking
+    assert "switch on acceleration with gravity" in lacking
     program.send(stranger, source="torn", t=[0.0])
     assert "torn sends times and samples" in program.state("warning").description
     program.send(stranger, gyr=None)
-    assert program.state("running").description == "hears watch without rotation"
+    assert program.state("running").description == "listens to watch, which sends no rotation"
 
     assert {one.human_state for one in program.told(4)} == {"gesture_hand_up", "gesture_karate"}

@@ -115,6 +115,11 @@ def test_any_flipped_byte_is_noticed_or_harmless(file):
         lambda about: about["gestures"][0].update(longest_s=1e9),
         lambda about: about["gestures"][0].update(shortest_s=0),
         lambda about: about["gestures"][0].update(name=""),
+        lambda about: about["gestures"][0].update(name=" "),
+        lambda about: about["gestures"][0].update(name="x" * 101),
+        lambda about: about["gestures"][0].update(name="\x1b[2Jkarate"),
+        lambda about: about["gestures"][0].update(name="two\nlines"),
+        lambda about: about["gestures"][0].update(name=about["gestures"][1]["name"]),
         lambda about: about.update(format="something else"),
         lambda about: about.pop("gestures"),
     ],
@@ -124,6 +129,61 @@ def test_a_description_that_does_not_fit_its_numbers_is_told(file, change):
 
     with pytest.raises(RecordingError, match="damaged"):
         read_model(file)
+
+
+@pytest.mark.parametrize("packing", [zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2])
+def test_another_packing_is_told_before_it_is_opened(file, packing):
+    with zipfile.ZipFile(file, "w", packing) as archive:
+        archive.writestr("about.npy", b"{}" * 500)
+
+    with pytest.raises(RecordingError, match="damaged") as told:
+        read_model(file)
+    assert "packed" in told.value.details
+
+
+def test_an_encrypted_model_is_told(file):
+    content = bytearray(file.read_bytes())
+    member = content.index(b"PK\1\2")
+    content[member + 8] |= 1
+    file.write_bytes(content)
+
+    with pytest.raises(RecordingError, match="damaged") as told:
+        read_model(file)
+    assert "encrypted" in told.value.details
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        b"{'descr': '<f8', 'shape': (",
+        b'"""',
+        b"  {\n {",
+        b"\n  1\n 2",
+        b"(" * 9000,
+        b"-" * 9000 + b"1",
+        b"{[]: 1}",
+        b"{'descr': (), 'fortran_order': False, 'shape': (1,)}",
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (10**99, 0)}",
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (1" + b"0" * 40 + b", 0)}",
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (-1,)}",
+        b"{'descr': '<c16', 'fortran_order': False, 'shape': (0,)}",
+        b"{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (0,)}",
+    ],
+)
+def test_a_hostile_header_of_an_array_is_told(file, header):
+    with zipfile.ZipFile(file, "a") as archive:
+        size = len(header).to_bytes(2, "little")
+        archive.writestr("9.bad.npy", b"\x93NUMPY\1\0" + size + header)
+
+    with pytest.raises(RecordingError, match="damaged") as told:
+        read_model(file)
+    assert told.value.checklist
+
+
+def test_a_folder_is_no_model(tmp_path):
+    with pytest.raises(RecordingError, match="is a folder, not a gesture model") as told:
+        read_model(tmp_path)
+    assert told.value.checklist
 
 
 def test_a_missing_array_is_told(file):

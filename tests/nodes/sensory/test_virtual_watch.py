@@ -33,7 +33,7 @@ def test_a_gesture_is_made_on_request_and_announced(listener):
 
     listener.state("running", "makes the gesture karate (simulated person 103)")
     begun_s = time.monotonic()
-    listener.state("running", "everyday movement")
+    listener.state("running", "goes on with everyday movement")
     assert 1.2 < time.monotonic() - begun_s < 3
 
 

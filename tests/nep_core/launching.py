@@ -1,0 +1,14 @@
+"""Words that the launcher's tests share."""
+
+from __future__ import annotations
+
+import queue
+
+from nep_core.launcher import LaunchedNode
+from nep_core.outcome import Outcome
+
+Ends = queue.Queue[tuple[LaunchedNode, Outcome, bool]]
+"""What the launcher told: which node ended, how, and whether it is started again."""
+
+WAIT = 'node.ready("waits")\nwhile not node.wait(1): pass'
+"""A node that does nothing until it is stopped."""

@@ -1,0 +1,138 @@
+"""A child process: what it writes is kept within limits, and its end reaches its children."""
+
+from __future__ import annotations
+
+import os
+import queue
+import subprocess
+import sys
+from pathlib import Path
+
+import psutil
+import pytest
+
+from nep_core import process_tree
+from nep_core.node_log import NodeLog, log_file_name
+from nep_core.outcome import Outcome
+from nep_core.places import log_folder
+from nep_core.process import LINE_BYTES, ChildProcess
+
+Outcomes = queue.Queue[Outcome]
+
+
+def start(code: str, log_file: Path, outcomes: Outcomes) -> ChildProcess:
+    """A Python child."""
+    return ChildProcess(
+        "child",
+        [sys.executable, "-c", code],
+        environment=dict(os.environ),
+        log_file=log_file,
+        on_end=outcomes.put,
+    )
+
+
+def test_a_line_without_an_end_fills_neither_memory_nor_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("nep_core.node_log.LOG_BYTES", 100_000)
+    outcomes: Outcomes = queue.Queue()
+
+    child = start("print('x' * 1_000_000)", tmp_path / "child.log", outcomes)
+    outcomes.get(timeout=10)
+
+    assert max(map(len, child.last_lines)) == LINE_BYTES
+    assert (tmp_path / "child.log").read_bytes() == b"x" * 100_000
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a disk that is always full")
+def test_a_full_disk_does_not_hurt_the_child(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "child.log").symlink_to("/dev/full")
+    outcomes: Outcomes = queue.Queue()
+    code = "for _ in range(3): print('x' * 100_000, flush=True)\nprint('done')"
+
+    child = start(code, tmp_path / "child.log", outcomes)
+
+    assert outcomes.get(timeout=10).code == 0
+    assert child.last_lines[-1] == "done"
+    assert len([text for text in caplog.messages if "child.log cannot be kept" in text]) == 1
+
+
+def test_stopping_a_child_that_has_ended_signals_nobody(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outcomes: Outcomes = queue.Queue()
+    child = start("pass", tmp_path / "child.log", outcomes)
+    outcomes.get(timeout=10)
+
+    def forbidden(*_words: object) -> None:
+        pytest.fail("its number may be another process's by now")
+
+    for function in ("kill", "killpg"):
+        monkeypatch.setattr(os, function, forbidden)
+    monkeypatch.setattr(process_tree, "kill", forbidden)
+    child.stop()
+
+    assert not child.last_lines
+
+
+def test_a_child_that_we_may_not_end_does_not_keep_stop_from_ending_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outcomes: Outcomes = queue.Queue()
+    code = "import subprocess\np = subprocess.Popen(['sleep', '60'])\nprint(p.pid, flush=True)\n"
+    child = start(f"{code}p.wait()", tmp_path / "child.log", outcomes)
+    while not child.last_lines:
+        assert child.wait(0.02) is None
+
+    def denied(process: psutil.Process) -> None:
+        raise psutil.AccessDenied(process.pid)
+
+    monkeypatch.setattr(psutil.Process, "kill", denied)
+    child.stop()
+
+    assert outcomes.get(timeout=5).asked
+
+
+def test_what_a_process_started_is_found_also_by_its_parents_number() -> None:
+    with subprocess.Popen(["sleep", "60"]) as child:
+        found = process_tree.orphans(os.getpid(), psutil.Process(child.pid).create_time())
+        too_late = process_tree.orphans(os.getpid(), psutil.Process(child.pid).create_time() + 1)
+        process_tree.kill(found)
+
+        assert child.pid in [process.pid for process in found]
+        assert not too_late
+
+
+@pytest.mark.parametrize("name", ["watch", "a b", "a_b", "n" * 81, "n" * 100, "../a", "ü", ""])
+def test_each_node_has_a_log_of_its_own(name: str) -> None:
+    others = {"watch", "a b", "a_b", "n" * 81, "n" * 100, "../a", "ü", ""} - {name}
+
+    file_name = log_file_name(name)
+
+    assert file_name not in map(log_file_name, others)
+    assert len(file_name) < 100
+    assert Path(file_name).name == file_name
+
+
+def test_a_log_without_a_usable_folder_is_given_up_once(caplog: pytest.LogCaptureFixture) -> None:
+    with NodeLog(Path(os.devnull) / "child.log") as kept:
+        kept.write(b"one\n")
+        kept.write(b"two\n")
+
+    assert len(caplog.messages) == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there, every user has a home")
+def test_logs_of_a_user_without_a_home_have_a_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    import pwd
+
+    def nobody(_number: int) -> None:
+        raise KeyError("no such user")
+
+    monkeypatch.delenv("HOME", raising=False)
+    monkeypatch.delenv("XDG_STATE_HOME", raising=False)
+    monkeypatch.setattr(pwd, "getpwuid", nobody)
+
+    assert log_folder().is_absolute()
