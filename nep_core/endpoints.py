@@ -12,14 +12,17 @@ BROKER_VARIABLE = "NEP_BROKER"
 DEFAULT_MASTER = "tcp://127.0.0.1:7100"
 DEFAULT_BROKER = "tcp://127.0.0.1:7110"
 """Publishers connect here; subscribers to the next port."""
+LAST_PORT = 65535
 
-_ENDPOINT = re.compile(r"tcp://(?P<host>[\w.\-]+|\[[0-9a-fA-F:]+\]):(?P<port>\d{1,5}|\*)")
+_ENDPOINT = re.compile(
+    r"tcp://([a-z0-9][\w.\-]*|\[[0-9a-f:]+\]):(?P<port>\d{1,5}|\*)", re.ASCII | re.IGNORECASE
+)
 
 
 def check_endpoint(endpoint: str) -> str:
     """Give back ``endpoint``, or raise NetworkError that shows what one looks like."""
     match = _ENDPOINT.fullmatch(endpoint)
-    if match is None or (match["port"] != "*" and not 0 < int(match["port"]) < 65536):
+    if match is None or (match["port"] != "*" and not 0 < int(match["port"]) <= LAST_PORT):
         raise NetworkError(
             f"{endpoint!r} is not an endpoint.",
             checklist=('Write it as "tcp://127.0.0.1:7100": tcp, an address, a port to 65535.',),
@@ -27,13 +30,28 @@ def check_endpoint(endpoint: str) -> str:
     return endpoint
 
 
+def fixed_endpoint(endpoint: str) -> str:
+    """Give back an endpoint that others can find, or raise NetworkError: "*" is no port to find."""
+    if check_endpoint(endpoint).endswith(":*"):
+        raise NetworkError(
+            f"{endpoint!r} does not say at which port.",
+            checklist=('Write a number for the "*", as in "tcp://127.0.0.1:7100".',),
+        )
+    return endpoint
+
+
 def master_endpoint() -> str:
     """The master's endpoint: the variable NEP_MASTER, else port 7100 of this computer."""
-    return check_endpoint(os.environ.get(MASTER_VARIABLE) or DEFAULT_MASTER)
+    return fixed_endpoint(os.environ.get(MASTER_VARIABLE) or DEFAULT_MASTER)
 
 
 def broker_endpoints(first: str | None = None) -> tuple[str, str]:
     """The broker's two endpoints: publishers' and subscribers', one port apart."""
-    endpoint = check_endpoint(first or os.environ.get(BROKER_VARIABLE) or DEFAULT_BROKER)
+    endpoint = fixed_endpoint(first or os.environ.get(BROKER_VARIABLE) or DEFAULT_BROKER)
     host, _, port = endpoint.rpartition(":")
+    if int(port) == LAST_PORT:
+        raise NetworkError(
+            f"The broker needs {port} and the port after it, which there is not.",
+            checklist=(f"Choose a port to {LAST_PORT - 1}.",),
+        )
     return endpoint, f"{host}:{int(port) + 1}"

@@ -11,13 +11,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from nep_core.endpoints import MASTER_VARIABLE, master_endpoint
-from nep_core.errors import NameTaken, NodeStartError
+from nep_core.errors import NameTaken, NepError, NodeStartError
 from nep_core.manifest import Manifest, NodeCatalog, Value
 from nep_core.messages import NODE_STATE, NodeState
 from nep_core.network import Network
+from nep_core.node_log import log_file_name
+from nep_core.node_name import check_node_name
 from nep_core.outcome import Outcome
 from nep_core.places import log_folder, node_folders
 from nep_core.process import ChildProcess, program_command
+from nep_core.process_tree import is_in_tree
 from nep_core.pubsub import Subscriber
 
 log = logging.getLogger(__name__)
@@ -40,6 +43,7 @@ class LaunchedNode:
     command: list[str]
     restart_on_error: bool = True
     process: ChildProcess | None = None
+    outcome: Outcome | None = None
     started_s: float = 0.0
     restarts: int = 0
     stopping: bool = False
@@ -51,14 +55,22 @@ class LaunchedNode:
         """The process id now; it changes when the node is restarted."""
         return self.process.pid if self.process else 0
 
+    def owns(self, pid: int) -> bool:
+        """Whether the process ``pid`` is its own, perhaps started by a wrapper or a launch stub."""
+        return self.process is not None and is_in_tree(pid, self.process.pid)
+
     def wait_ready(self, timeout_s: float = READY_S) -> None:
-        """Wait until the node says that it is ready; raises NodeStartError with its last words."""
+        """Wait until the node says that it is ready, or has done its work and ended well.
+
+        Raises NodeStartError with its last words, or when the time is over.
+        """
         deadline = time.monotonic() + timeout_s
         while not self.ready.wait(0.05):
-            outcome = self.process.outcome if self.process else None
-            if self.ended.is_set() and outcome is not None:
-                steps = outcome.checklist or ("Correct its settings.",)
-                raise NodeStartError(f"{outcome}.", checklist=steps)
+            if self.ended.is_set() and self.outcome is not None:
+                if self.outcome.was_successful:
+                    return
+                steps = self.outcome.checklist or ("Correct its settings.",)
+                raise NodeStartError(f"{self.outcome}.", checklist=steps)
             if time.monotonic() > deadline:
                 raise NodeStartError(
                     f"{self.name} did not say that it is ready within {timeout_s:.0f} s.",
@@ -128,7 +140,7 @@ class Launcher:
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
             command += ["--name", name, *settings]
         else:
-            command = program_command("node", manifest.path, "--name", name, *settings)
+            command = program_command("node", manifest.path, f"--name={name}", *settings)
         return self._launch(LaunchedNode(name, manifest, command, restart_on_error))
 
     def start_command(self, name: str, command: list[str]) -> LaunchedNode:
@@ -137,19 +149,25 @@ class Launcher:
 
     def stop(self, name: str) -> None:
         """Stop one node and all the processes that it started."""
-        launched = self.nodes.get(name)
-        if launched is not None:
+        with self._lock:  # a restart may be starting another process at this moment
+            launched = self.nodes.get(name)
+            if launched is None:
+                return
             launched.stopping = True
             launched.ended.set()
-            if launched.process is not None:
-                launched.process.stop()
+            process = launched.process
+        if process is not None:
+            process.stop()
 
     def close(self) -> None:
         """Stop every node, all at once."""
-        for launched in self.nodes.values():
-            launched.stopping = True
-            if launched.process is not None and launched.process.poll() is None:
-                launched.process.ask_to_stop()
+        with self._lock:
+            for launched in self.nodes.values():
+                launched.stopping = True
+            processes = [launched.process for launched in self.nodes.values()]
+        for process in processes:
+            if process is not None and process.poll() is None:
+                process.ask_to_stop()
         for name in list(self.nodes):
             self.stop(name)
         if self._states is not None:
@@ -162,6 +180,7 @@ class Launcher:
         self.close()
 
     def _launch(self, launched: LaunchedNode) -> LaunchedNode:
+        check_node_name(launched.name)
         with self._lock:
             other = self.nodes.get(launched.name)
             if other is not None and not other.ended.is_set():
@@ -170,7 +189,11 @@ class Launcher:
                     checklist=("Give each node a name of its own.",),
                 )
             self.nodes[launched.name] = launched
-            self._start_process(launched)
+            try:
+                self._start_process(launched)
+            except BaseException:
+                launched.ended.set()  # its name is free again
+                raise
         return launched
 
     def _start_process(self, launched: LaunchedNode) -> None:
@@ -180,7 +203,7 @@ class Launcher:
             launched.name,
             launched.command,
             environment={**os.environ, **SETTINGS, MASTER_VARIABLE: self.master},
-            log_file=self.logs / f"{_file_name(launched.name)}.log",
+            log_file=self.logs / log_file_name(launched.name),
             on_end=lambda outcome: self._ended(launched, outcome),
         )
 
@@ -188,12 +211,16 @@ class Launcher:
         if time.monotonic() - launched.started_s > HEALTHY_S:
             launched.restarts = 0
         again = self._deserves_another(launched, outcome)
+        self._tell_end(launched, outcome, again)
+        if again:
+            self._restart(launched)
+
+    def _tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        launched.outcome = outcome
         if not again:
             launched.ended.set()
         if self._on_end is not None:
             self._on_end(launched, outcome, again)
-        if again:
-            self._restart(launched)
 
     def _deserves_another(self, launched: LaunchedNode, outcome: Outcome) -> bool:
         if launched.stopping or outcome.was_successful or launched.restarts >= MOST_RESTARTS:
@@ -205,15 +232,17 @@ class Launcher:
     def _restart(self, launched: LaunchedNode) -> None:
         time.sleep(FIRST_PAUSE_S * 2**launched.restarts)
         launched.restarts += 1
-        with self._lock:
-            if not launched.stopping:
-                self._start_process(launched)
+        try:
+            with self._lock:
+                if not launched.stopping:
+                    self._start_process(launched)
+        except (NepError, OSError) as error:
+            log.warning("%s", error)
+            steps = error.checklist if isinstance(error, NepError) else ()
+            outcome = Outcome(launched.name, 1, last_words=str(error), checklist=steps)
+            self._tell_end(launched, outcome, again=False)
 
     def _on_node_state(self, state: NodeState) -> None:
         launched = self.nodes.get(state.node)
-        if launched is not None and state.event == "ready" and state.pid == launched.pid:
+        if launched is not None and state.event == "ready" and launched.owns(state.pid):
             launched.ready.set()
-
-
-def _file_name(name: str) -> str:
-    return "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in name)

@@ -6,14 +6,20 @@ import msgspec
 import zmq
 
 from nep_core import master_messages as says
+from nep_core.endpoints import fixed_endpoint
 from nep_core.errors import MasterNotFound
 
 
 def ask_master(endpoint: str, timeout_s: float = 2.0) -> says.Listing | None:
-    """What the master at ``endpoint`` has registered; None when no NEP master answers."""
+    """What the master at ``endpoint`` has registered; None when no NEP master answers.
+
+    Raises NetworkError when ``endpoint`` is not one.
+    """
+    fixed_endpoint(endpoint)
     context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
     socket = context.socket(zmq.DEALER)
     try:
+        socket.setsockopt(zmq.IPV6, int("[" in endpoint))
         socket.connect(endpoint)
         socket.send(says.encode(says.List()))
         if not socket.poll(int(timeout_s * 1000)):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import tempfile
 from pathlib import Path
 
 import platformdirs
@@ -22,4 +23,7 @@ def node_folders() -> tuple[Path, ...]:
 
 def log_folder() -> Path:
     """Where the nodes' log files are kept."""
-    return Path(platformdirs.user_log_dir("nep-studio", appauthor=False))
+    try:
+        return Path(platformdirs.user_log_dir("nep-studio", appauthor=False))
+    except RuntimeError:  # a user without a home
+        return Path(tempfile.gettempdir()) / "nep-studio"

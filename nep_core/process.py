@@ -9,14 +9,16 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
 
 import psutil
 
-from nep_core import lifeline
+from nep_core import lifeline, process_tree
 from nep_core.errors import NodeStartError
+from nep_core.node_log import NodeLog
 from nep_core.outcome import Outcome
 
 log = logging.getLogger(__name__)
@@ -27,8 +29,11 @@ STEP = "  [ ] "
 """What a step of a checklist begins with in a node's output."""
 
 KEPT_LINES = 200
-LOG_BYTES = 5_000_000
-"""A node's log file is cut there; its last lines are kept in memory."""
+LINE_BYTES = 65_536
+"""A longer line is read in pieces, so that it cannot fill the memory."""
+
+KILL_S = 5.0
+"""One that even the system cannot end, such as for a disk that is gone, is not waited for."""
 
 
 class ChildProcess:
@@ -47,27 +52,14 @@ class ChildProcess:
         on_end: Callable[[Outcome], None],
     ) -> None:
         self.name = name
-        self.outcome: Outcome | None = None
         self._asked = False
         self._on_end = on_end
         self._last_lines: deque[str] = deque(maxlen=KEPT_LINES)
         self._log_file = log_file
-        log_file.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            self._popen = subprocess.Popen(
-                command,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                env={**environment, lifeline.VARIABLE: "1"},
-                start_new_session=not ON_WINDOWS,
-                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
-            )
-        except OSError as error:
-            raise NodeStartError(
-                f"{name} cannot be started: {command[0]}: {error.strerror}.",
-                checklist=(f"Is {command[0]} installed, and can it be found?",),
-            ) from error
+        self._children: frozenset[psutil.Process] = frozenset()
+        self._children_ended = threading.Event()
+        self._started_s = time.time()
+        self._popen = _start(name, command, environment)
         self._reader = threading.Thread(target=self._read, name=f"nep-log-{name}", daemon=True)
         self._reader.start()
         threading.Thread(target=self._await_end, name=f"nep-wait-{name}", daemon=True).start()
@@ -96,48 +88,63 @@ class ChildProcess:
     def ask_to_stop(self) -> None:
         """Send SIGTERM (Windows: Ctrl-Break)."""
         self._asked = True
+        self._children |= process_tree.descendants(self.pid)
         with contextlib.suppress(OSError):
             self._popen.send_signal(STOP_SIGNAL)
 
     def stop(self, grace_s: float = 2.0) -> None:
         """Ask it to stop, and end the whole process tree after ``grace_s``."""
-        family = self._family()
-        self.ask_to_stop()
-        if self.wait(grace_s) is None:
-            log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
-        self._kill(family)
-        self._popen.wait()
+        if self.poll() is None:  # when it has ended, another process may have its number
+            self.ask_to_stop()
+            if self.wait(grace_s) is None:
+                log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
+                self._children |= process_tree.descendants(self.pid)
+                with contextlib.suppress(OSError):
+                    self._popen.kill()
+        self._children_ended.wait(KILL_S)
 
-    def _family(self) -> list[psutil.Process]:
-        try:
-            return [*psutil.Process(self.pid).children(recursive=True), psutil.Process(self.pid)]
-        except psutil.NoSuchProcess:
-            return []
-
-    def _kill(self, family: list[psutil.Process]) -> None:
-        if not ON_WINDOWS:
+    def _end_children(self) -> None:
+        if ON_WINDOWS:
+            self._children |= process_tree.orphans(self.pid, self._started_s)
+        else:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(self.pid, signal.SIGKILL)
-        for process in family:
-            with contextlib.suppress(psutil.NoSuchProcess):
-                process.kill()
+        process_tree.kill(self._children)
 
     def _read(self) -> None:
         assert self._popen.stdout is not None
-        with self._popen.stdout as output, self._log_file.open("wb") as kept:
-            for line in output:
-                self._last_lines.append(line.decode(errors="replace").rstrip())
-                if kept.tell() < LOG_BYTES:
-                    kept.write(line)
-                    kept.flush()
+        with self._popen.stdout as output, NodeLog(self._log_file) as kept:
+            while piece := output.readline(LINE_BYTES):
+                self._last_lines.append(piece.decode(errors="replace").rstrip())
+                kept.write(piece)
 
     def _await_end(self) -> None:
         code = self._popen.wait()
+        self._end_children()  # at once, while no other process has its number
+        self._children_ended.set()
         self._reader.join(1.0)  # a grandchild may hold the pipe open
-        self.outcome = Outcome(self.name, code, self._asked, *last_words(self.last_lines))
         if self._popen.stdin is not None:
             self._popen.stdin.close()
-        self._on_end(self.outcome)
+        self._on_end(Outcome(self.name, code, self._asked, *last_words(self.last_lines)))
+
+
+def _start(name: str, command: list[str], environment: dict[str, str]) -> subprocess.Popen[bytes]:
+    try:
+        return subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env={**environment, lifeline.VARIABLE: "1"},
+            start_new_session=not ON_WINDOWS,
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+        )
+    except (OSError, ValueError) as error:  # ValueError: a letter that no command can have
+        reason = getattr(error, "strerror", None) or error
+        raise NodeStartError(
+            f"{name} cannot be started: {command[0]}: {reason}.",
+            checklist=(f"Is {command[0]} installed, and can it be found?",),
+        ) from error
 
 
 def last_words(lines: list[str]) -> tuple[str, tuple[str, ...]]:

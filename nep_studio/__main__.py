@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import os
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -35,9 +37,30 @@ NO_WINDOW = """NEP Studio has no window yet: this version plays projects in the 
 """
 
 
+FAILED = 1
+INTERRUPTED = 130
+"""The exit code after Ctrl-C, by the shells' custom."""
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Do the job that the first word names; the exit code."""
     words = sys.argv[1:] if arguments is None else arguments
+    try:
+        _write_what_can_be_written()
+        try:
+            return _do(words)
+        finally:
+            _flush()  # here, and not at the very end, an error can be told
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except OSError as error:
+        if words[:1] == ["node"]:
+            raise  # a fault of the node: its log shows where
+        _give_up_output()
+        return _tell(error)
+
+
+def _do(words: list[str]) -> int:
     if words and words[0] in JOBS:
         return _load(JOBS[words[0]])(words[1:])
     if words and words[0] in ("-h", "--help", "help"):
@@ -55,6 +78,37 @@ def main(arguments: list[str] | None = None) -> int:
     example = words[0] if words and words[0].endswith(".nep") else _example(paths.examples())
     print(NO_WINDOW.format(example=example) + USAGE, file=sys.stderr)
     return 2
+
+
+def _write_what_can_be_written() -> None:
+    """Let a letter that the terminal does not have become "?"."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
+def _flush() -> None:
+    print(end="", flush=True)  # also where there is no output
+
+
+def _give_up_output() -> None:
+    """Let what cannot be written go nowhere: Python would try again, and fail, at its end."""
+    try:
+        _flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _tell(error: OSError) -> int:
+    if isinstance(error, BrokenPipeError):
+        return FAILED  # whoever read us has gone, as "head" does: nobody misses anything
+    from nep_studio.problems import Problem
+
+    where = f" ({error.filename})" if error.filename else ""
+    checklist = ("Is there room on the disk?", "May this program write there?")
+    sentence = f"The computer says: {error.strerror or error}{where}."
+    print(Problem("A file could not be read or written", sentence, checklist), file=sys.stderr)
+    return FAILED
 
 
 def _example(folder: object) -> str:

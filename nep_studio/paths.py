@@ -20,8 +20,3 @@ def resources() -> Path:
 def examples() -> Path:
     """The example projects."""
     return resources() / "examples"
-
-
-def nodes() -> Path:
-    """The shipped nodes with their manifests."""
-    return _root() / "nodes"

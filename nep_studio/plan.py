@@ -56,8 +56,10 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     nodes = [_listed(entry, folder) for entry in listed]
     names = {node.name for node in nodes}
     nodes += [robot for robot in robots if robot.name not in names]
-    nodes += _missing_gestures(project, language, listed)
-    return _with_a_watch(nodes, choices)
+    known = language.choices.get("gestures", {})
+    nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
+    wanted = [gesture for gesture in gestures_used(project, language) if gesture in known]
+    return _with_a_watch(nodes, choices, wanted)
 
 
 def _robots(project: Project, language: Language, choices: Choices) -> list[PlannedNode]:
@@ -85,7 +87,7 @@ def _found(value: Setting, folder: Path) -> Setting:
 
 
 def _missing_gestures(
-    project: Project, language: Language, listed: tuple[NodeEntry, ...]
+    project: Project, language: Language, listed: tuple[NodeEntry, ...], names: set[str]
 ) -> list[PlannedNode]:
     known = language.choices.get("gestures", {})
     missing = [
@@ -94,11 +96,23 @@ def _missing_gestures(
         if gesture in known and not is_recognised(gesture, listed, known)
     ]
     reason = "a rule waits for this gesture"
-    return [PlannedNode(GESTURE, gesture, {"gesture": gesture}, reason) for gesture in missing]
+    return [
+        PlannedNode(GESTURE, _free(gesture, names), {"gesture": gesture}, reason)
+        for gesture in missing
+    ]
 
 
-def _with_a_watch(nodes: list[PlannedNode], choices: Choices) -> list[PlannedNode]:
-    """Give the gesture nodes something to look at: the recording, else a watch."""
+def _free(name: str, names: set[str]) -> str:
+    return name if name not in names else _free(f"{name}_gesture", names)
+
+
+def _with_a_watch(
+    nodes: list[PlannedNode], choices: Choices, gestures: list[str]
+) -> list[PlannedNode]:
+    """Give the gesture nodes something to look at: the recording, else a watch.
+
+    The virtual watch makes ``gestures``, those that the rules wait for.
+    """
     if choices.recording is not None:
         settings: dict[str, Setting] = {
             "recording": str(choices.recording),
@@ -107,11 +121,6 @@ def _with_a_watch(nodes: list[PlannedNode], choices: Choices) -> list[PlannedNod
         }
         others = [node for node in nodes if not node.is_sensory]
         return [*others, PlannedNode(REPLAY, "recording", settings, "it was asked for")]
-    gestures = [
-        str(node.parameters["gesture"])
-        for node in nodes
-        if node.node == GESTURE and node.parameters.get("gesture")
-    ]
     if gestures and not any(node.is_sensory for node in nodes):
         schedule = {"gestures": ", ".join(gestures)}
         reason = "somebody must make the gestures"

@@ -2,25 +2,44 @@
 
 from __future__ import annotations
 
+import unicodedata
 from dataclasses import dataclass
 
 from nep_core.errors import NepError
 from nep_studio.blocks.errors import BlocksError
 
+_INVISIBLE = {"Cc", "Cf", "Cs", "Zl", "Zp"}
+"""Categories of Unicode: controls, marks such as "write from right to left", ends of lines."""
+_JOINERS = "\u200c\u200d"
+"""Of these, what Persian words and many emoji need."""
+
 
 @dataclass(frozen=True)
 class Problem:
-    """A title, one sentence, a checklist, and technical details to copy."""
+    """A title, one sentence, where it is, a checklist, and technical details to copy."""
 
     title: str
-    sentence: str
+    sentence: str = ""
     checklist: tuple[str, ...] = ()
     details: str = ""
+    place: str = ""
 
     def __str__(self) -> str:
-        return "\n".join([self.title, self.sentence, *(f"  [ ] {step}" for step in self.checklist)])
+        place = f"  at {self.place}" if self.place else ""
+        steps = (f"  [ ] {step}" for step in self.checklist)
+        return "\n".join(
+            on_one_line(part) for part in (self.title, self.sentence, place, *steps) if part
+        )
 
 
 def problem_of(error: NepError | BlocksError) -> Problem:
     """The problem that an error tells of."""
     return Problem(error.title, error.sentence, error.checklist, error.details)
+
+
+def on_one_line(text: str) -> str:
+    """``text`` without what would move a terminal's cursor, or forge another line."""
+    return "".join(
+        " " if unicodedata.category(letter) in _INVISIBLE and letter not in _JOINERS else letter
+        for letter in text
+    )

@@ -2,22 +2,47 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import msgspec
 
 from nep_core import messages as m
+from nep_studio.action_words import action_words
 from nep_studio.blocks.language import Language
+
+MOST_ACTIONS = 1000
+"""So many are remembered, of which the oldest are forgotten."""
+
+Line = tuple[str, str]
+"""Who, and what."""
+
+
+@dataclass
+class _Action:
+    """What is known of a requested action; its results may be quicker than the request."""
+
+    request: m.ActionRequest | None = None
+    results: dict[tuple[str, str], m.ActionResult] = field(default_factory=dict)
 
 
 class Timeline:
-    """Turns messages into sentences: (who, what)."""
+    """Turns messages into sentences; one thread at a time."""
 
     def __init__(self, language: Language) -> None:
         self._language = language
-        self._requests: dict[str, m.ActionRequest] = {}
-        self._told: set[tuple[str, str, str]] = set()
+        self._actions: dict[str, _Action] = {}
 
-    def line(self, message: msgspec.Struct) -> tuple[str, str] | None:
-        """Who did what; None for what need not be told."""
+    def lines(self, message: msgspec.Struct) -> list[Line]:
+        """Who did what; nothing for what need not be told."""
+        match message:
+            case m.ActionRequest():
+                return self._requested(message)
+            case m.ActionResult():
+                return self._answered(message)
+        line = self._line(message)
+        return [line] if line else []
+
+    def _line(self, message: msgspec.Struct) -> Line | None:
         match message:
             case m.NodeState(event="alive" | "starting" | "connected"):
                 return None  # "ready" tells the same
@@ -29,16 +54,36 @@ class Timeline:
                 return message.node, _node_words(message)
             case m.HumanBehavior():
                 return message.source or "human", self._recognised(message)
-            case m.ActionRequest():
-                self._requests[message.id] = message
-                return None
-            case m.ActionResult():
-                words = self._result_words(message)
-                return (message.robot, words) if words else None
             case m.ProgramState():
                 words = _program_words(message)
                 return ("program", words) if words else None
         return None
+
+    def _requested(self, request: m.ActionRequest) -> list[Line]:
+        action = self._action(request.id)
+        if action.request is not None:
+            return []  # it asks how the action is doing
+        action.request = request
+        return self._told(request, list(action.results.values()))
+
+    def _answered(self, result: m.ActionResult) -> list[Line]:
+        action = self._action(result.id)
+        if (result.robot, result.state) in action.results:
+            return []  # a result comes again each time it is asked for
+        action.results[result.robot, result.state] = result
+        return self._told(action.request, [result])
+
+    def _told(self, request: m.ActionRequest | None, results: list[m.ActionResult]) -> list[Line]:
+        if request is None or request.action == "stop":
+            return []
+        told = [(result.robot, self._result_words(request, result)) for result in results]
+        return [(robot, words) for robot, words in told if words]
+
+    def _action(self, action_id: str) -> _Action:
+        action = self._actions.setdefault(action_id, _Action())
+        if len(self._actions) > MOST_ACTIONS:
+            del self._actions[next(iter(self._actions))]
+        return action
 
     def _recognised(self, message: m.HumanBehavior) -> str:
         name = message.human_state.removeprefix("gesture_")
@@ -47,54 +92,16 @@ class Timeline:
         label = self._language.choices.get("gestures", {}).get(name, name)
         return f"recognised {label} ({message.certainty:.0%} certain)"
 
-    def _result_words(self, result: m.ActionResult) -> str:
-        request = self._requests.get(result.id)
-        told = (result.id, result.robot, result.state)
-        if request is None or request.action == "stop" or told in self._told:
-            return ""  # a result comes again each time it is asked for
-        self._told.add(told)
-        if result.state == "started":
-            return self._action_words(request)
-        if result.state in ("failed", "cancelled"):
-            reason = f": {result.description}" if result.description else ""
-            return f"{result.state} to {request.action}{reason}".replace("cancelled to", "stopped:")
+    def _result_words(self, request: m.ActionRequest, result: m.ActionResult) -> str:
+        reason = f": {result.description}" if result.description else ""
+        match result.state:
+            case "started":
+                return action_words(request, self._language)
+            case "failed":
+                return f"failed to {request.action}{reason}"
+            case "cancelled":
+                return f"no longer {action_words(request, self._language)}"
         return ""
-
-    def _action_words(self, request: m.ActionRequest) -> str:
-        args = request.args
-        match request.action:
-            case "say":
-                gesture = str(args.get("gesture", "no_gesture"))
-                manner = (
-                    "" if gesture == "no_gesture" else f", {self._label('say_gestures', gesture)}"
-                )
-                return f"says “{args.get('text', '')}”{manner}"
-            case "do":
-                return f"takes the posture {self._label('postures', str(args.get('posture')))}"
-            case "imitate":
-                return f"imitates a {self._label('animals', str(args.get('animal')))}"
-            case "play":
-                return f"plays {self._label('animations', str(args.get('animation')))}"
-            case "walk":
-                forward_m, left_m = _number(args, "forward_m"), _number(args, "left_m")
-                sideways = f" and {left_m:g} m to the left" if left_m else ""
-                return f"walks {forward_m:g} m{sideways}"
-            case "turn":
-                return f"turns {_number(args, 'degrees'):g} degrees"
-            case "look":
-                yaw, pitch = _number(args, "yaw_deg"), _number(args, "pitch_deg")
-                return f"looks {yaw:g} degrees left, {pitch:g} down"
-            case "leds":
-                return f"lights {args.get('group')} in {args.get('colour')}"
-        return request.action
-
-    def _label(self, table: str, name: str) -> str:
-        return self._language.choices.get(table, {}).get(name, name)
-
-
-def _number(args: dict[str, object], key: str) -> float:
-    value = args.get(key, 0.0)
-    return float(value) if isinstance(value, int | float) else 0.0
 
 
 def _node_words(state: m.NodeState) -> str:

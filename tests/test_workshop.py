@@ -164,7 +164,10 @@ def test_the_wheel_holds_the_packages_the_manifests_and_the_licence(wheel_folder
 
 
 def test_the_wheel_finds_its_own_resources_examples_and_nodes(wheel_folder: Path) -> None:
-    code = "from nep_studio.paths import *; print(resources(), examples(), nodes(), sep='\\n')"
+    code = """
+from nep_core.places import node_folders
+from nep_studio.paths import examples, resources
+print(resources(), examples(), node_folders()[-1], sep="\\n")"""
     resources, examples, nodes = map(Path, python_in(wheel_folder, code))
 
     assert all(place.is_relative_to(wheel_folder) for place in (resources, examples, nodes))

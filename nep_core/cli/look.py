@@ -10,6 +10,7 @@ from typing import Any
 
 import msgspec
 
+from nep_core.cli.arguments import seconds
 from nep_core.endpoints import master_endpoint
 from nep_core.master_probe import ask_master, no_master
 from nep_core.p2p import PeerNetwork
@@ -22,7 +23,7 @@ def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     if name in ("echo", "hz"):
         parser.add_argument("topic", help="such as /human_behavior")
         parser.add_argument("--count", type=int, default=0, help="stop after so many messages")
-        parser.add_argument("--seconds", type=float, help="stop when nothing came for so long")
+        parser.add_argument("--seconds", type=seconds, help="stop when nothing came for so long")
 
 
 def run(options: argparse.Namespace) -> int:

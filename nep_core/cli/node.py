@@ -10,6 +10,7 @@ from pathlib import Path
 from nep_core.cli import explain
 from nep_core.errors import NepError, ParameterError
 from nep_core.manifest import Manifest, NodeCatalog, read_manifest
+from nep_core.node_name import check_node_name
 from nep_core.places import node_folders
 from nep_core.run_node import run_node
 
@@ -20,7 +21,8 @@ def main(arguments: list[str]) -> int:
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     try:
         manifest = _manifest(options.node)
-        return run_node(manifest, options.name or manifest.name, settings(options.settings))
+        name = check_node_name(options.name or manifest.name)
+        return run_node(manifest, name, settings(options.settings))
     except NepError as error:
         print(explain(error), file=sys.stderr)
         return 1

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import select
 import signal
-import threading
 
 from nep_core import lifeline
 from nep_core.broker import Broker
+from nep_core.io_thread import Wake
 from nep_core.master import Master
 from nep_core.node import STOP_SIGNALS
+
+SIGNAL_S = 1.0
+"""Windows runs a signal's handler between two waits only."""
 
 
 def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:
@@ -20,13 +24,13 @@ def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve until stopped."""
     endpoint = options.endpoint or options.master
-    stop = threading.Event()
+    stop = Wake()  # an Event could deadlock in a signal handler
     for number in STOP_SIGNALS:
-        signal.signal(number, lambda *_: stop.set())
-    lifeline.on_parent_end(stop.set)
+        signal.signal(number, lambda *_: stop())
+    lifeline.on_parent_end(stop)
     service = Master(endpoint) if options.command == "master" else Broker(options.endpoint)
     print(f"The NEP {options.command} serves at {service.endpoint}. Ctrl-C stops it.", flush=True)
-    while not stop.wait(3600):
+    while not select.select([stop], [], [], SIGNAL_S)[0]:
         pass
     service.close()
     return 0

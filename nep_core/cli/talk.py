@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from queue import SimpleQueue
 
 import msgspec
 
@@ -48,8 +49,12 @@ def _send(options: argparse.Namespace) -> int:
 
 
 def _launch(options: argparse.Namespace) -> int:
-    def told(launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+    endings: SimpleQueue[Outcome] = SimpleQueue()
+
+    def told(_launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         print(f"{outcome}{'; it is started again' if again else ''}.", flush=True)
+        if not again:
+            endings.put(outcome)
 
     with (
         PeerNetwork(master=options.master) as network,
@@ -60,6 +65,6 @@ def _launch(options: argparse.Namespace) -> int:
             f"{options.type}/{options.name}", parameters=settings(options.settings)
         )
         launched.wait_ready()
-        print(f"{launched.name} is ready. Ctrl-C stops it.", flush=True)
-        launched.ended.wait()
-    return 0
+        if launched.ready.is_set():
+            print(f"{launched.name} is ready. Ctrl-C stops it.", flush=True)
+        return 0 if endings.get().was_successful else 1

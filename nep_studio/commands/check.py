@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 
+from nep_studio import problems as told
 from nep_studio.blocks import text
-from nep_studio.blocks.checks import Problem, check
+from nep_studio.blocks.checks import Problem
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nep_studio.commands.project import UNUSABLE, explain, read_project
+from nep_studio.node_checks import all_problems
 
 SIGNS = {"error": "Error", "warning": "Warning", "info": "Note"}
 
@@ -27,7 +30,7 @@ def main(arguments: list[str]) -> int:
     except BlocksError as error:
         explain(error)
         return UNUSABLE
-    problems = check(project, language)
+    problems = all_problems(project, language, Path(options.file).resolve().parent)
     for problem in problems:
         print(describe(problem, project, language))
     if not problems:
@@ -37,16 +40,17 @@ def main(arguments: list[str]) -> int:
 
 def describe(problem: Problem, project: Project, language: Language) -> str:
     """A problem with the place of its block and its checklist."""
-    lines = [f"{SIGNS[problem.severity]}: {problem.sentence}"]
+    place = ""
     if problem.block:
         block = text.sentence(project, language, problem.block)
-        lines.append(f"  at “{block}” on the page {problem.page.capitalize()}")
-    return "\n".join([*lines, *(f"  [ ] {step}" for step in problem.checklist)])
+        place = f"“{block}” on the page {problem.page.capitalize()}"
+    sentence = f"{SIGNS[problem.severity]}: {problem.sentence}"
+    return str(told.Problem(sentence, checklist=problem.checklist, place=place))
 
 
-def tell_errors(project: Project, language: Language) -> bool:
+def tell_errors(project: Project, language: Language, folder: Path) -> bool:
     """Print the problems that keep a program from running; whether there are any."""
-    errors = [p for p in check(project, language) if p.severity == "error"]
+    errors = [p for p in all_problems(project, language, folder) if p.severity == "error"]
     for problem in errors:
         print(describe(problem, project, language), file=sys.stderr)
     return bool(errors)

@@ -7,7 +7,7 @@ import argparse
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.launch import generate_launch
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.commands.project import UNUSABLE, explain, read_project
+from nep_studio.commands.project import UNUSABLE, explain, print_utf8, read_project
 
 
 def main(arguments: list[str]) -> int:
@@ -16,7 +16,7 @@ def main(arguments: list[str]) -> int:
     try:
         project, language = read_project(options.file)
         generate = generate_launch if options.nodes else generate_program
-        print(generate(project, language).text, end="")
+        print_utf8(generate(project, language).text)
     except BlocksError as error:
         explain(error)
         return UNUSABLE

@@ -22,6 +22,13 @@ def read_project(file: str) -> tuple[Project, Language]:
     return load(Path(file), language), language
 
 
+def print_utf8(text: str) -> None:
+    """Print what another program reads: in UTF-8, whatever this terminal writes."""
+    sys.stdout.flush()
+    sys.stdout.buffer.write(text.encode())
+    sys.stdout.buffer.flush()
+
+
 def explain(error: NepError | BlocksError) -> None:
     """Tell a person what happened and what to do."""
     print(problem_of(error), file=sys.stderr)

@@ -4,139 +4,143 @@ from __future__ import annotations
 
 import argparse
 import logging
-import os
-import signal
+import math
 import sys
 import tempfile
-import threading
-import time
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 
-from nep_core.errors import NepError, ParameterError
+from nep_core.errors import NepError
 from nep_studio.blocks import text
+from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nep_studio.commands.check import tell_errors
+from nep_studio.commands.printer import Printer
 from nep_studio.commands.project import UNUSABLE, explain, read_project
 from nep_studio.plan import Choices, PlannedNode, plan
 from nep_studio.session import Ending, Session
-from nep_studio.timeline import Timeline
+from nep_studio.signals import interrupt_once
 
 FAILED = 1
+MOST_SECONDS = 1_000_000
 
 
 def main(arguments: list[str]) -> int:
     """Play a project; 0 when it ended well, 1 when it failed, 2 when it cannot be used."""
     options = _parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR, format="%(message)s")
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: stop everything
+    interrupt_once()
     try:
         project, language = read_project(options.file)
-        if tell_errors(project, language):
+        folder = Path(options.file).resolve().parent
+        if tell_errors(project, language, folder):
             return UNUSABLE
         code = generate_program(project, language)
-        nodes = plan(project, language, _choices(options), Path(options.file).resolve().parent)
+        robots = [entry.name for entry in robot_entries(project, language)]
+        nodes = plan(project, language, _choices(options, robots), folder)
     except (BlocksError, NepError) as error:
         explain(error)
         return UNUSABLE
-    printer = _Printer(language, as_json=options.json)
+    printer = Printer(language, as_json=options.json)
     printer.title(project, nodes)
     try:
         ending = _play(code, nodes, printer, options.seconds)
     except NepError as error:
         explain(error)
         return FAILED
-    return _tell_ending(ending, code, project, language, printer)
-
-
-def _play(code: Code, nodes: list[PlannedNode], printer: _Printer, seconds: float | None) -> Ending:
-    with tempfile.TemporaryDirectory(prefix="nep-") as folder:
-        program = Path(folder) / "program.py"
-        program.write_text(code.text, encoding="utf-8")
-        try:
-            with Session(program, nodes, printer.hear) as session:
-                return session.wait(seconds)
-        except KeyboardInterrupt:
-            return Ending()
-
-
-def _tell_ending(
-    ending: Ending, code: Code, project: Project, language: Language, printer: _Printer
-) -> int:
     printer.end()
-    if not ending.failed:
+    if ending.problem is None:
         return 0
-    place = ""
-    block = code.block_at(ending.line)
-    if block is not None:
-        words = text.sentence(project, language, block)
-        place = f"\n  at “{words}” (line {ending.line} of the Python)"
-    print(f"The program stopped with an error\n{ending.sentence}{place}", file=sys.stderr)
-    for step in ending.checklist:
-        print(f"  [ ] {step}", file=sys.stderr)
+    place = _place(ending, code, project, language)
+    print(replace(ending.problem, place=place), file=sys.stderr)
     return FAILED
 
 
-class _Printer:
-    """Prints messages as they come: a timeline for people, or one JSON object a line."""
+def _play(code: Code, nodes: list[PlannedNode], printer: Printer, seconds: float | None) -> Ending:
+    """Play until the end, Ctrl-C, or until nobody reads any more, which raises OSError."""
+    unheard: list[OSError] = []
 
-    def __init__(self, language: Language, *, as_json: bool) -> None:
-        self._timeline = Timeline(language)
-        self._as_json = as_json
-        self._lock = threading.Lock()
-        self._started_s = time.monotonic()
+    def hear(topic: str, message: msgspec.Struct) -> None:
+        try:
+            printer.hear(topic, message)
+        except OSError as error:
+            unheard.append(error)
+            session.end()
 
-    def title(self, project: Project, nodes: list[PlannedNode]) -> None:
-        """Say what is played, and which nodes were added."""
-        if self._as_json:
-            return
-        print(f"{project.name}. Ctrl-C stops it.\n")
-        for node in nodes:
-            if node.reason:
-                print(f"   added  {node.name} ({node.node}): {node.reason}")
-
-    def hear(self, topic: str, message: msgspec.Struct) -> None:
-        """Print a message."""
-        if self._as_json:
-            self._write(msgspec.json.encode({"topic": topic, **msgspec.structs.asdict(message)}))
-            return
-        line = self._timeline.line(message)
-        if line is not None:
-            who, what = line
-            elapsed_s = time.monotonic() - self._started_s
-            self._write(f"{elapsed_s:8.2f}  {who:<16} {what}".encode())
-
-    def end(self) -> None:
-        """Say that everything is stopped."""
-        if not self._as_json:
-            print(f"\nEverything is stopped after {time.monotonic() - self._started_s:.1f} s.")
-
-    def _write(self, line: bytes) -> None:
-        with self._lock:
-            try:
-                print(line.decode(), flush=True)
-            except BrokenPipeError:  # whoever read us has gone: stop, as for Ctrl-C
-                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-                signal.raise_signal(signal.SIGINT)
+    with tempfile.TemporaryDirectory(prefix="nep-") as folder:
+        program = Path(folder) / "program.py"
+        program.write_text(code.text, encoding="utf-8")
+        session = Session(program, nodes, hear)
+        try:
+            with session:
+                ending = session.wait(seconds)
+        except KeyboardInterrupt:
+            ending = Ending()
+    if unheard:
+        raise unheard[0]
+    return ending
 
 
-def _choices(options: argparse.Namespace) -> Choices:
+def _place(ending: Ending, code: Code, project: Project, language: Language) -> str:
+    block = code.block_at(ending.line)
+    if block is None:
+        return ""
+    return f"“{text.sentence(project, language, block)}” (line {ending.line} of the Python)"
+
+
+class CannotPlay(NepError):
+    """The command asks for what this project cannot do."""
+
+    title = "This project cannot be played like that"
+
+
+def _choices(options: argparse.Namespace, robots: list[str]) -> Choices:
     addresses = {}
     for word in options.robot:
         name, _, address = word.partition("=")
         if not name or not address:
-            raise ParameterError(
+            raise CannotPlay(
                 f'"{word}" does not say where a robot is.',
                 checklist=("Write --robot NAO=192.168.1.10",),
             )
+        if name not in robots:
+            raise CannotPlay(
+                f"There is no robot {name} on the Robots page.",
+                checklist=(f"The robots there are: {', '.join(robots) or 'none'}.",),
+            )
         addresses[name] = address
-    recording = Path(options.recording).resolve() if options.recording else None
+    recording = Path(options.recording).resolve() if options.recording is not None else None
+    if recording is not None and not (options.recording and recording.exists()):
+        raise CannotPlay(
+            f"There is no recording “{options.recording}”.",
+            checklist=("Is the name spelled right, and is the file still there?",),
+        )
     return Choices(recording, options.speed, addresses)
+
+
+def _seconds(word: str) -> float:
+    return _number(word, 0, MOST_SECONDS)
+
+
+def _speed(word: str) -> float:
+    return _number(word, 0.1, 50)
+
+
+def _number(word: str, least: float, most: float) -> float:
+    """A number of the command line; the comparison is false for "nan", too."""
+    try:
+        number = float(word)
+    except ValueError:
+        number = math.nan
+    if not least <= number <= most:
+        raise argparse.ArgumentTypeError(f"{word!r} is not a number from {least} to {most}")
+    return number
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -145,10 +149,16 @@ def _parser() -> argparse.ArgumentParser:
         description="Play a project without a window, on the virtual robot unless it names others.",
     )
     parser.add_argument("file", metavar="FILE.nep")
-    parser.add_argument("--seconds", type=float, metavar="N", help="stop after so long")
+    parser.add_argument("--seconds", type=_seconds, metavar="N", help="stop after so long")
     parser.add_argument("--recording", metavar="CSV", help="play this instead of the sensors")
-    parser.add_argument("--speed", type=float, default=1.0, help="how fast to play the recording")
-    parser.add_argument("--json", action="store_true", help="one JSON object a line")
+    parser.add_argument(
+        "--speed", type=_speed, default=1.0, metavar="N", help="play it N times as fast: 0.1 to 50"
+    )
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print each message as one JSON object a line: its topic, then its own keys",
+    )
     parser.add_argument(
         "--robot",
         action="append",

@@ -194,7 +194,7 @@ def test_blocks_are_sentences_in_plain_text(language):
         for block in editor.project.blocks.values()
     }
 
-    assert told["robot.say"] == "NAO says Impressive! with explaining"
+    assert told["robot.say"] == "NAO says Impressive! with an explanation"
     assert told["control.repeat"] == "repeat times + 1 times"
     assert told["control.if"] == "if … else if … else"
     assert told["robot.stop"] == "all robots stops what it is doing"

@@ -12,3 +12,11 @@ Ends = queue.Queue[tuple[LaunchedNode, Outcome, bool]]
 
 WAIT = 'node.ready("waits")\nwhile not node.wait(1): pass'
 """A node that does nothing until it is stopped."""
+
+
+def first_line(launched: LaunchedNode) -> str:
+    """The first line that a node wrote, as soon as it is there."""
+    assert launched.process is not None
+    while not launched.process.last_lines:
+        assert not launched.ended.wait(0.01)
+    return launched.process.last_lines[0]

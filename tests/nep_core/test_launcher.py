@@ -17,7 +17,7 @@ from nep_core.messages import NODE_STATE, NodeState
 from nep_core.outcome import Outcome
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Subscriber
-from tests.nep_core.launching import WAIT, Ends
+from tests.nep_core.launching import WAIT, Ends, first_line
 from tests.nep_core.node_making import write_node
 
 
@@ -113,8 +113,7 @@ def test_stopping_ends_the_whole_process_tree(launcher: Launcher, tmp_path: Path
     write_node(tmp_path / "nodes", "parent", code + WAIT)
     launched = launcher.start("sensory/parent")
     launched.wait_ready()
-    assert launched.process is not None
-    grandchild = psutil.Process(int(launched.process.last_lines[0].split()[1]))
+    grandchild = psutil.Process(int(first_line(launched).split()[1]))
 
     launcher.stop("parent")
 
@@ -133,10 +132,13 @@ def test_a_node_that_does_not_listen_is_ended(launcher: Launcher, tmp_path: Path
     assert not psutil.pid_exists(pid)
 
 
-def test_what_a_node_prints_is_kept_in_its_log(launcher: Launcher, tmp_path: Path) -> None:
+def test_what_a_node_prints_is_kept_in_its_log(
+    launcher: Launcher, tmp_path: Path, ends: Ends
+) -> None:
     write_node(tmp_path / "nodes", "talker", "print('hello log', flush=True)\n" + WAIT)
     launcher.start("sensory/talker", "a/../b").wait_ready()
     launcher.stop("a/../b")
+    ends.get(timeout=5)
 
     (log_file,) = (tmp_path / "logs").glob("*.log")
     assert "hello log" in log_file.read_text()

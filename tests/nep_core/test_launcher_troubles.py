@@ -15,7 +15,7 @@ import pytest
 from nep_core.errors import NodeStartError, ParameterError
 from nep_core.launcher import Launcher
 from nep_core.process import ChildProcess
-from tests.nep_core.launching import WAIT, Ends
+from tests.nep_core.launching import WAIT, Ends, first_line
 from tests.nep_core.node_making import write_node
 
 SCRIPT = """
@@ -94,8 +94,7 @@ def test_the_children_of_a_node_that_crashed_are_ended(launcher: Launcher, tmp_p
     write_node(tmp_path / "nodes", "parent", f"{code}print(child.pid, flush=True)\n{WAIT}")
     launched = launcher.start("sensory/parent")
     launched.wait_ready()
-    assert launched.process is not None
-    grandchild = psutil.Process(int(launched.process.last_lines[0]))
+    grandchild = psutil.Process(int(first_line(launched)))
 
     os.kill(launched.pid, signal.SIGKILL)
 

@@ -1,0 +1,67 @@
+"""The master that a session starts for itself."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import time
+
+from nep_core.endpoints import master_endpoint
+from nep_core.errors import NodeStartError
+from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.master_probe import ask_master
+from nep_core.process import ON_WINDOWS, program_command
+from nep_studio.signals import postponed
+
+MASTER = "master"
+READY_S = 10.0
+TRIES = 5
+
+
+def start_master(launcher: Launcher, wanted: str | None = None) -> str:
+    """Start a master at ``wanted``, or where there is room; its endpoint.
+
+    Another program may take the port at the same moment, so several are tried. Raises
+    NodeStartError.
+    """
+    endpoint, lines = "", list[str]()
+    for _ in range(1 if wanted else TRIES):
+        endpoint = wanted or free_endpoint(master_endpoint())
+        command = program_command(MASTER, "--endpoint", endpoint)
+        with postponed():
+            launched = launcher.start_command(MASTER, command)
+        if _is_up(launched, endpoint):
+            return endpoint
+        launcher.stop(MASTER)
+        lines = launched.process.last_lines if launched.process else []
+    raise NodeStartError(
+        f"The NEP master did not start at {endpoint}.",
+        checklist=("Is another program using that port?", "Try again."),
+        details="\n".join(lines),
+    )
+
+
+def _is_up(launched: LaunchedNode, endpoint: str) -> bool:
+    """Whether the master that answers is ours: another session may have been quicker."""
+    deadline = time.monotonic() + READY_S
+    while time.monotonic() < deadline and not launched.ended.is_set():
+        listing = ask_master(endpoint, timeout_s=0.1)
+        if listing is not None and listing.pid == launched.pid:
+            return True
+    return False
+
+
+def free_endpoint(wanted: str) -> str:
+    """``wanted`` if it is free, else a free port: of its address, or of this computer."""
+    host, _, port = wanted.removeprefix("tcp://").rpartition(":")
+    with socket.socket() as probe:
+        if not ON_WINDOWS:  # there it would let two programs have one port
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        for place in ((host, int(port)), (host, 0)):
+            with contextlib.suppress(OSError):  # in use, or no address of this computer
+                probe.bind(place)
+                break
+        else:
+            probe.bind(("127.0.0.1", 0))
+        address, free_port = probe.getsockname()
+    return f"tcp://{address}:{free_port}"
