@@ -126,16 +126,22 @@ class Behavior:
         self._run_rule(rule)
 
     def _run_rule(self, rule: Rule) -> None:
-        while True:
+        again = True
+        while again:
             self._tell("rule_started", rule.state)
             rule.action()
+            again = self._goes_on(rule)  # before it is told: who hears it may fire the rule
             self._tell("rule_finished", rule.state)
-            with rule.lock:
-                if rule.queued == 0:
-                    if rule.running is not None and rule.running.task is current_task():
-                        rule.running = None
-                    return
+
+    def _goes_on(self, rule: Rule) -> bool:
+        """Whether another run is queued; if not, the rule may fire afresh from now on."""
+        with rule.lock:
+            if rule.queued > 0:
                 rule.queued -= 1
+                return True
+            if rule.running is not None and rule.running.task is current_task():
+                rule.running = None
+            return False
 
     def _start(self, action: Action, state: str) -> Part:
         part = Part(action, f"nep-{state or 'start'}", PROGRAM)

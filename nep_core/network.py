@@ -173,9 +173,10 @@ class BrokerNetwork(Network):
 
     def add_publisher(self, topic: str) -> set[str]:
         """Wait until a subscription of our own has come back to us: then all others have."""
-        probe, inbox = self.open_inbox(topic)
+        nobodys_topic = f"/probe/{uuid.uuid4().hex}"
+        probe, inbox = self.open_inbox(nobodys_topic)
         inbox.connect({self._subscribers_end})
-        self.outbox.wait_for(topic, {probe}, 1, HANDSHAKE_S)
+        self.outbox.wait_for(nobodys_topic, {probe}, 1, HANDSHAKE_S)
         self.remove_subscriber(probe)
         return set()
 

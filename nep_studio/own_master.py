@@ -46,7 +46,7 @@ def _is_up(launched: LaunchedNode, endpoint: str) -> bool:
     deadline = time.monotonic() + READY_S
     while time.monotonic() < deadline and not launched.ended.is_set():
         listing = ask_master(endpoint, timeout_s=0.1)
-        if listing is not None and listing.pid == launched.pid:
+        if listing is not None and launched.owns(listing.pid):
             return True
     return False
 

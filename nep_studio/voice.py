@@ -32,7 +32,7 @@ class Voice:
 
     def start_program(self) -> None:
         """Let the program begin."""
-        self._control.send(m.ProgramControl(command="start"))
+        self._say(self._control, m.ProgramControl(command="start"))
 
     def stop_program(self) -> None:
         """Ask the program to end."""

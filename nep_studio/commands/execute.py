@@ -16,4 +16,4 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("program", metavar="PROGRAM.py")
     parser.add_argument("--name", default="program", help="its name in the network")
     options = parser.parse_args(arguments)
-    return node.main(["cognitive/program", "--name", options.name, f"file={options.program}"])
+    return node.main(["cognitive/program", f"--name={options.name}", f"file={options.program}"])

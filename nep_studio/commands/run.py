@@ -12,6 +12,7 @@ from pathlib import Path
 
 import msgspec
 
+from nep_core.cli.arguments import seconds
 from nep_core.errors import NepError
 from nep_studio.blocks import text
 from nep_studio.blocks.deployment import robot_entries
@@ -28,7 +29,7 @@ from nep_studio.session import Ending, Session
 from nep_studio.signals import interrupt_once
 
 FAILED = 1
-MOST_SECONDS = 1_000_000
+SLOWEST, FASTEST = 0.1, 50
 
 
 def main(arguments: list[str]) -> int:
@@ -62,7 +63,7 @@ def main(arguments: list[str]) -> int:
     return FAILED
 
 
-def _play(code: Code, nodes: list[PlannedNode], printer: Printer, seconds: float | None) -> Ending:
+def _play(code: Code, nodes: list[PlannedNode], printer: Printer, most_s: float | None) -> Ending:
     """Play until the end, Ctrl-C, or until nobody reads any more, which raises OSError."""
     unheard: list[OSError] = []
 
@@ -79,7 +80,7 @@ def _play(code: Code, nodes: list[PlannedNode], printer: Printer, seconds: float
         session = Session(program, nodes, hear)
         try:
             with session:
-                ending = session.wait(seconds)
+                ending = session.wait(most_s)
         except KeyboardInterrupt:
             ending = Ending()
     if unheard:
@@ -124,23 +125,14 @@ def _choices(options: argparse.Namespace, robots: list[str]) -> Choices:
     return Choices(recording, options.speed, addresses)
 
 
-def _seconds(word: str) -> float:
-    return _number(word, 0, MOST_SECONDS)
-
-
 def _speed(word: str) -> float:
-    return _number(word, 0.1, 50)
-
-
-def _number(word: str, least: float, most: float) -> float:
-    """A number of the command line; the comparison is false for "nan", too."""
     try:
-        number = float(word)
+        speed = float(word)
     except ValueError:
-        number = math.nan
-    if not least <= number <= most:
-        raise argparse.ArgumentTypeError(f"{word!r} is not a number from {least} to {most}")
-    return number
+        speed = math.nan
+    if not SLOWEST <= speed <= FASTEST:
+        raise argparse.ArgumentTypeError(f'"{word}" is not a number from {SLOWEST} to {FASTEST}')
+    return speed
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -149,7 +141,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Play a project without a window, on the virtual robot unless it names others.",
     )
     parser.add_argument("file", metavar="FILE.nep")
-    parser.add_argument("--seconds", type=_seconds, metavar="N", help="stop after so long")
+    parser.add_argument("--seconds", type=seconds, metavar="N", help="stop after so long")
     parser.add_argument("--recording", metavar="CSV", help="play this instead of the sensors")
     parser.add_argument(
         "--speed", type=_speed, default=1.0, metavar="N", help="play it N times as fast: 0.1 to 50"

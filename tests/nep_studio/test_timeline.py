@@ -1,0 +1,118 @@
+"""The timeline: what is told, and that nothing of it is lost or forged."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+
+import pytest
+
+from nep_core import messages as m
+from nep_studio.blocks.language import Language
+from nep_studio.commands.printer import Printer
+from nep_studio.problems import Problem
+from nep_studio.studio_language import studio_language
+from nep_studio.timeline import MOST_ACTIONS, Timeline
+
+
+@pytest.fixture(scope="module")
+def language() -> Language:
+    return studio_language()
+
+
+@pytest.fixture
+def timeline(language: Language) -> Timeline:
+    return Timeline(language)
+
+
+def say(text: str = "Hello", action_id: str = "1") -> m.ActionRequest:
+    return m.ActionRequest(id=action_id, robots=["NAO"], action="say", args={"text": text})
+
+
+def result(state: m.ActionState, action_id: str = "1", robot: str = "NAO") -> m.ActionResult:
+    return m.ActionResult(id=action_id, robot=robot, state=state)
+
+
+def test_an_action_is_told_when_it_starts_and_only_once(timeline: Timeline) -> None:
+    told = [timeline.lines(one) for one in (say(), result("started"), say(), result("started"))]
+
+    assert told == [[], [("NAO", "says “Hello”")], [], []]
+
+
+def test_results_that_are_quicker_than_their_request_are_told_with_it(timeline: Timeline) -> None:
+    early = [timeline.lines(result("started")), timeline.lines(result("started", robot="NAO2"))]
+
+    assert early == [[], []]
+    assert timeline.lines(say()) == [("NAO", "says “Hello”"), ("NAO2", "says “Hello”")]
+
+
+def test_results_whose_request_never_comes_are_forgotten(timeline: Timeline) -> None:
+    for number in range(MOST_ACTIONS + 1):
+        timeline.lines(result("started", str(number)))
+
+    assert timeline.lines(say(action_id="0")) == []
+    assert timeline.lines(say(action_id=str(MOST_ACTIONS))) == [("NAO", "says “Hello”")]
+
+
+@pytest.mark.parametrize(
+    ("state", "words"), [("failed", "failed to say: why"), ("cancelled", "no longer says “Hello”")]
+)
+def test_an_action_that_did_not_end_well_is_told(
+    timeline: Timeline, state: m.ActionState, words: str
+) -> None:
+    timeline.lines(say())
+
+    told = timeline.lines(m.ActionResult(id="1", robot="NAO", state=state, description="why"))
+
+    assert told == [("NAO", words)]
+
+
+FORGED = "Hi\n    0.10  NAO  says bye\x1b[2J\r\x9b\u2028\u202e\x07"
+
+
+def messages() -> Iterator[tuple[str, object]]:
+    yield m.ACTION_REQUEST, say(FORGED)
+    yield m.ACTION_RESULT, result("started")
+    state = m.NodeState(node=FORGED, type="action", event="ready", description=FORGED)
+    yield m.NODE_STATE, state
+    yield m.PROGRAM_STATE, m.ProgramState(program="program", event="failed", description=FORGED)
+
+
+def test_no_text_reaches_the_terminal_as_a_command_or_another_line(
+    language: Language, capsys: pytest.CaptureFixture[str]
+) -> None:
+    printer = Printer(language, as_json=False)
+
+    for topic, message in messages():
+        printer.hear(topic, message)  # type: ignore[arg-type]
+
+    lines = capsys.readouterr().out.removesuffix("\n").split("\n")
+    assert len(lines) == 3
+    assert all(line.isprintable() for line in lines)
+
+
+def test_a_problem_prints_each_part_on_one_line() -> None:
+    problem = Problem("Title", FORGED, (FORGED,), "details are not printed", FORGED)
+
+    lines = str(problem).split("\n")
+
+    assert [line[:6] for line in lines] == ["Title", "Hi    ", "  at H", "  [ ] "]
+    assert all(line.isprintable() for line in lines)
+
+
+def test_letters_of_every_script_stay_as_they_are() -> None:
+    words = "日本語 म\u200d 👩\u200d🚀 café"
+
+    assert str(Problem(words)) == words
+
+
+def test_json_lines_are_utf_8_whatever_the_terminal_writes(
+    language: Language, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written = io.BytesIO()
+    monkeypatch.setattr("sys.stdout", io.TextIOWrapper(written, encoding="cp1252"))
+
+    Printer(language, as_json=True).hear(m.ACTION_REQUEST, say("日本"))
+
+    assert '"topic":"/action_request"' in written.getvalue().decode()
+    assert "日本" in written.getvalue().decode()
