@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nep_core.endpoints import check_endpoint, master_endpoint
+from nep_core.endpoints import fixed_endpoint, master_endpoint
 from nep_core.inbox import Inbox
 from nep_core.master_client import MasterClient
 from nep_core.network import Network
@@ -17,7 +17,7 @@ class PeerNetwork(Network):
     """
 
     def __init__(self, node: str = "", *, master: str | None = None) -> None:
-        self.master = check_endpoint(master or master_endpoint())
+        self.master = fixed_endpoint(master or master_endpoint())
         super().__init__(node)
         self._topics: dict[str, int] = {}
         self._inboxes_by_topic: dict[str, list[Inbox]] = {}
