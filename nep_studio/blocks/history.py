@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from .edits import Edit, SetComment, SetField
-from .program import Project
+from .program import Changes, Project
+
+Listener = Callable[[Changes], None]
 
 
 @dataclass(slots=True)
@@ -27,6 +29,15 @@ class History:
         self._redo: list[Step] = []
         self._open: Step | None = None
         self._may_merge = False
+        self._listeners: list[Listener] = []
+
+    def listen(self, listener: Listener) -> None:
+        """Call ``listener`` with what has changed, after each step and each undo and redo."""
+        self._listeners.append(listener)
+
+    def unlisten(self, listener: Listener) -> None:
+        """Call ``listener`` no more."""
+        self._listeners.remove(listener)
 
     @property
     def undo_label(self) -> str:
@@ -57,6 +68,7 @@ class History:
             self._record(step)
         finally:
             self._open = None
+            self._tell()
 
     def apply(self, edit: Edit, label: str = "") -> None:
         """Apply an edit, as a step of its own when no transaction is open."""
@@ -82,7 +94,15 @@ class History:
         if not source:
             return False
         target.append(self._take_back(source.pop()))
+        self._tell()
         return True
+
+    def _tell(self) -> None:
+        """Tell the listeners what has changed since the last time."""
+        changes, self._project.changes = self._project.changes, Changes()
+        if changes:
+            for listener in list(self._listeners):
+                listener(changes)
 
     def _take_back(self, step: Step) -> Step:
         """Apply a step's edits, newest first; give the step that does the opposite."""

@@ -78,13 +78,13 @@ def put(project: Project, roots: list[str], place: Place) -> None:
         parent = Parent(place.block, place.slot)
     for root in roots:
         project.parents[root] = parent
-    project.touch(project.stack_of(roots[0]).id)
+    project.touch(project.stack_of(roots[0]).id, parent.owner)
 
 
 def take(project: Project, first: str, count: int) -> list[str]:
     """Take ``count`` blocks from ``first`` on out of their place; an emptied stack goes."""
     parent = project.parents[first]
-    project.touch(project.stack_of(first).id)
+    project.touch(project.stack_of(first).id, parent.owner)
     chain = project.chain_of(parent)
     if chain is None or first not in chain:
         del project.blocks[parent.owner].inputs[parent.slot]

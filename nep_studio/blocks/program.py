@@ -8,6 +8,7 @@ are numbered from 1: ``also_do.2``. Only edits.py changes a project.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import msgspec
@@ -88,6 +89,21 @@ class Parent(NamedTuple):
     slot: str = ""
 
 
+@dataclass(slots=True)
+class Changes:
+    """What a step changed: whole stacks, and in them the blocks (or stacks) changed themselves.
+
+    ``whole`` says that something of the project as a whole changed: its name, variables, pages.
+    """
+
+    stacks: set[str] = field(default_factory=set)
+    owners: set[str] = field(default_factory=set)
+    whole: bool = False
+
+    def __bool__(self) -> bool:
+        return bool(self.stacks or self.owners or self.whole)
+
+
 class Project:
     """A program: its name, its variables, and three pages of stacks."""
 
@@ -100,6 +116,8 @@ class Project:
         self.parents: dict[str, Parent] = {}
         self.revisions: dict[str, int] = {}
         """How often each stack has changed; never goes back, not even by undo."""
+        self.changes = Changes()
+        """What has changed since History told its listeners last."""
         self._last_id = 0
 
     def new_id(self, prefix: str) -> str:
@@ -150,9 +168,15 @@ class Project:
         """The variable with this id, or None."""
         return next((v for v in self.variables if v.id == variable_id), None)
 
-    def touch(self, stack_id: str) -> None:
-        """Say that a stack has changed."""
+    def touch(self, stack_id: str, owner: str = "") -> None:
+        """Say that a stack has changed, in the block ``owner`` or in its own chain."""
         self.revisions[stack_id] = self.revisions.get(stack_id, 0) + 1
+        self.changes.stacks.add(stack_id)
+        self.changes.owners.add(owner or stack_id)
+
+    def touch_whole(self) -> None:
+        """Say that the name, the variables or the pages have changed."""
+        self.changes.whole = True
 
 
 def split_slot(key: str) -> tuple[str, int]:

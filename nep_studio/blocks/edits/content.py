@@ -26,7 +26,7 @@ class SetField(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         old = fields.pop(self.slot, None)
         if self.value is not None:
             fields[self.slot] = dict(self.value) if isinstance(self.value, dict) else self.value
-        project.touch(project.stack_of(self.block).id)
+        project.touch(project.stack_of(self.block).id, self.block)
         return SetField(self.block, self.slot, old)
 
 
@@ -43,7 +43,7 @@ class SetFlag(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         block = require_block(project, self.block)
         old: bool = getattr(block, self.flag)
         setattr(block, self.flag, self.on)
-        project.touch(project.stack_of(self.block).id)
+        project.touch(project.stack_of(self.block).id, self.block)
         return SetFlag(self.block, self.flag, old)
 
 
@@ -58,7 +58,7 @@ class SetComment(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         """Write the comment."""
         block = require_block(project, self.block)
         old, block.comment = block.comment, self.comment
-        project.touch(project.stack_of(self.block).id)
+        project.touch(project.stack_of(self.block).id, self.block)
         return SetComment(self.block, old)
 
 
@@ -87,7 +87,7 @@ class AddGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         for slot, value in self.fields.items():
             block.fields[f"{slot}.{self.index}"] = value
         block.groups[self.group] = count + 1
-        project.touch(project.stack_of(self.block).id)
+        project.touch(project.stack_of(self.block).id, self.block)
         return RemoveGroup(self.block, self.group, self.index, self.slots)
 
 
@@ -114,7 +114,7 @@ class RemoveGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
             for slot in self.slots:
                 _renumber(project, block, f"{slot}.{number}", f"{slot}.{number - 1}")
         block.groups[self.group] = count - 1
-        project.touch(project.stack_of(self.block).id)
+        project.touch(project.stack_of(self.block).id, self.block)
         return AddGroup(self.block, self.group, self.index, self.slots, fields)
 
 

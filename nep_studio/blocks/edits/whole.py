@@ -38,6 +38,7 @@ class RenameProject(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
     def apply(self, project: Project) -> RenameProject:
         """Rename the project."""
         old, project.name = project.name, self.name
+        project.touch_whole()
         return RenameProject(old)
 
 
@@ -57,6 +58,7 @@ class AddVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
             raise EditRefused("There is no such position in the list of variables.")
         project.variables.insert(self.position, Variable(self.variable, self.name))
         project.id_seen(self.variable)
+        project.touch_whole()
         return RemoveVariable(self.variable)
 
 
@@ -71,6 +73,7 @@ class RemoveVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         variable = _require_variable(project, self.variable)
         position = project.variables.index(variable)
         del project.variables[position]
+        project.touch_whole()
         return AddVariable(variable.id, variable.name, position)
 
 
@@ -85,6 +88,7 @@ class RenameVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         """Rename the variable."""
         variable = _require_variable(project, self.variable)
         old, variable.name = variable.name, self.name
+        project.touch_whole()
         return RenameVariable(self.variable, old)
 
 
