@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
-import ctypes
 import hashlib
-import importlib
-import importlib.util
 import json
 import os
 import platform
 import shutil
-import signal
-import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
+
+from dev_system import (
+    DISPLAY_PROGRAMS,
+    QT_LIBRARIES,
+    WINDOW_LIBRARIES,
+    SetupError,
+    call,
+    has_display,
+    provide_packages,
+    say,
+    step,
+)
 
 HELP = """\
-python3 dev.py run                 play the karate story on the simulated NAO
+python3 dev.py run                 open the window; without a display, play the karate story
+                                   on the simulated NAO in the terminal
 python3 dev.py run ARGUMENTS       start nep-studio with these arguments
 python3 dev.py test [ARGUMENTS]    run the tests; the arguments go to pytest
 python3 dev.py lint                check format, style and types
-python3 dev.py bench [NAME...] [--json]
+python3 dev.py bench [NAME...] [--json] [--with-peers]
                                    measure against references; exit code 1 when a goal is missed
 python3 dev.py setup               make the environment only
 
@@ -33,16 +38,6 @@ Each makes .venv beside this file when it is not there or out of date."""
 ROOT = Path(__file__).resolve().parent
 OLDEST, NEWEST = (3, 11), (3, 13)
 STORY = ["run", str(ROOT / "resources" / "examples" / "karate_greeting.nep")]
-
-QT_LIBRARIES = {
-    "libgl1": "libGL.so.1",
-    "libegl1": "libEGL.so.1",
-    "libglib2.0-0": "libglib-2.0.so.0",
-    "libxkbcommon0": "libxkbcommon.so.0",
-    "libdbus-1-3": "libdbus-1.so.3",
-    "libfontconfig1": "libfontconfig.so.1",
-}
-"""What Qt needs of a Linux system: the Debian package and the library in it."""
 
 UNABLE = {
     "Windows": "On Windows dev.py installs no system software. If Qt does not start, install the"
@@ -59,66 +54,6 @@ Try, in order:
   [ ] Run the same command again: it starts the environment afresh."""
 
 
-class SetupError(Exception):
-    """The work cannot go on; the text says why and what to do."""
-
-
-def say(text: str) -> None:
-    """Print a step to stderr: stdout belongs to the program that is run."""
-    print(text, file=sys.stderr, flush=True)
-
-
-def call(command: list[str], output: IO[bytes] | None = None) -> int:
-    """Run a program to its end, its output to a file if one is given; return its exit code.
-
-    Ctrl-C reaches the program too, which ends in its own time; after a step that is the end.
-    """
-    is_interrupted = False
-    with subprocess.Popen(command, stdout=output, stderr=output) as child:
-        signal.signal(signal.SIGTERM, lambda *_: child.terminate())
-        while child.returncode is None:
-            try:
-                child.wait()
-            except KeyboardInterrupt:
-                is_interrupted = True
-    if is_interrupted and output:
-        raise KeyboardInterrupt
-    return child.returncode if child.returncode >= 0 else 128 - child.returncode
-
-
-def step(command: list[str]) -> str:
-    """Run a program quietly; return its last words when it failed, nothing when it went well."""
-    with tempfile.TemporaryFile() as output:
-        if call(command, output) == 0:
-            return ""
-        output.seek(0)
-        lines = output.read().decode(errors="replace").splitlines()
-        return "\n".join([f"{' '.join(command)} failed:", *lines[-12:]])
-
-
-@dataclass(frozen=True)
-class Machine:
-    """What may be done about missing system packages on a Linux machine."""
-
-    has_apt: bool
-    rights: str  # root, sudo (without a password), sudo asks, none
-
-    @property
-    def may_install(self) -> bool:
-        """Whether apt-get can be run without asking anybody."""
-        return self.has_apt and self.rights in ("root", "sudo")
-
-
-def this_machine() -> Machine:
-    """Look at the machine that runs this file."""
-    has_apt = shutil.which("apt-get") is not None
-    if os.geteuid() == 0:
-        return Machine(has_apt, "root")
-    if shutil.which("sudo") is None:
-        return Machine(has_apt, "none")
-    return Machine(has_apt, "sudo asks" if step(["sudo", "-n", "true"]) else "sudo")
-
-
 def check_python(version: tuple[int, int], which: Callable[[str], str | None]) -> None:
     """Stop when this Python is too old or too new, naming one that is here and fits."""
     if OLDEST <= version <= NEWEST:
@@ -128,72 +63,6 @@ def check_python(version: tuple[int, int], which: Callable[[str], str | None]) -
     way_out = f"Type: {fitting[-1]} {' '.join(sys.argv)}" if fitting else "Install one of them."
     needs = f"NEP Studio needs Python {' or '.join(names)}"
     raise SetupError(f"{needs}; {sys.executable} is {version[0]}.{version[1]}.\n{way_out}")
-
-
-def missing_packages(
-    load: Callable[[str], object] = ctypes.CDLL,
-    find: Callable[[str], object] = importlib.util.find_spec,
-) -> list[str]:
-    """Return the Debian packages that Python's venv and Qt still need on this Linux system."""
-    missing = [] if find("ensurepip") else [venv_package()]
-    for package, library in QT_LIBRARIES.items():
-        try:
-            load(library)
-        except OSError:
-            missing.append(package)
-    return missing
-
-
-def venv_package() -> str:
-    """Return the Debian package that gives this Python its ``venv``."""
-    debian_python = Path("/usr/bin/python3")
-    is_default = debian_python.exists() and debian_python.samefile(sys.executable)
-    return "python3-venv" if is_default else f"python3.{sys.version_info[1]}-venv"
-
-
-def advice(missing: list[str], machine: Machine) -> str:
-    """Say what to type for the missing packages, or what to look for without apt-get."""
-    if not machine.has_apt:
-        names = ", ".join(QT_LIBRARIES.get(package, "Python's venv") for package in missing)
-        return f"Missing: {names}. Install them with the package manager of your system."
-    install = f"apt-get install --yes {' '.join(missing)}"
-    command = {
-        "root": f"apt-get update && {install}",
-        "none": f'su -c "apt-get update && {install}"',
-    }.get(machine.rights, f"sudo apt-get update && sudo {install}")
-    return f"System packages are missing. Type this once, then start dev.py again:\n  {command}"
-
-
-def install_packages(missing: list[str], machine: Machine) -> None:
-    """Install with apt-get; fetch its lists only when the packages cannot be had without."""
-    say(f"Installing with apt-get: {' '.join(missing)} ...")
-    apt = ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-o", "DPkg::Lock::Timeout=120"]
-    apt = apt if machine.rights == "root" else ["sudo", "-n", *apt]
-    install = [*apt, "install", "--yes", "--no-install-recommends", *missing]
-    if step(install):
-        say("Fetching the package lists of apt-get ...")
-        step([*apt, "update"])
-        if failure := step(install):
-            say(failure)
-
-
-def provide_packages(*, is_qt_needed: bool) -> None:
-    """Install what the Linux system lacks or say what to type; stop when it cannot be done without.
-
-    A run without a window needs no Qt library, so there the advice is all.
-    """
-    missing = missing_packages()
-    if not missing:
-        return
-    machine = this_machine()
-    if machine.may_install:
-        install_packages(missing, machine)
-        importlib.invalidate_caches()
-        missing = missing_packages()
-    if missing and (is_qt_needed or venv_package() in missing):
-        raise SetupError(advice(missing, machine))
-    if missing:
-        say(advice(missing, machine))
 
 
 def wanted_stamp(root: Path) -> dict[str, str]:
@@ -244,10 +113,13 @@ def make_environment(root: Path) -> Path:
     return python
 
 
-def modules(arguments: list[str]) -> dict[str, list[list[str]]]:
-    """Return by command the modules, each with its arguments, to run one after the other."""
+def modules(arguments: list[str], *, is_shown: bool) -> dict[str, list[list[str]]]:
+    """Return by command the modules, each with its arguments, to run one after the other.
+
+    ``is_shown`` says that there is a display.
+    """
     return {
-        "run": [["nep_studio", *(arguments or STORY)]],
+        "run": [["nep_studio", *(arguments or ([] if is_shown else STORY))]],
         "test": [["pytest", *arguments]],
         "lint": [["ruff", "format", "--check", "."], ["ruff", "check", "."], ["mypy"]],
         "bench": [["benchmarks", *arguments]],
@@ -255,19 +127,34 @@ def modules(arguments: list[str]) -> dict[str, list[list[str]]]:
     }
 
 
+def system_needs(
+    command: str, arguments: list[str], *, is_shown: bool
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return what a command cannot do without on Linux, and what some of its work needs."""
+    is_window = not arguments or arguments[0].endswith(".nep")
+    if command == "run" and is_window and is_shown:
+        return QT_LIBRARIES | WINDOW_LIBRARIES, {}
+    wished = WINDOW_LIBRARIES if is_shown or command in ("test", "bench") else {}
+    programs = DISPLAY_PROGRAMS if command in ("test", "bench") else {}
+    if command in ("setup", "test", "bench"):
+        return QT_LIBRARIES, wished | programs
+    return {}, QT_LIBRARIES | wished
+
+
 def work(command: str, arguments: list[str]) -> int:
     """Prepare what a command needs, run it, and return its exit code."""
     os.environ["PYTHONUTF8"] = "1"
     check_python(sys.version_info[:2], shutil.which)
+    is_shown = has_display(platform.system(), os.environ)
     if platform.system() == "Linux":
-        provide_packages(is_qt_needed=command in ("setup", "test"))
+        provide_packages(*system_needs(command, arguments, is_shown=is_shown))
     python = make_environment(ROOT)
     if command == "setup":
         say(f"The environment is ready: {python}")
     if command != "run":  # run may name files in the folder that the person is in
         os.chdir(ROOT)
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    programs = modules(arguments)[command]
+    programs = modules(arguments, is_shown=is_shown)[command]
     return max([call([str(python), "-m", *program]) for program in programs], default=0)
 
 
@@ -277,7 +164,7 @@ def main(arguments: list[str]) -> int:
     if command in ("help", "-h", "--help"):
         print(HELP)
         return 0
-    if command not in modules([]) or (rest and command in ("setup", "lint")):
+    if command not in modules([], is_shown=False) or (rest and command in ("setup", "lint")):
         say(f"dev.py cannot do this: {' '.join(arguments)}\n\n{HELP}")
         return 2
     try:

@@ -16,6 +16,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from . import peers
+
 FOLDER = Path(__file__).parent
 KEYS = ("name", "value", "unit", "reference", "ratio", "goal", "ok")
 MEASURE = "from benchmarks.__main__ import measure; measure({name!r})"
@@ -72,7 +74,9 @@ def table_row(figure: Figure) -> str:
 
 
 def shown(value: object) -> str:
-    """Return a number with four digits that count, anything else as it is."""
+    """Return a number with four digits that count, a dash for none, anything else as it is."""
+    if value is None:
+        return "-"
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
@@ -88,10 +92,17 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="dev.py bench", description="Measure against references.")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"any of: {', '.join(known)}")
     parser.add_argument("--json", action="store_true", help="one JSON object a line")
+    parser.add_argument(
+        "--with-peers",
+        action="store_true",
+        help="measure other programs too, which are fetched for it: Blockly in Chromium",
+    )
     options = parser.parse_args(arguments)
     unknown = sorted(set(options.names) - set(known))
     if unknown:
         parser.error(f"no benchmark is called {', '.join(unknown)}; there are: {', '.join(known)}")
+    if options.with_peers:
+        peers.ask_for_peers()
     show = json.dumps if options.json else table_row
     is_all_ok = True
     for figure in all_figures(options.names or known):

@@ -9,8 +9,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from nep_core.behavior import Behavior
     from nep_core.broker import Broker
+    from nep_core.choosing import in_turn, one_of
+    from nep_core.colours import colour_from, mix_colours
     from nep_core.errors import NepError
-    from nep_core.human import human_state
+    from nep_core.human import (
+        heard_word,
+        human_state,
+        is_remembered,
+        remember,
+        times_seen,
+        until_state,
+        was_seen,
+    )
     from nep_core.launcher import Launcher
     from nep_core.master import Master
     from nep_core.network import BrokerNetwork, DirectNetwork
@@ -33,9 +43,19 @@ _HOMES = {
     "Publisher": "pubsub",
     "Robot": "robot",
     "Subscriber": "pubsub",
+    "colour_from": "colours",
+    "heard_word": "human",
     "human_state": "human",
+    "in_turn": "choosing",
+    "is_remembered": "human",
+    "mix_colours": "colours",
+    "one_of": "choosing",
+    "remember": "human",
     "stop_program": "tasks",
+    "times_seen": "human",
     "together": "tasks",
+    "until_state": "human",
+    "was_seen": "human",
     "wait": "tasks",
     "wait_until": "tasks",
 }
@@ -53,11 +73,21 @@ __all__ = [
     "Publisher",
     "Robot",
     "Subscriber",
+    "colour_from",
+    "heard_word",
     "human_state",
+    "in_turn",
+    "is_remembered",
+    "mix_colours",
+    "one_of",
+    "remember",
     "stop_program",
+    "times_seen",
     "together",
+    "until_state",
     "wait",
     "wait_until",
+    "was_seen",
 ]
 
 

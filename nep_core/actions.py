@@ -66,6 +66,8 @@ class ActionClient:
     """Sends requests and hands every result to the call that waits for it."""
 
     def __init__(self, network: Network) -> None:
+        self.last_done: dict[str, float] = {}
+        """When (time.time()) each robot last told of an end that was waited for."""
         self._calls: dict[str, Call] = {}
         self._requests = Publisher(ACTION_REQUEST, network=network)
         self._results = Subscriber(
@@ -102,6 +104,23 @@ class ActionClient:
             ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
         )
 
+    def begin(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
+        """Ask without waiting; the action is ended when the part that asks is cancelled.
+
+        Returns the id of the request.
+        """
+        request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
+        self._requests.send(request)
+        current_task().undo[action, *robots] = lambda: self.send(
+            robots, "stop", {"request": request.id}
+        )
+        return request.id
+
+    def end(self, robots: list[str], action: str, request_id: str) -> None:
+        """End an action that was begun in this part of the program."""
+        current_task().undo.pop((action, *robots), None)
+        self.send(robots, "stop", {"request": request_id})
+
     def _await(self, call: Call) -> None:
         task = current_task()
         asked_first_s = time.monotonic()
@@ -113,12 +132,16 @@ class ActionClient:
                 self._requests.send(call.request)
                 ask_s = now_s + ASK_AGAIN_S
             if now_s - asked_first_s > SILENCE_S and (robot := call.silent(now_s - SILENCE_S)):
-                raise _not_answering(robot)
+                raise not_answering(robot)
             call.ended.wait(POLL_S)
 
     def _on_result(self, result: ActionResult) -> None:
         call = self._calls.get(result.id)
         if call is not None:
+            if result.state in _ENDS:
+                self.last_done[result.robot] = max(
+                    result.time, self.last_done.get(result.robot, 0.0)
+                )
             call.note(result)
 
 
@@ -128,7 +151,8 @@ def action_client(network: Network | None = None) -> ActionClient:
     return cast(ActionClient, place.shared("actions", lambda: ActionClient(place)))
 
 
-def _not_answering(robot: str) -> RobotNotAnswering:
+def not_answering(robot: str) -> RobotNotAnswering:
+    """The error of a robot that says nothing."""
     return RobotNotAnswering(
         f"{robot} does not answer: no running action node plays it.",
         checklist=(

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Literal
 
 from nep_core.default_network import default_network
+from nep_core.goals import Goal, GoalEvent, Goals, Interrupted, Priority
 from nep_core.human import human_listener
 from nep_core.messages import (
     PROGRAM_STATE,
@@ -17,9 +20,12 @@ from nep_core.messages import (
 )
 from nep_core.network import Network
 from nep_core.pubsub import Publisher
-from nep_core.tasks import PROGRAM, Part, current_task
+from nep_core.tasks import POLL_S, PROGRAM, Part, current_task
+from nep_core.words import state_of_thing, state_of_word
 
 Action = Callable[[], object]
+Condition = Callable[[], object]
+Decorator = Callable[[Action], Action]
 Again = Literal["ignore", "restart", "queue"]
 
 MOST_QUEUED = 20
@@ -27,11 +33,17 @@ MOST_QUEUED = 20
 
 @dataclass
 class Rule:
-    """When the person does this, do that; ``again``: what if it fires while it runs."""
+    """When the person does this, do that; ``again``: what if it fires while it runs.
+
+    ``source`` is who must tell of the state, "" for anybody. A rule with a ``condition`` fires
+    each time that becomes true instead.
+    """
 
     state: str
     action: Action
     again: Again = "ignore"
+    source: str = ""
+    condition: Condition | None = None
     running: Part | None = None
     queued: int = 0
     lock: threading.Lock = field(default_factory=threading.Lock)
@@ -48,18 +60,87 @@ class Behavior:
         self._network = network
         self._rules: list[Rule] = []
         self._starts: list[Action] = []
+        self._goals = Goals(self._tell)
+        self._busy_s = time.monotonic()
         self._parts: list[Part] = []
         self._parts_lock = threading.Lock()
 
-    def when(self, state: str, *, again: Again = "ignore") -> Callable[[Action], Action]:
+    def when(self, state: str, *, again: Again = "ignore", source: str = "") -> Decorator:
         """Run the decorated function each time the person's state is ``state``.
+
+        ``source``: only if this robot or node tells of it.
 
         When that happens while the function still runs: "ignore" it, "restart" the function, or
         "queue" another run.
         """
 
         def add(action: Action) -> Action:
-            self._rules.append(Rule(state, action, again))
+            self._rules.append(Rule(state, action, again, source))
+            return action
+
+        return add
+
+    def when_heard(self, word: str, *, again: Again = "ignore") -> Decorator:
+        """Run the decorated function each time that a word or sentence is heard."""
+        return self.when(state_of_word(word), again=again)
+
+    def when_noticed(
+        self, thing: str, name: object = "", *, again: Again = "ignore", source: str = ""
+    ) -> Decorator:
+        """Run the decorated function each time that a robot begins to see or hear something.
+
+        "face", "ball", "mark" or "sound"; ``name``: only this face, or the mark with this number.
+        """
+        return self.when(state_of_thing(thing, name), again=again, source=source)
+
+    def when_true(self, condition: Condition, *, again: Again = "ignore") -> Decorator:
+        """Run the decorated function each time that ``condition()`` becomes true."""
+
+        def add(action: Action) -> Action:
+            self._rules.append(Rule("condition", action, again, condition=condition))
+            return action
+
+        return add
+
+    def when_idle(self, seconds: float) -> Decorator:
+        """Run the decorated function each time that for so long no state came and no rule ran."""
+
+        def add(action: Action) -> Action:
+            rule = Rule("idle", action, condition=lambda: self._idle_s() >= seconds)
+            self._rules.append(rule)
+            return action
+
+        return add
+
+    def goal(
+        self,
+        name: str,
+        *,
+        when: str,
+        priority: Priority = "normal",
+        stop: str = "",
+        interrupted: Interrupted = "again",
+    ) -> Decorator:
+        """Pursue the decorated function as a goal each time the person's state is ``when``.
+
+        One goal runs at a time. One of a higher priority interrupts it; then it begins "again"
+        afterwards, or is "drop"ped. The state ``stop`` ends it.
+        """
+
+        def add(action: Action) -> Action:
+            self._goals.add(Goal(name, when, action, priority, stop, interrupted))
+            return action
+
+        return add
+
+    def when_goal(self, name: str, event: GoalEvent) -> Decorator:
+        """Run the decorated function when a goal has "finished", or was "stopped" or "interrupted".
+
+        Or, before it begins again, when it "returns".
+        """
+
+        def add(action: Action) -> Action:
+            self._goals.hook(name, event, action)
             return action
 
         return add
@@ -74,15 +155,43 @@ class Behavior:
         network = self._network or default_network()
         self._states = Publisher(PROGRAM_STATE, network=network)
         listener = human_listener(network)
+        self._busy_s = time.monotonic()
         listener.listen(self._on_behavior)
         try:
-            for action in self._starts:
-                self._start(action, "")
+            self._begin()
             self._supervise()
         finally:
             listener.unlisten(self._on_behavior)
             self._cancel_all()
+            PROGRAM.end_undone()
             self._states.close()
+
+    def _begin(self) -> None:
+        for rule in self._rules:
+            if rule.condition is not None:
+                self._start(partial(self._watch, rule), f"watch-{rule.state}")
+        if self._goals:
+            self._start(self._goals.run, "goals")
+        for action in self._starts:
+            self._start(action, "")
+
+    def _watch(self, rule: Rule) -> None:
+        """Fire a rule each time that its condition becomes true."""
+        was_true = False
+        while rule.condition is not None:
+            is_true = bool(rule.condition())
+            if is_true and not was_true:
+                self._fire(rule)
+            was_true = is_true
+            current_task().sleep(POLL_S)
+
+    def _idle_s(self) -> float:
+        """For how long nothing has happened."""
+        now_s = time.monotonic()
+        if self._goals.is_busy or any(rule.running for rule in self._rules):
+            self._busy_s = now_s
+        heard_s = human_listener(self._network).heard_s
+        return now_s - max(self._busy_s, heard_s)
 
     def _supervise(self) -> None:
         while self._rules or self._parts:
@@ -106,8 +215,10 @@ class Behavior:
 
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         for rule in self._rules:
-            if rule.state == behavior.human_state:
+            is_meant = rule.source in ("", behavior.source) and rule.condition is None
+            if is_meant and rule.state == behavior.human_state:
                 self._fire(rule)
+        self._goals.hear(behavior.human_state)
 
     def _fire(self, rule: Rule) -> None:
         with rule.lock:
@@ -130,6 +241,7 @@ class Behavior:
         while again:
             self._tell("rule_started", rule.state)
             rule.action()
+            self._busy_s = time.monotonic()
             again = self._goes_on(rule)  # before it is told: who hears it may fire the rule
             self._tell("rule_finished", rule.state)
 

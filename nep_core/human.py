@@ -5,19 +5,34 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import cast
 
 from nep_core.default_network import default_network
 from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.network import Network
 from nep_core.pubsub import Subscriber
+from nep_core.tasks import current_task
+from nep_core.words import HEARD, word_of_state
 
 REMEMBER_S = 3.0
 """How long a state such as a gesture stays the human's state after it was seen."""
 
 
+MOST_STATES = 1000
+"""So many states are remembered, of which the oldest are forgotten."""
+
 Listener = Callable[[HumanBehavior], None]
+
+
+@dataclass
+class Seen:
+    """When a state was last seen (time.monotonic(), s), and how often."""
+
+    last_s: float = 0.0
+    times: int = 0
 
 
 class HumanListener:
@@ -29,6 +44,8 @@ class HumanListener:
     def __init__(self, network: Network) -> None:
         self._state = ""
         self._heard_s = 0.0
+        self._seen: dict[str, Seen] = {}
+        self._remembered_until_s: dict[str, float] = {}
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
         self._kept: deque[HumanBehavior] = deque(maxlen=100)
@@ -52,9 +69,55 @@ class HumanListener:
         """The last state, "" when nothing was seen for 3 s."""
         return self._state if time.monotonic() - self._heard_s <= REMEMBER_S else ""
 
+    @property
+    def heard_s(self) -> float:
+        """When anything was last heard, time.monotonic(); 0 when nothing was."""
+        return self._heard_s
+
+    def seen(self, state: str) -> Seen:
+        """When a state was last seen, and how often; times 0 when never."""
+        return self._seen.get(state, Seen())
+
+    def last_of(self, beginning: str) -> str:
+        """The state seen last of those that begin so, "" when there was none."""
+        with self._lock:
+            fitting = [state for state in self._seen if state.startswith(beginning)]
+            return max(fitting, key=lambda state: self._seen[state].last_s, default="")
+
+    def remember(self, state: str, seconds: float) -> None:
+        """Remember a state from now on for some seconds."""
+        with self._lock:
+            self._remembered_until_s[state] = time.monotonic() + seconds
+
+    def is_remembered(self, state: str) -> bool:
+        """Whether a state is remembered still."""
+        return time.monotonic() < self._remembered_until_s.get(state, 0.0)
+
+    @contextmanager
+    def following(self) -> Iterator[list[str]]:
+        """Give a list that grows by every state that comes from now on."""
+        states: list[str] = []
+
+        def note(behavior: HumanBehavior) -> None:
+            states.append(behavior.human_state)
+
+        with self._lock:
+            self._listeners.append(note)  # not by listen(): what was before is not meant
+        try:
+            yield states
+        finally:
+            self.unlisten(note)
+
+    def _note(self, state: str) -> None:
+        seen = self._seen.pop(state, Seen())  # the newest last
+        self._seen[state] = Seen(time.monotonic(), seen.times + 1)
+        if len(self._seen) > MOST_STATES:
+            del self._seen[next(iter(self._seen))]
+
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         with self._lock:
             self._state, self._heard_s = behavior.human_state, time.monotonic()
+            self._note(behavior.human_state)
             if not self._listeners:
                 self._kept.append(behavior)
             for listener in list(self._listeners):
@@ -70,3 +133,42 @@ def human_listener(network: Network | None = None) -> HumanListener:
 def human_state() -> str:
     """What the person did last, such as "gesture_karate"; "" when nothing for 3 s."""
     return human_listener().state()
+
+
+def was_seen(state: str, seconds: float) -> bool:
+    """Whether the person did that in the last so many seconds."""
+    seen = human_listener().seen(state)
+    return seen.times > 0 and time.monotonic() - seen.last_s <= seconds
+
+
+def times_seen(state: str) -> int:
+    """How often the person did that since the program has started."""
+    return human_listener().seen(state).times
+
+
+def remember(state: str, seconds: float) -> None:
+    """Remember something from now on for some seconds."""
+    human_listener().remember(state, seconds)
+
+
+def is_remembered(state: str) -> bool:
+    """Whether something is remembered still."""
+    return human_listener().is_remembered(state)
+
+
+def until_state(state: str, most: float = float("inf")) -> Iterator[int]:
+    """Count 1, 2, 3 ... until the person does that, at most so far: for loops.
+
+    What they did before the loop began does not count; it is looked at before each turn.
+    """
+    task, number = current_task(), 0
+    before = times_seen(state)
+    while number < most and times_seen(state) == before:
+        task.check()
+        number += 1
+        yield number
+
+
+def heard_word() -> str:
+    """The word that was heard last, "" when there was none."""
+    return word_of_state(human_listener().last_of(HEARD))

@@ -21,6 +21,7 @@ ROBOT_STATE = "/robot_state"
 PROGRAM_STATE = "/program_state"
 PROGRAM_CONTROL = "/program_control"
 GESTURE_REQUEST = "/gesture_request"
+SENSE_REQUEST = "/sense_request"
 
 NodeType = Literal["sensory", "perceptual", "cognitive", "action"]
 NodeEvent = Literal[
@@ -43,6 +44,10 @@ ProgramEvent = Literal[
     "line",
     "rule_started",
     "rule_finished",
+    "goal_started",
+    "goal_finished",
+    "goal_stopped",
+    "goal_interrupted",
     "value",
     "paused",
     "finished",
@@ -114,7 +119,11 @@ class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
     """Where a robot's body is (``/robot_state``); 30 Hz while it moves, 1 Hz at rest.
 
     ``joints`` are rad by joint name (hands 0 to 1); ``base`` is x m, y m, theta rad on the floor;
-    ``leds`` are 0xRRGGBB by group; ``battery`` is 0 to 1.
+    ``leds`` are 0xRRGGBB by group; ``battery`` is 0 to 1. ``sensors`` are numbers by name, in m,
+    m/s², rad/s, kg and A, touch sensors 0 or 1. ``sees`` is where things are that it sees or hears
+    ("face", "face_anna", "ball", "sound", "mark_64"): x, y, z m in front of, left of, above its
+    feet. ``settings`` are how it is set: volume, language, awake, ... ``listening`` are the words
+    that it waits for.
     """
 
     robot: str
@@ -123,14 +132,20 @@ class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
     posture: str = ""
     leds: dict[str, int] = {}
     saying: str = ""
+    moving: bool = False
     battery: float = 1.0
+    sensors: dict[str, float] = {}
+    sees: dict[str, tuple[float, float, float]] = {}
+    settings: dict[str, bool | float | str] = {}
+    listening: list[str] = []
     time: float = msgspec.field(default_factory=time.time)
 
 
 class ProgramState(msgspec.Struct, kw_only=True, omit_defaults=True):
     """What the cognitive program is doing (``/program_state``).
 
-    ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for.
+    ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for,
+    or the name of a goal.
     """
 
     program: str
@@ -156,6 +171,21 @@ class GestureRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
     person: int = -1
 
 
+class SenseRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """Lets a virtual robot feel, see or hear something (``/sense_request``).
+
+    ``sense`` is a sensor ("head_front", "sonar_left", "battery"), which gets the ``value``; or
+    "face", "ball", "sound" or "mark", there while ``value`` is above 0, at ``place`` (x, y, z m
+    from its feet), a face or mark with a ``name``; or "word", with the ``name`` that was said.
+    """
+
+    robot: str
+    sense: str
+    value: float = 1.0
+    name: str = ""
+    place: tuple[float, float, float] = (1.0, 0.0, 0.5)
+
+
 BY_TOPIC: dict[str, type[msgspec.Struct]] = {
     NODE_STATE: NodeState,
     IMU: Imu,
@@ -166,6 +196,7 @@ BY_TOPIC: dict[str, type[msgspec.Struct]] = {
     PROGRAM_STATE: ProgramState,
     PROGRAM_CONTROL: ProgramControl,
     GESTURE_REQUEST: GestureRequest,
+    SENSE_REQUEST: SenseRequest,
 }
 
 LATCHED = frozenset({NODE_STATE, ROBOT_STATE})

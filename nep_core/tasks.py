@@ -7,7 +7,9 @@ ordinary ``except`` clauses do not catch.
 from __future__ import annotations
 
 import contextvars
+import math
 import threading
+import time
 from collections.abc import Callable
 
 POLL_S = 0.05
@@ -23,6 +25,8 @@ class Task:
 
     def __init__(self, parent: Task | None = None) -> None:
         self.cancelled = threading.Event()
+        self.undo: dict[tuple[str, ...], Callable[[], None]] = {}
+        """What is still to be ended, by what it is, when this part is cancelled."""
         self._children: list[Task] = []
         self._lock = threading.Lock()
         if parent is not None:
@@ -33,8 +37,16 @@ class Task:
         with self._lock:
             self.cancelled.set()
             children = list(self._children)
+        self.end_undone()
         for child in children:
             child.cancel()
+
+    def end_undone(self) -> None:
+        """End what this part and those that it has outlived began and did not wait for."""
+        with self._lock:
+            undo, self.undo = self.undo, {}
+        for end in undo.values():
+            end()
 
     def check(self) -> None:
         """Raise Cancelled if this part has been asked to end."""
@@ -54,8 +66,9 @@ class Task:
                 child.cancelled.set()
 
     def release(self, child: Task) -> None:
-        """Forget a part that has ended."""
+        """Forget a part that has ended; what it has not ended is left to this one."""
         with self._lock:
+            self.undo |= child.undo
             if child in self._children:
                 self._children.remove(child)
 
@@ -112,11 +125,18 @@ def wait(seconds: float) -> None:
     current_task().sleep(seconds)
 
 
-def wait_until(condition: Callable[[], object]) -> None:
-    """Let this part of the program rest until ``condition()`` is true."""
-    task = current_task()
+def wait_until(condition: Callable[[], object], at_most_s: float = math.inf) -> bool:
+    """Let this part of the program rest until ``condition()`` is true, or the time is over.
+
+    Gives whether the condition came true.
+    """
+    task, end = current_task(), time.monotonic() + at_most_s
     while not condition():
-        task.sleep(POLL_S)
+        left = end - time.monotonic()
+        if left <= 0:
+            return False
+        task.sleep(min(POLL_S, left))
+    return True
 
 
 def together(*functions: Callable[[], object]) -> None:

@@ -115,6 +115,14 @@ def _program_words(state: m.ProgramState) -> str:
     match state.event:
         case "rule_started":
             return f"the rule “when {state.rule.replace('_', ' ')}” begins"
+        case "goal_started":
+            return f"pursues the goal “{state.rule}”"
+        case "goal_finished":
+            return f"has reached the goal “{state.rule}”"
+        case "goal_stopped":
+            return f"gives the goal “{state.rule}” up"
+        case "goal_interrupted":
+            return f"interrupts the goal “{state.rule}”"
         case "failed":
             return f"stopped with an error: {state.description}"
         case "finished":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import socket
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -12,6 +13,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 import psutil
 import pytest
 
+from benchmarks.virtual_display import NoDisplay, virtual_display
 from nep_core.default_network import set_default_network
 from nep_core.endpoints import MASTER_VARIABLE
 from nep_core.master import Master
@@ -72,6 +74,17 @@ def leaves_no_child_processes() -> Iterator[None]:
     for child in left:
         child.kill()
     assert not names, f"still running: {names}"
+
+
+@pytest.fixture
+def xvfb() -> Iterator[dict[str, str]]:
+    """The environment for child processes that show their windows on a display of their own."""
+    with ExitStack() as ending:
+        try:
+            environment = ending.enter_context(virtual_display())
+        except NoDisplay as reason:
+            pytest.skip(str(reason))
+        yield environment
 
 
 @pytest.fixture

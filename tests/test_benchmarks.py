@@ -15,7 +15,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A project's folder of benchmarks, with the real runner in it."""
     benchmarks = tmp_path / "benchmarks"
     benchmarks.mkdir()
-    for name in ("__init__.py", "__main__.py"):
+    for name in ("__init__.py", "__main__.py", "peers.py"):
         source = Path(runner.__file__).with_name(name).read_text(encoding="utf-8")
         (benchmarks / name).write_text(source, encoding="utf-8")
     monkeypatch.setattr(runner, "FOLDER", benchmarks)
@@ -68,6 +68,36 @@ def test_a_missed_goal_and_a_benchmark_that_fails_give_exit_code_1(
 def test_a_figure_that_lacks_something_is_refused_by_name(figure: dict, lacks: str) -> None:
     with pytest.raises(ValueError, match=rf"lacks {lacks}\."):
         runner.complete(figure)
+
+
+@pytest.mark.parametrize(("arguments", "heard"), [([], False), (["--with-peers"], True)])
+def test_a_benchmark_hears_whether_peers_are_to_be_measured(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: list[str],
+    heard: bool,
+) -> None:
+    monkeypatch.setenv("NEP_STUDIO_BENCH_WITH_PEERS", "0")
+    (folder / "asking.py").write_text(
+        "from benchmarks import peers\n\ndef run():\n"
+        '    return [{"name": "peers", "value": peers.are_wanted(), "unit": ""}]\n'
+    )
+
+    runner.main(["--json", *arguments])
+
+    assert json.loads(capsys.readouterr().out)["value"] is heard
+
+
+def test_a_figure_that_could_not_be_measured_is_no_failure(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "quick.py").write_text("\n" + GOOD.replace("2.0", "None"))
+
+    code = runner.main([])
+
+    assert code == 0
+    assert capsys.readouterr().out.split() == ["a", "-", "s"]
 
 
 def test_an_unknown_benchmark_is_refused_with_the_known_ones(

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import dev
+import dev_system
 
 ROOT = Path(dev.__file__).parent
 QT_PACKAGES = "libgl1 libegl1 libglib2.0-0 libxkbcommon0 libdbus-1-3 libfontconfig1"
@@ -19,30 +20,38 @@ def nothing_loads(library: str) -> object:
 
 
 def test_a_bare_debian_lacks_venv_and_the_six_qt_libraries() -> None:
-    missing = dev.missing_packages(load=nothing_loads, find=lambda module: None)
+    missing = dev_system.missing_packages(load=nothing_loads, find=lambda module: None)
 
-    assert missing == [dev.venv_package(), *QT_PACKAGES.split()]
+    assert missing == [dev_system.venv_package(), *QT_PACKAGES.split()]
+
+
+def test_programs_are_looked_for_by_their_names() -> None:
+    programs = dev_system.DISPLAY_PROGRAMS
+
+    missing = dev_system.missing_packages(programs, which=lambda name: None)
+
+    assert missing[-2:] == ["xvfb", "xauth"]
 
 
 def test_what_is_there_is_not_asked_for_again() -> None:
     def only_glib_is_missing(library: str) -> object:
         return nothing_loads(library) if "glib" in library else object()
 
-    assert dev.missing_packages(load=only_glib_is_missing, find=str) == ["libglib2.0-0"]
+    assert dev_system.missing_packages(load=only_glib_is_missing, find=str) == ["libglib2.0-0"]
 
 
 @pytest.mark.parametrize(
     ("machine", "may_install"),
     [
-        (dev.Machine(has_apt=True, rights="root"), True),
-        (dev.Machine(has_apt=True, rights="sudo"), True),
-        (dev.Machine(has_apt=True, rights="sudo asks"), False),
-        (dev.Machine(has_apt=True, rights="none"), False),
-        (dev.Machine(has_apt=False, rights="root"), False),
+        (dev_system.Machine(has_apt=True, rights="root"), True),
+        (dev_system.Machine(has_apt=True, rights="sudo"), True),
+        (dev_system.Machine(has_apt=True, rights="sudo asks"), False),
+        (dev_system.Machine(has_apt=True, rights="none"), False),
+        (dev_system.Machine(has_apt=False, rights="root"), False),
     ],
 )
 def test_packages_are_installed_only_where_nobody_must_be_asked(
-    machine: dev.Machine, may_install: bool
+    machine: dev_system.Machine, may_install: bool
 ) -> None:
     assert machine.may_install is may_install
 
@@ -56,15 +65,17 @@ def test_packages_are_installed_only_where_nobody_must_be_asked(
     ],
 )
 def test_the_advice_is_the_exact_command_to_type(rights: str, command: str) -> None:
-    advice = dev.advice(["libgl1", "libegl1"], dev.Machine(has_apt=True, rights=rights))
+    advice = dev_system.advice(
+        ["libgl1", "libegl1"], dev_system.Machine(has_apt=True, rights=rights)
+    )
 
     assert advice.splitlines()[-1] == f"  {command}"
 
 
 def test_without_apt_the_libraries_are_named() -> None:
-    machine = dev.Machine(has_apt=False, rights="root")
+    machine = dev_system.Machine(has_apt=False, rights="root")
 
-    advice = dev.advice(["python3-venv", "libgl1", "libegl1"], machine)
+    advice = dev_system.advice(["python3-venv", "libgl1", "libegl1"], machine)
 
     assert "Python's venv, libGL.so.1, libEGL.so.1" in advice
 
@@ -78,8 +89,8 @@ def test_apt_lists_are_fetched_only_when_the_packages_cannot_be_had(
         steps.append(command)
         return "Unable to locate package libgl1" if len(steps) == 1 else ""
 
-    monkeypatch.setattr(dev, "step", step)
-    dev.install_packages(["libgl1"], dev.Machine(has_apt=True, rights="sudo"))
+    monkeypatch.setattr(dev_system, "step", step)
+    dev_system.install_packages(["libgl1"], dev_system.Machine(has_apt=True, rights="sudo"))
 
     assert all(command[:2] == ["sudo", "-n"] for command in steps)
     verbs = [next(word for word in c if word in ("install", "update")) for c in steps]
@@ -158,10 +169,75 @@ def test_every_system_gets_an_environment_and_hears_what_is_not_done_for_it(
     assert dev.read_stamp(tmp_path / ".venv" / "nep-studio-stamp.json")["folder"] == str(tmp_path)
 
 
-def test_lint_checks_format_style_and_types_and_run_plays_the_story() -> None:
-    assert [program[0] for program in dev.modules([])["lint"]] == ["ruff", "ruff", "mypy"]
-    assert dev.modules([])["run"] == [["nep_studio", *dev.STORY]]
-    assert dev.modules(["code", "a.nep"])["run"] == [["nep_studio", "code", "a.nep"]]
+def test_lint_checks_format_style_and_types() -> None:
+    lint = dev.modules([], is_shown=False)["lint"]
+
+    assert [program[0] for program in lint] == ["ruff", "ruff", "mypy"]
+
+
+def test_run_opens_the_window_and_without_a_display_plays_the_story() -> None:
+    assert dev.modules([], is_shown=True)["run"] == [["nep_studio"]]
+    assert dev.modules([], is_shown=False)["run"] == [["nep_studio", *dev.STORY]]
+
+
+@pytest.mark.parametrize("is_shown", [True, False])
+def test_run_with_arguments_starts_what_they_say(is_shown: bool) -> None:
+    run = dev.modules(["code", "a.nep"], is_shown=is_shown)["run"]
+
+    assert run == [["nep_studio", "code", "a.nep"]]
+
+
+@pytest.mark.parametrize(
+    ("system", "environment", "is_shown"),
+    [
+        ("Linux", {}, False),
+        ("Linux", {"DISPLAY": ""}, False),
+        ("Linux", {"DISPLAY": ":0"}, True),
+        ("Linux", {"WAYLAND_DISPLAY": "wayland-0"}, True),
+        ("Windows", {}, True),
+        ("Darwin", {}, True),
+    ],
+)
+def test_a_display_is_recognised(system: str, environment: dict[str, str], is_shown: bool) -> None:
+    assert dev_system.has_display(system, environment) is is_shown
+
+
+@pytest.mark.parametrize("arguments", [[], ["mine.nep"]])
+def test_a_window_cannot_do_without_the_libraries_of_a_display(arguments: list[str]) -> None:
+    needed, wished = dev.system_needs("run", arguments, is_shown=True)
+
+    assert needed == dev_system.QT_LIBRARIES | dev_system.WINDOW_LIBRARIES
+    assert wished == {}
+
+
+@pytest.mark.parametrize("command", ["test", "bench"])
+def test_what_needs_a_display_of_its_own_is_wished_for_where_the_rest_runs_without(
+    command: str,
+) -> None:
+    needed, wished = dev.system_needs(command, [], is_shown=False)
+
+    assert needed == dev_system.QT_LIBRARIES
+    assert set(wished) == {*dev_system.WINDOW_LIBRARIES, "xvfb", "xauth"}
+
+
+def test_the_story_in_the_terminal_runs_without_any_qt_library() -> None:
+    needed, _ = dev.system_needs("run", [], is_shown=False)
+
+    assert needed == {}
+
+
+def test_what_is_only_wished_for_does_not_stop_the_work(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    machine = dev_system.Machine(has_apt=True, rights="none")
+    monkeypatch.setattr(dev_system, "this_machine", lambda: machine)
+    absent = {"xvfb": "no such program"}
+
+    dev_system.provide_packages({}, absent)
+
+    assert "apt-get install --yes xvfb" in capsys.readouterr().err
+    with pytest.raises(dev_system.SetupError, match="install --yes xvfb"):
+        dev_system.provide_packages(absent, {})
 
 
 def run_dev(*arguments: str, folder: Path = ROOT, **more: str) -> subprocess.CompletedProcess[str]:
@@ -183,10 +259,12 @@ def test_without_a_command_it_helps_and_an_unknown_one_is_refused() -> None:
     assert "dev.py cannot do this: tset" in refused.stderr
 
 
-@pytest.mark.skipif(sys.platform != "linux" or bool(dev.missing_packages()), reason="cannot start")
+@pytest.mark.skipif(
+    sys.platform != "linux" or bool(dev_system.missing_packages()), reason="cannot start"
+)
 def test_without_packages_to_be_had_it_says_what_to_try_and_leaves_no_stamp(tmp_path: Path) -> None:
-    shutil.copy(ROOT / "dev.py", tmp_path)
-    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    for name in ("dev.py", "dev_system.py", "pyproject.toml"):
+        shutil.copy(ROOT / name, tmp_path)
 
     ended = run_dev("setup", folder=tmp_path, PIP_NO_INDEX="1", PIP_CONFIG_FILE=os.devnull)
 

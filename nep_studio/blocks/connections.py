@@ -6,11 +6,15 @@ from collections.abc import Mapping
 
 from .definitions import Definition
 from .language import Language
-from .program import Block, Project
+from .program import FARTHEST, Block, Note, Project
 from .slots import why_not_fit
-from .values import why_not_name, why_not_value
+from .values import why_not_name, why_not_text
 
 MOST_VARIABLES = 1000
+MOST_NOTES = 1000
+MOST_PAGES = 100
+LARGEST_NOTE = 10_000
+"""How wide or high a note or a comment can be, in canvas units."""
 
 
 def why_not_chained(definition: Definition | None, *, first_in_stack: bool) -> str | None:
@@ -73,7 +77,7 @@ def why_no_field(block: Block, key: str, value: object, language: Language) -> s
     slot = definition.slot(key, block.groups)
     if slot is None or not slot.kind.typed:
         return f"The block “{block.type}” has no field “{key}”."
-    return why_not_value(slot.kind.name, value)
+    return slot.why_not(value)
 
 
 def why_no_groups(block: Block, definition: Definition) -> str | None:
@@ -98,3 +102,19 @@ def why_not_variable_name(project: Project, name: str, *, but: str = "") -> str 
     if reason is None and any(v.name == name and v.id != but for v in project.variables):
         return f"There is a variable “{name}” already."
     return reason
+
+
+def why_not_size(width: float, height: float) -> str | None:
+    """Why a note or a comment cannot be of this size; 0 is as large as it needs to be."""
+    if not all(0 <= length <= LARGEST_NOTE for length in (width, height)):
+        return f"A note is at most {LARGEST_NOTE} wide and high."
+    return None
+
+
+def why_not_note(project: Project, note: Note) -> str | None:
+    """Why a note cannot be like this."""
+    if note.page not in project.pages:
+        return "This page is not there any more."
+    if not (abs(note.x) <= FARTHEST and abs(note.y) <= FARTHEST):
+        return "This is too far outside the page."
+    return why_not_size(note.width, note.height) or why_not_text(note.text)

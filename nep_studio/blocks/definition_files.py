@@ -62,13 +62,22 @@ def read_choices(path: Path, data: object) -> dict[str, dict[str, str]]:
         raise DefinitionError(f"In {path.name}, [choices] must hold tables of value = “label”.")
     choices: dict[str, dict[str, str]] = {}
     for name, table in data.items():
-        choices[name] = {}
-        for value, entry in table.items():
-            label = entry.get("label") if isinstance(entry, dict) else entry
-            if not isinstance(label, str) or why_not_value("choice", value) is not None:
-                raise DefinitionError(f"In {path.name}, choice “{value}” of {name} has no label.")
-            choices[name][value] = label
+        if table and all(isinstance(e, dict) and "label" not in e for e in table.values()):
+            for value, inner in table.items():  # tables that depend on the value of a slot
+                choices[f"{name}.{value}"] = _read_table(path, f"{name}.{value}", inner)
+        else:
+            choices[name] = _read_table(path, name, table)
     return choices
+
+
+def _read_table(path: Path, name: str, table: Mapping[str, Any]) -> dict[str, str]:
+    labels: dict[str, str] = {}
+    for value, entry in table.items():
+        label = entry.get("label") if isinstance(entry, dict) else entry
+        if not isinstance(label, str) or why_not_value("choice", value) is not None:
+            raise DefinitionError(f"In {path.name}, choice “{value}” of {name} has no label.")
+        labels[value] = label
+    return labels
 
 
 def _read_file(path: Path, generators: Mapping[str, Collection[str]], found: DefinitionSet) -> None:
@@ -156,7 +165,7 @@ def _check_defaults(definition: Definition, minimum: Mapping[str, int]) -> None:
         slot = definition.slots.get(name)
         if slot is None or not slot.kind.typed:
             raise SentenceError(f"default “{name}” is not for a slot of the sentence")
-        if (reason := why_not_value(slot.kind.name, value)) is not None:
+        if (reason := slot.why_not(value)) is not None:
             raise SentenceError(f"default “{name}”: {reason}")
     for slot in definition.slots.values():
         if (

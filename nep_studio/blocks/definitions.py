@@ -5,7 +5,7 @@
 [blocks.say]                    # the block "<category id>.say"
 sentence = "{robot:robot} says {text:text} with {gesture:choice(say_gestures)}"
 shape = "statement"             # hat | statement | c | cap | reporter | boolean
-result = "number"               # of a reporter: number | text | any
+result = "number"               # of a reporter: number | text | list | colour | any
 help = "blocks/say"
 defaults = { text = "Hello" }   # what a new block holds
 minimum = { part = 2 }          # how often a group is there at least
@@ -31,9 +31,12 @@ FLAGS = {
     "takes_time": "the program waits at this block for a while",
     "loop": "its body is repeated",
     "needs_pause": "its body is repeated without end, so that it must take time",
+    "silent": "it makes a comment, no code",
+    "in_loop": "it belongs inside a loop",
     "apart": "its bodies are functions of their own",
     "last": "nothing after this block is ever reached",
     "stands": "the robot must stand",
+    "needs_real_robot": "the robot on the screen cannot do it",
     "posture": "the choice in slot `posture` is the robot's posture from then on",
 }
 

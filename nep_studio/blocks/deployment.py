@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from .language import Language
+from .procedures import DEFINE
 from .program import Block, Project
 from .values import FieldValue, Setting
 
@@ -91,10 +92,18 @@ def is_recognised(gesture: str, nodes: tuple[NodeEntry, ...], shipped: Iterable[
 
 
 def rules(project: Project, language: Language) -> Iterator[list[str]]:
-    """The chains of the behaviour page that begin with an enabled hat: those that run."""
-    for stack in project.pages["behaviour"]:
+    """The chains of the behaviour pages that begin with an enabled “when”: those that run."""
+    for chain in chains(project, language):
+        if not project.blocks[chain[0]].type.startswith(DEFINE):
+            yield chain
+
+
+def chains(project: Project, language: Language) -> Iterator[list[str]]:
+    """The rules, and the chains that define own blocks: all that becomes code."""
+    definitions = language.of(project).definitions
+    for _, stack in project.stacks_of_kind("behaviour"):
         first = project.blocks[stack.body[0]]
-        definition = language.definitions.get(first.type)
+        definition = definitions.get(first.type)
         if definition is not None and definition.shape == "hat" and not first.disabled:
             yield stack.body
 
@@ -107,7 +116,7 @@ def _slots_of_kind(project: Project, language: Language, kind: str) -> Iterator[
         for slot in definition.slots.values()
         if slot.kind.name == kind
     }
-    for chain in rules(project, language):
+    for chain in chains(project, language):
         for block in project.within(chain, enabled=True):
             if block.type in keys:
                 yield block, keys[block.type]

@@ -2,37 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 
-from .connections import (
-    why_no_body,
-    why_no_field,
-    why_not_below,
-    why_not_chained,
-    why_not_plugged,
-    why_not_variable_name,
-)
-from .definitions import Definition
+from .editing_rules import why_not
 from .edits import (
-    AddGroup,
+    AddProcedure,
     AddVariable,
+    ChangeProcedure,
     CreateBlocks,
+    DeleteBlocks,
     Edit,
     MoveBlocks,
-    MoveStack,
-    RemoveGroup,
-    RenameProject,
-    RenameVariable,
-    SetComment,
+    RemoveNote,
+    RemovePage,
+    RemoveProcedure,
     SetField,
 )
 from .errors import EditRefused
-from .fitting import why_not_block
 from .history import History
 from .language import Language
-from .places import InBody, InInput, InStack, NewStack, Place
-from .program import FARTHEST, Block, Project
-from .values import why_not_name, why_not_text, why_not_value
+from .own_block_changes import Misfit, misfits, why_not_delete_procedure
+from .places import NewStack, Place
+from .procedures import DEFINE, header_of
+from .program import Changes, Parameter, Procedure, Project
+
+_BESIDE = 40.0
+"""How far from its old stack a block is put that has lost its place, in canvas units."""
 
 
 class Editor:
@@ -40,19 +36,43 @@ class Editor:
 
     def __init__(self, project: Project, language: Language) -> None:
         self.project = project
-        self.language = language
         self.history = History(project)
+        self._language = language.of(project)
+        self.history.listen(self._on_changes)
+
+    @property
+    def language(self) -> Language:
+        """The language with the project's own blocks; always the same object, always up to date."""
+        return self._language.of(self.project)
+
+    def use_language(self, language: Language) -> None:
+        """Go on with the same blocks in other words."""
+        self._language = language.of(self.project)
 
     def transaction(self, label: str) -> AbstractContextManager[object]:
         """Everything applied inside is one step of undo."""
         return self.history.transaction(label)
 
+    def why_not(self, edit: Edit) -> str | None:
+        """Why an edit does not fit the language, or None when it does."""
+        return why_not(edit, self.project, self.language)
+
     def apply(self, edit: Edit, label: str = "") -> None:
-        """Apply an edit, or raise EditRefused with the reason."""
+        """Apply an edit, or raise EditRefused with the reason.
+
+        Choices that depend on a field follow it in the same step.
+        """
         reason = self.why_not(edit)
         if reason is not None:
             raise EditRefused(reason)
-        self.history.apply(edit, label)
+        followers = self._followers(edit) if isinstance(edit, SetField) else []
+        if not followers:
+            self.history.apply(edit, label)
+            return
+        with self.history.transaction(label or edit.label):
+            self.history.apply(edit)
+            for slot in followers:
+                self._follow(edit.block, slot)
 
     def create(self, block_type: str, place: Place) -> str:
         """Make a block with its default values; gives its id."""
@@ -72,140 +92,93 @@ class Editor:
         position = len(self.project.pages[page])
         return NewStack(page, self.project.new_id("s"), x, y, position)
 
-    def why_not(self, edit: Edit) -> str | None:
-        """Why an edit does not fit the language, or None when it does."""
-        if isinstance(edit, MoveBlocks):
-            return self._why_not_move(edit)
-        if isinstance(edit, CreateBlocks):
-            return self._why_not_create(edit)
-        if isinstance(edit, SetField):
-            return self._why_not_field(edit)
-        if isinstance(edit, AddGroup | RemoveGroup):
-            return self._why_not_group(edit)
-        if isinstance(edit, SetComment):
-            return why_not_text(edit.comment)
-        if isinstance(edit, MoveStack) and not _is_near(edit.x, edit.y):
-            return "This is too far outside the page."
-        if isinstance(edit, RenameProject):
-            return why_not_name(edit.name)
-        if isinstance(edit, AddVariable):
-            return why_not_variable_name(self.project, edit.name)
-        if isinstance(edit, RenameVariable):
-            return why_not_variable_name(self.project, edit.name, but=edit.variable)
-        return None
+    def new_parameter(self, name: str, kind: str) -> Parameter:
+        """A parameter for an own block; it is not in the project yet."""
+        return Parameter(self.project.new_id("a"), name, kind)
 
-    def _why_not_move(self, edit: MoveBlocks) -> str | None:
-        if edit.first not in self.project.blocks:
-            return "This block is not there any more."
-        chain = self.project.chain_of(self.project.parents[edit.first]) or [edit.first]
-        start = chain.index(edit.first) if edit.first in chain else 0
-        roots = [self.project.blocks[i] for i in chain[start : start + edit.count]]
-        return self._why_not_here(roots or [self.project.blocks[edit.first]], edit.place)
+    def add_procedure(
+        self,
+        parts: Sequence[str | Parameter],
+        *,
+        gives_value: bool = False,
+        place: NewStack | None = None,
+    ) -> str:
+        """Make an own block, and its header at a place if one is given; gives its id."""
+        procedure = Procedure(self.project.new_id("p"), tuple(parts), gives_value)
+        with self.transaction(AddProcedure.label):
+            self.apply(AddProcedure(procedure, len(self.project.procedures)))
+            if place is not None:
+                self.create(DEFINE + procedure.id, place)
+        return procedure.id
 
-    def _why_not_create(self, edit: CreateBlocks) -> str | None:
-        by_id = {block.id: block for block in edit.blocks}
-        inside = [child for block in edit.blocks for child in block.children()]
-        if not edit.roots or not by_id.keys() >= {*inside, *edit.roots}:
-            return "These blocks are not complete."
-        for block in edit.blocks:
-            if (reason := why_not_block(block, by_id, self.language)) is not None:
-                return reason
-        return self._why_not_here([by_id[root] for root in edit.roots], edit.place)
+    def change_procedure(
+        self, procedure_id: str, parts: Sequence[str | Parameter], *, gives_value: bool
+    ) -> None:
+        """Change the sentence of an own block; all that use it follow, in one step.
 
-    def _why_not_here(self, roots: list[Block], place: Place) -> str | None:
-        """Why these blocks cannot be put, one after the other, into a place."""
-        definitions = self.language.definitions
-        if isinstance(place, NewStack) and not _is_near(place.x, place.y):
-            return "This is too far outside the page."
-        if isinstance(place, InInput | InBody):
-            owner = self.project.blocks.get(place.block)
-            if owner is None:
-                return "This block is not there any more."
-            if isinstance(place, InInput):
-                return why_not_plugged(owner, place.slot, roots[0], definitions)
-            if (reason := why_no_body(owner, place.slot, definitions)) is not None:
-                return reason
-        return self._why_not_page(roots, place) or self._why_not_between(roots, place)
+        What was in a parameter that goes is put beside, as a stack of its own.
+        """
+        procedure = Procedure(procedure_id, tuple(parts), gives_value)
+        with self.transaction(ChangeProcedure.label):
+            for number, misfit in enumerate(list(misfits(procedure, self.project, self.language))):
+                self._put_right(misfit, number)
+            self.apply(ChangeProcedure(procedure))
 
-    def _why_not_between(self, roots: list[Block], place: Place) -> str | None:
-        """Why these blocks cannot be between those that are above and below a place."""
-        above, below = self._neighbours({block.id for block in roots}, place)
-        is_top = above is None and not isinstance(place, InBody)
-        reason = why_not_chained(self._definition(roots[0]), first_in_stack=is_top)
-        if reason is None and above is not None:
-            reason = why_not_below(self._definition(above))
-        if reason is None and below is not None:
-            reason = why_not_below(self._definition(roots[-1])) or why_not_chained(
-                self._definition(below), first_in_stack=False
-            )
-        return reason
-
-    def _why_not_page(self, roots: list[Block], place: Place) -> str | None:
-        project = self.project
-        if isinstance(place, NewStack):
-            page = place.page
-        elif isinstance(place, InStack) and place.stack in project.stacks:
-            page = project.page_of(place.stack)
-        elif isinstance(place, InBody) and place.block in project.blocks:
-            page = project.page_of(project.stack_of(place.block).id)
-        else:
-            return None
-        for definition in map(self._definition, roots):
-            if definition is not None and definition.page != page:
-                return f"This block belongs on the page {definition.page.title()}."
-        return None
-
-    def _neighbours(self, moved: set[str], place: Place) -> tuple[Block | None, Block | None]:
-        """The blocks that will be directly above and below a place."""
-        if isinstance(place, InStack) and place.stack in self.project.stacks:
-            chain = self.project.stacks[place.stack].body
-        elif isinstance(place, InBody) and place.block in self.project.blocks:
-            chain = self.project.blocks[place.block].bodies.get(place.slot, [])
-        else:
-            return None, None
-        left = [block for block in chain if block not in moved]
-        above = self.project.blocks[left[place.index - 1]] if 0 < place.index <= len(left) else None
-        below = self.project.blocks[left[place.index]] if 0 <= place.index < len(left) else None
-        return above, below
-
-    def _why_not_field(self, edit: SetField) -> str | None:
-        block = self.project.blocks.get(edit.block)
-        if block is None:
-            return "This block is not there any more."
-        if edit.value is None:
-            return None
-        reason = why_no_field(block, edit.slot, edit.value, self.language)
+    def delete_procedure(self, procedure_id: str) -> None:
+        """Delete an own block with the stack that defines it; refused while it is used."""
+        reason = why_not_delete_procedure(self.project, procedure_id)
         if reason is not None:
-            return reason
-        slot = self.language.definitions[block.type].slot(edit.slot, block.groups)
-        return self.language.why_not_choice(slot, edit.value) if slot is not None else None
+            raise EditRefused(reason)
+        with self.transaction(RemoveProcedure.label):
+            while header := header_of(self.project, procedure_id):
+                self.apply(DeleteBlocks(header, len(self.project.stack_of(header).body)))
+            self.apply(RemoveProcedure(procedure_id))
 
-    def _why_not_group(self, edit: AddGroup | RemoveGroup) -> str | None:
-        block = self.project.blocks.get(edit.block)
-        definition = self._definition(block) if block is not None else None
-        if block is None or definition is None or edit.group not in definition.groups:
-            return "This block has no such part."
-        if edit.slots != definition.group_slots(edit.group):
-            return "This part has other slots."
-        count = block.groups.get(edit.group, 0) + (1 if isinstance(edit, AddGroup) else -1)
-        if count > definition.groups[edit.group].maximum:
-            return "This block cannot have more parts."
-        if count < definition.minimum[edit.group]:
-            return "This block cannot have fewer parts."
-        return self._why_not_part_fields(edit) if isinstance(edit, AddGroup) else None
+    def delete_page(self, page: str) -> None:
+        """Delete an added page with all that is on it, in one step."""
+        with self.transaction(RemovePage.label):
+            for stack in list(self.project.pages.get(page, ())):
+                self.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+            for note in [n.id for n in self.project.notes.values() if n.page == page]:
+                self.apply(RemoveNote(note))
+            self.apply(RemovePage(page))
 
-    def _why_not_part_fields(self, edit: AddGroup) -> str | None:
-        slots = self.language.definitions[self.project.blocks[edit.block].type].slots
-        for name, value in edit.fields.items():
-            if name not in edit.slots or not slots[name].kind.typed:
-                return f"This part has no field “{name}”."
-            if (reason := why_not_value(slots[name].kind.name, value)) is not None:
-                return reason
-        return None
+    def _on_changes(self, changes: Changes) -> None:
+        """Bring the language up to date before anybody else is told; see Language.of."""
+        if changes.whole:
+            self._language.of(self.project)
 
-    def _definition(self, block: Block) -> Definition | None:
-        return self.language.definitions.get(block.type)
+    def _followers(self, edit: SetField) -> list[str]:
+        """The keys of the choices that depend on a field."""
+        block = self.project.blocks[edit.block]
+        definition = self.language.definitions.get(block.type)
+        if definition is None:
+            return []
+        name, _, number = edit.slot.partition(".")
+        return [
+            key
+            for key, slot in definition.keys(block.groups)
+            if slot.master == name and (not number or key.endswith(f".{number}"))
+        ]
 
+    def _follow(self, block_id: str, key: str) -> None:
+        """Choose again where the choice is not among those that are offered now."""
+        block = self.project.blocks[block_id]
+        definition = self.language.definitions[block.type]
+        slot = definition.slot(key, block.groups)
+        assert slot is not None
+        offered = self.language.choices_of(slot, block, key)
+        if not offered or definition.value(block, key) in offered:
+            return
+        default = definition.defaults.get(slot.name)
+        value = default if default in offered else next(iter(offered))
+        self.apply(SetField(block_id, key, value))
 
-def _is_near(x: float, y: float) -> bool:
-    return abs(x) <= FARTHEST and abs(y) <= FARTHEST
+    def _put_right(self, misfit: Misfit, number: int) -> None:
+        if misfit.field:
+            self.apply(SetField(misfit.block, misfit.field, None))
+            return
+        stack = self.project.stack_of(misfit.block)
+        page, shift = self.project.page_of(stack.id), _BESIDE * (number + 1)
+        place = self.new_stack(page, stack.x + shift, stack.y + shift)
+        self.apply(MoveBlocks(misfit.block, 1, place))

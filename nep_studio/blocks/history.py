@@ -6,10 +6,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from .edits import Edit, SetComment, SetField
+import msgspec
+
+from .edits import ChangeNote, Edit, SetComment, SetField
 from .program import Changes, Project
 
 Listener = Callable[[Changes], None]
+Recorder = Callable[[tuple[Edit, ...]], None]
 
 
 @dataclass(slots=True)
@@ -18,6 +21,8 @@ class Step:
 
     label: str
     edits: list[Edit] = field(default_factory=list)
+    number: int = 0
+    """The same for a step and for its opposite, and for no other step."""
 
 
 class History:
@@ -29,7 +34,10 @@ class History:
         self._redo: list[Step] = []
         self._open: Step | None = None
         self._may_merge = False
+        self._last_number = 0
         self._listeners: list[Listener] = []
+        self._applied: list[Edit] = []
+        self._recorders: list[Recorder] = []
 
     def listen(self, listener: Listener) -> None:
         """Call ``listener`` with what has changed, after each step and each undo and redo."""
@@ -38,6 +46,19 @@ class History:
     def unlisten(self, listener: Listener) -> None:
         """Call ``listener`` no more."""
         self._listeners.remove(listener)
+
+    def record(self, recorder: Recorder) -> None:
+        """Call ``recorder`` with the edits of each step, undo and redo, to be played again."""
+        self._recorders.append(recorder)
+
+    def unrecord(self, recorder: Recorder) -> None:
+        """Call ``recorder`` no more."""
+        self._recorders.remove(recorder)
+
+    @property
+    def position(self) -> int:
+        """The number of the step that undo would take back: tells whether a program is saved."""
+        return self._undo[-1].number if self._undo else 0
 
     @property
     def undo_label(self) -> str:
@@ -58,11 +79,13 @@ class History:
         if self._open is not None:
             yield self._open
             return
-        step = self._open = Step(label)
+        self._last_number += 1
+        step = self._open = Step(label, number=self._last_number)
         try:
             yield step
         except BaseException:
             self._take_back(step)
+            self._applied.clear()
             raise
         else:
             self._record(step)
@@ -74,6 +97,7 @@ class History:
         """Apply an edit, as a step of its own when no transaction is open."""
         with self.transaction(label or edit.label) as step:
             step.edits.append(edit.apply(self._project))
+            self._applied.append(edit)
 
     def undo(self) -> bool:
         """Take the last step back; False when there is none."""
@@ -82,6 +106,18 @@ class History:
     def redo(self) -> bool:
         """Do the step again that was taken back last; False when there is none."""
         return self._step(self._redo, self._undo)
+
+    @property
+    def steps(self) -> int:
+        """How many steps can be taken back."""
+        return len(self._undo)
+
+    def drop(self, to: int) -> None:
+        """Take steps back until ``to`` are left, as if they had never been: Esc in a field."""
+        self.seal()
+        while len(self._undo) > to:
+            self._take_back(self._undo.pop())
+        self._tell()
 
     def seal(self) -> None:
         """End the typing: what follows is a step of its own (the field has lost the focus)."""
@@ -99,6 +135,9 @@ class History:
 
     def _tell(self) -> None:
         """Tell the listeners what has changed since the last time."""
+        applied, self._applied = tuple(self._applied), []
+        for recorder in list(self._recorders) if applied else ():
+            recorder(applied)
         changes, self._project.changes = self._project.changes, Changes()
         if changes:
             for listener in list(self._listeners):
@@ -106,9 +145,11 @@ class History:
 
     def _take_back(self, step: Step) -> Step:
         """Apply a step's edits, newest first; give the step that does the opposite."""
-        opposite = Step(step.label)
+        opposite = Step(step.label, number=step.number)
         while step.edits:
-            opposite.edits.append(step.edits.pop().apply(self._project))
+            edit = step.edits.pop()
+            opposite.edits.append(edit.apply(self._project))
+            self._applied.append(edit)
         return opposite
 
     def _record(self, step: Step) -> None:
@@ -129,4 +170,9 @@ def _same_typing(earlier: Step, later: Step) -> bool:
         return (first.block, first.slot) == (second.block, second.slot)
     if isinstance(first, SetComment) and isinstance(second, SetComment):
         return first.block == second.block
+    if isinstance(first, ChangeNote) and isinstance(second, ChangeNote):
+        # both are what undoes a step: the note as it was before it
+        return msgspec.structs.replace(first.note, text="") == msgspec.structs.replace(
+            second.note, text=""
+        )
     return False

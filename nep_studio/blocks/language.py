@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from weakref import WeakKeyDictionary
 
 from .definitions import Category, Definition
+from .procedures import definitions_of
 from .profile import RobotProfile
+from .program import Block, Project, split_slot
 from .sentence import Slot
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
+class _Own:
+    """The language of one project, and the revision of the own blocks that it was made for."""
+
+    language: Language
+    revision: int = -1
+
+
+@dataclass(frozen=True, slots=True, weakref_slot=True)
 class Language:
     """Definitions by block type and choices by table (value to label).
 
@@ -22,16 +33,60 @@ class Language:
     categories: tuple[Category, ...]
     choices: Mapping[str, Mapping[str, str]]
     profile: RobotProfile
+    _base: Language | None = field(default=None, repr=False, compare=False)
+    _own: WeakKeyDictionary[Project, _Own] = field(
+        default_factory=WeakKeyDictionary, repr=False, compare=False
+    )
 
-    def choices_of(self, slot: Slot) -> Mapping[str, str]:
-        """The values that a slot offers with their labels; empty when they are not known."""
-        return self.choices.get("gestures" if slot.kind.name == "gesture" else slot.table, {})
+    def of(self, project: Project) -> Language:
+        """This language with the own blocks of a project, as they are now.
 
-    def why_not_choice(self, slot: Slot, value: object) -> str | None:
+        For one project it is always the same object, whose definitions follow the project.
+        """
+        base = self._base or self
+        own = base._own.get(project)
+        if own is None:
+            own = _Own(
+                Language(dict(base.definitions), base.categories, base.choices, base.profile, base)
+            )
+            base._own[project] = own
+        if own.revision != project.procedure_revision:
+            own.revision = project.procedure_revision
+            definitions = own.language.definitions
+            assert isinstance(definitions, dict)
+            definitions.clear()
+            definitions |= base.definitions
+            definitions |= definitions_of(project.procedures.values())
+        return own.language
+
+    def table_of(self, slot: Slot, block: Block | None = None, key: str = "") -> str:
+        """The name of the table of choices of a slot; ``key`` is its key where it is numbered.
+
+        For a slot that depends on another, it is by what the block's other slot holds.
+        """
+        if slot.kind.name == "gesture":
+            return "gestures"
+        if not slot.master or block is None:
+            return slot.table
+        number = split_slot(key)[1]
+        definition = self.definitions[block.type]
+        is_beside = number and definition.slots[slot.master].group
+        master = f"{slot.master}.{number}" if is_beside else slot.master
+        return f"{slot.table}.{definition.value(block, master)}"
+
+    def choices_of(
+        self, slot: Slot, block: Block | None = None, key: str = ""
+    ) -> Mapping[str, str]:
+        """The values that a slot of a block offers with their labels; empty when not known."""
+        return self.choices.get(self.table_of(slot, block, key), {})
+
+    def why_not_choice(
+        self, slot: Slot, value: object, block: Block | None = None, key: str = ""
+    ) -> str | None:
         """Why a choice slot cannot hold this value, or None when it can."""
         if slot.kind.name != "choice":
             return None
-        offered = self.choices.get(slot.table, {})
+        offered = self.choices_of(slot, block, key)
         if not offered or value in offered:
             return None
         return f"“{value}” is not one of: {', '.join(offered)}."

@@ -29,8 +29,8 @@ class Block(msgspec.Struct, omit_defaults=True):
 
     ``fields`` are values chosen or typed by slot, ``inputs`` plugged blocks by slot, ``bodies``
     chains of blocks by slot (never an empty one), ``groups`` how often each group of the sentence
-    is there; ``extra`` are keys of the file that this version does not know: never changed, saved
-    as they were.
+    is there; a comment of size 0 is as large as it needs to be; ``extra`` are keys of the file
+    that this version does not know: never changed, saved as they were.
     """
 
     id: str
@@ -42,6 +42,8 @@ class Block(msgspec.Struct, omit_defaults=True):
     disabled: bool = False
     collapsed: bool = False
     comment: str = ""
+    comment_width: float = 0
+    comment_height: float = 0
     extra: dict[str, Any] = {}
 
     def children(self) -> Iterator[str]:
@@ -62,6 +64,8 @@ class Block(msgspec.Struct, omit_defaults=True):
             self.disabled,
             self.collapsed,
             self.comment,
+            self.comment_width,
+            self.comment_height,
             self.extra,
         )
 
@@ -82,6 +86,34 @@ class Variable(msgspec.Struct):
     name: str
 
 
+class Parameter(msgspec.Struct, frozen=True):
+    """A value that a call of an own block brings; its kind is one of PARAMETER_KINDS."""
+
+    id: str
+    name: str
+    kind: str = "any"
+
+
+class Procedure(msgspec.Struct, frozen=True):
+    """An own block: the words and parameters of its sentence, and whether it gives a value."""
+
+    id: str
+    parts: tuple[str | Parameter, ...]
+    gives_value: bool = False
+
+
+class Note(msgspec.Struct, frozen=True):
+    """A note on a page, in canvas units from the page's corner."""
+
+    id: str
+    page: str
+    x: float
+    y: float
+    width: float
+    height: float
+    text: str = ""
+
+
 class Parent(NamedTuple):
     """Where a block is: in a stack (``slot`` is empty) or in a slot of another block."""
 
@@ -93,24 +125,35 @@ class Parent(NamedTuple):
 class Changes:
     """What a step changed: whole stacks, and in them the blocks (or stacks) changed themselves.
 
-    ``whole`` says that something of the project as a whole changed: its name, variables, pages.
+    ``notes`` are the ids of notes. ``whole`` says that something of the project as a whole
+    changed: its name, variables, own blocks, pages.
     """
 
     stacks: set[str] = field(default_factory=set)
     owners: set[str] = field(default_factory=set)
+    notes: set[str] = field(default_factory=set)
     whole: bool = False
 
     def __bool__(self) -> bool:
-        return bool(self.stacks or self.owners or self.whole)
+        return bool(self.stacks or self.owners or self.notes or self.whole)
 
 
 class Project:
-    """A program: its name, its variables, and three pages of stacks."""
+    """A program: its name, its variables, its own blocks, its notes, and pages of stacks.
+
+    The order of ``pages`` is theirs on the screen; ``page_titles`` has the titles that people
+    gave; ``extra`` are keys of the file that this version does not know, saved as they were.
+    """
 
     def __init__(self, name: str = "Untitled") -> None:
         self.name = name
         self.variables: list[Variable] = []
+        self.procedures: dict[str, Procedure] = {}
+        self.procedure_revision = 0
+        """How often the own blocks have changed; never goes back, not even by undo."""
+        self.notes: dict[str, Note] = {}
         self.pages: dict[str, list[Stack]] = {page: [] for page in PAGES}
+        self.page_titles: dict[str, str] = {}
         self.blocks: dict[str, Block] = {}
         self.stacks: dict[str, Stack] = {}
         self.parents: dict[str, Parent] = {}
@@ -118,10 +161,11 @@ class Project:
         """How often each stack has changed; never goes back, not even by undo."""
         self.changes = Changes()
         """What has changed since History told its listeners last."""
+        self.extra: dict[str, Any] = {}
         self._last_id = 0
 
     def new_id(self, prefix: str) -> str:
-        """An id that no block, stack or variable of this project has had: prefix and number."""
+        """An id that nothing in this project has had: prefix and number."""
         self._last_id += 1
         return f"{prefix}{self._last_id}"
 
@@ -137,6 +181,16 @@ class Project:
         while owner in self.parents:
             owner = self.parents[owner].owner
         return self.stacks[owner]
+
+    def kind_of_page(self, page: str) -> str:
+        """What belongs on a page: behaviour, robots or nodes; added pages are for behaviour."""
+        return page if page in PAGES else "behaviour"
+
+    def stacks_of_kind(self, kind: str) -> Iterator[tuple[str, Stack]]:
+        """The stacks of all pages of a kind, each with its page, in the order of the pages."""
+        for page, stacks in self.pages.items():
+            if self.kind_of_page(page) == kind:
+                yield from ((page, stack) for stack in stacks)
 
     def page_of(self, stack_id: str) -> str:
         """The name of the page on which a stack is."""
@@ -173,6 +227,15 @@ class Project:
         self.revisions[stack_id] = self.revisions.get(stack_id, 0) + 1
         self.changes.stacks.add(stack_id)
         self.changes.owners.add(owner or stack_id)
+
+    def touch_note(self, note_id: str) -> None:
+        """Say that a note has come, gone or changed."""
+        self.changes.notes.add(note_id)
+
+    def touch_procedures(self) -> None:
+        """Say that the own blocks have changed."""
+        self.procedure_revision += 1
+        self.changes.whole = True
 
     def touch_whole(self) -> None:
         """Say that the name, the variables or the pages have changed."""

@@ -14,25 +14,46 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .slots import KINDS, Kind
+from .values import why_not_between, why_not_value
 
 MOST_REPEATS = 20
 
 _TOKEN = re.compile(
-    r"\{(?P<slot>[a-z][a-z0-9_]*):(?P<kind>[a-z]+)(?:\((?P<table>[a-z][a-z0-9_]*)\))?\}"
+    r"\{(?P<slot>[a-z][a-z0-9_]*):(?P<kind>[a-z]+)(?:\((?P<more>[^(){}]*)\))?\}"
     r"|\[(?P<group>[a-z][a-z0-9_]*):"
     r"|\](?P<repeat>[*?])"
     r"|(?P<words>[^{}\[\]]+)"
 )
+_TABLE = re.compile(r"(?P<table>[a-z][a-z0-9_]*)(?:/(?P<master>[a-z][a-z0-9_]*))?")
+_RANGE = re.compile(r"(?P<low>-?[0-9]+(?:\.[0-9]+)?)\.\.(?P<high>-?[0-9]+(?:\.[0-9]+)?)")
 
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """A named place in a sentence; ``table`` names the choices, ``group`` the group it is in."""
+    """A named place in a sentence.
+
+    ``table`` names the choices, ``group`` the group that the slot is in. The choices of a slot
+    with a ``master`` are those of the table "table.value", by the value of the slot ``master``.
+    ``low`` and ``high`` are the ends of a slider. A slot of kind parameter shows ``label``, and
+    ``table`` is the type of the block that is dragged out of it.
+    """
 
     name: str
     kind: Kind
     table: str = ""
     group: str = ""
+    master: str = ""
+    low: float | None = None
+    high: float | None = None
+    label: str = ""
+
+    def why_not(self, value: object) -> str | None:
+        """Why the slot's field cannot hold ``value``, whatever its choices are, or None."""
+        if not self.kind.typed:
+            return f"This place takes {self.kind.noun}, not a value that is typed."
+        if self.low is not None and self.high is not None:
+            return why_not_between(value, self.low, self.high)
+        return why_not_value(self.kind.name, value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,14 +105,29 @@ def _tokens(sentence: str) -> Iterator[re.Match[str]]:
 
 
 def _word_or_slot(token: re.Match[str], group: str) -> str | Slot:
-    name, kind_name, table = token["slot"], token["kind"], token["table"] or ""
+    name, kind_name, more = token["slot"], token["kind"], token["more"] or ""
     if not name:
         return token["words"].strip()
     if kind_name not in KINDS:
         raise SentenceError(f"slot “{name}” has no kind “{kind_name}”: use {', '.join(KINDS)}")
-    if (kind_name == "choice") != bool(table):
-        raise SentenceError(f"slot “{name}”: a choice names its table, choice(table), others none")
-    return Slot(name, KINDS[kind_name], table, group)
+    kind = KINDS[kind_name]
+    if kind_name == "choice":
+        named = _TABLE.fullmatch(more)
+        if named is None:
+            raise SentenceError(f"slot “{name}”: a choice names its table, choice(table)")
+        return Slot(name, kind, named["table"], group, named["master"] or "")
+    if kind_name == "slider":
+        return _slider(name, kind, group, more)
+    if more:
+        raise SentenceError(f"slot “{name}”: {kind_name} has nothing in parentheses")
+    return Slot(name, kind, group=group)
+
+
+def _slider(name: str, kind: Kind, group: str, more: str) -> Slot:
+    ends = _RANGE.fullmatch(more)
+    if ends is None or float(ends["low"]) >= float(ends["high"]):
+        raise SentenceError(f"slot “{name}”: a slider has its ends, slider(0..100)")
+    return Slot(name, kind, group=group, low=float(ends["low"]), high=float(ends["high"]))
 
 
 def slots_of(parts: tuple[Part, ...]) -> dict[str, Slot]:
@@ -104,7 +140,17 @@ def slots_of(parts: tuple[Part, ...]) -> dict[str, Slot]:
                 if slot.name in slots:
                     raise SentenceError(f"slot “{slot.name}” is there twice")
                 slots[slot.name] = slot
+    for slot in slots.values():
+        if slot.master and not _is_master(slots.get(slot.master), slot):
+            raise SentenceError(
+                f"slot “{slot.name}” depends on “{slot.master}”, which is no choice"
+            )
     return slots
+
+
+def _is_master(master: Slot | None, slot: Slot) -> bool:
+    """Whether a slot may decide about the choices of another: a choice, outside or beside it."""
+    return master is not None and master.kind.name == "choice" and master.group in ("", slot.group)
 
 
 def groups_of(parts: tuple[Part, ...]) -> dict[str, Group]:

@@ -1,8 +1,12 @@
-"""The kinds of slot, which values may be plugged into each, and why one is refused."""
+"""The kinds of slot: how each is drawn, which values may be plugged in, why one is refused."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
+
+SlotShape = Literal["round", "square", "hexagon", "bracket", "pill", "mouth"]
+"""The outline of a slot and of what goes in: number, text, yes or no, list, others, a body."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,6 +19,7 @@ class Kind:
 
     name: str
     noun: str
+    shape: SlotShape = "pill"
     fits: frozenset[str] = frozenset()
     typed: bool = True
 
@@ -24,25 +29,54 @@ class Kind:
         return bool(self.fits)
 
 
-RESULTS = {"number": "a number", "text": "a text", "boolean": "yes or no", "any": "any value"}
+RESULTS = {
+    "number": "a number",
+    "text": "a text",
+    "boolean": "yes or no",
+    "list": "a list",
+    "colour": "a colour",
+    "any": "any value",
+}
 """What a reporter gives; ``any`` is known only while the program runs (a variable)."""
+
+RESULT_SHAPES: dict[str, SlotShape] = {
+    "number": "round",
+    "text": "square",
+    "boolean": "hexagon",
+    "list": "bracket",
+    "colour": "pill",
+    "any": "pill",
+}
+"""The outline of a block that gives such a result."""
+
+_NUMBERS = frozenset({"number", "any"})
+_ALL = frozenset(RESULTS)
 
 KINDS: dict[str, Kind] = {
     kind.name: kind
     for kind in (
-        Kind("number", "a number", frozenset({"number", "any"})),
-        Kind("text", "a text", frozenset(RESULTS)),  # what is no text is written out by str()
-        Kind("boolean", "a yes-or-no question", frozenset({"boolean", "any"}), typed=False),
-        Kind("any", "a value", frozenset(RESULTS)),
-        Kind("line", "one line of text"),
+        Kind("number", "a number", "round", _NUMBERS),
+        Kind("angle", "an angle in degrees", "round", _NUMBERS),
+        Kind("slider", "a number", "round", _NUMBERS),
+        Kind("duration", "a time in seconds", "round", _NUMBERS),
+        Kind("text", "a text", "square", _ALL),  # what is no text is written out by str()
+        Kind("lines", "a text of several lines", "square", _ALL),
+        Kind("line", "one line of text", "square"),
+        Kind("date", "a date", "square"),
+        Kind("file", "a file", "square"),
+        Kind("boolean", "a yes-or-no question", "hexagon", frozenset({"boolean", "any"}), False),
+        Kind("list", "a list", "bracket", frozenset({"list", "any"}), False),
+        Kind("any", "a value", "pill", _ALL),
+        Kind("colour", "a colour", "pill", frozenset({"colour", "any"})),
+        Kind("checkbox", "on or off"),
         Kind("state", "a human state"),
         Kind("gesture", "a gesture"),
         Kind("robot", "a robot"),
         Kind("variable", "a variable"),
-        Kind("colour", "a colour"),
         Kind("choice", "one of a list"),
         Kind("settings", "a list of settings"),
-        Kind("body", "blocks", typed=False),
+        Kind("parameter", "a value of this block", typed=False),
+        Kind("body", "blocks", "mouth", typed=False),
     )
 }
 

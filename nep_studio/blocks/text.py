@@ -16,7 +16,7 @@ _EMPTY = "…"
 
 def sentence(project: Project, language: Language, block_id: str) -> str:
     """What a block says, as "NAO says Impressive! with no gesture"; what is too long is cut."""
-    text = _sentence(project, language, project.blocks[block_id], 0)
+    text = _sentence(project, language.of(project), project.blocks[block_id], 0)
     return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
 
 
@@ -36,7 +36,8 @@ def _sentence(project: Project, language: Language, block: Block, depth: int) ->
             plugged = project.blocks[block.inputs[key]]
             words.append(_sentence(project, language, plugged, depth + 1))
         elif part.kind.name != "body":
-            words.append(_field(project, language, part, definition.value(block, key)))
+            value = definition.value(block, key)
+            words.append(field_text(project, language, block, part, value, key))
     return " ".join(word for word in words if word).replace(" ,", ",")
 
 
@@ -50,14 +51,26 @@ def _parts(parts: tuple[Part, ...], block: Block) -> Iterator[tuple[str | Slot, 
             yield part, 0
 
 
-def _field(project: Project, language: Language, slot: Slot, value: FieldValue | None) -> str:
+def field_text(
+    project: Project,
+    language: Language,
+    block: Block,
+    slot: Slot,
+    value: FieldValue | None,
+    key: str = "",
+) -> str:
+    """What a field says: the name of a variable, the label of a choice, else the value."""
     if isinstance(value, dict):
         return ", ".join(f"{name}={setting}" for name, setting in value.items())
     if slot.kind.name == "variable":
         variable = project.variable(str(value))
         return variable.name if variable is not None else _EMPTY
+    if slot.kind.name == "parameter":
+        return slot.label
+    if isinstance(value, bool):
+        return "on" if value else "off"
     if slot.kind.name == "robot" and value == ALL_ROBOTS:
         return "all robots"
     if value is None or value == "":
         return _EMPTY
-    return language.choices_of(slot).get(str(value), str(value))
+    return language.choices_of(slot, block, key).get(str(value), str(value))

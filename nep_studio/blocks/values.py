@@ -5,13 +5,15 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Callable, Mapping
+from datetime import date
+
+from .arithmetic import LARGEST_NUMBER, ArithmeticRefused, calculate, number_of
 
 Setting = str | int | float | bool
 FieldValue = str | int | float | bool | dict[str, Setting]
 
 LONGEST_TEXT = 10_000
 LONGEST_NAME = 100
-LARGEST_NUMBER = 10**15
 MOST_SETTINGS = 100
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
@@ -63,6 +65,45 @@ def why_not_number(value: object) -> str | None:
     return None
 
 
+def why_not_quantity(value: object) -> str | None:
+    """Why ``value`` is neither a number nor arithmetic that comes to one."""
+    if not isinstance(value, str):
+        return why_not_number(value)
+    try:
+        calculate(value)
+    except ArithmeticRefused as refused:
+        return str(refused)
+    return None
+
+
+def why_not_between(value: object, low: float, high: float) -> str | None:
+    """Why a number, or what arithmetic comes to, is not between two others."""
+    reason = why_not_quantity(value)
+    if reason is None and not low <= number_of(value) <= high:
+        return f"This number must be from {low:g} to {high:g}."
+    return reason
+
+
+def _why_not_duration(value: object) -> str | None:
+    reason = why_not_quantity(value)
+    if reason is None and number_of(value) < 0:
+        return "A time cannot be less than 0 seconds."
+    return reason
+
+
+def _why_not_date(value: object) -> str | None:
+    try:
+        if isinstance(value, str) and len(value) == 10 and date.fromisoformat(value):
+            return None
+    except ValueError:
+        pass
+    return f"A date is written like 2026-01-31, not {_told(value)}."
+
+
+def _why_not_checked(value: object) -> str | None:
+    return None if isinstance(value, bool) else f"This is on or off, not {_told(value)}."
+
+
 def _why_not_any(value: object) -> str | None:
     return why_not_text(value) if isinstance(value, str) else why_not_number(value)
 
@@ -109,8 +150,15 @@ def _told(value: object) -> str:
 
 
 _CHECKS: dict[str, Callable[[object], str | None]] = {
-    "number": why_not_number,
+    "number": why_not_quantity,
+    "angle": why_not_quantity,
+    "slider": why_not_quantity,
+    "duration": _why_not_duration,
     "text": why_not_text,
+    "lines": why_not_text,
+    "date": _why_not_date,
+    "file": why_not_line,
+    "checkbox": _why_not_checked,
     "any": _why_not_any,
     "line": why_not_line,
     "state": why_not_line,

@@ -15,25 +15,32 @@ import msgspec
 from .program import Block, Project
 
 FORMAT = "nep-studio-project"
-VERSION = 1
+VERSION = 2
 
 
 def to_bytes(project: Project) -> bytes:
     """The text of a project in UTF-8."""
     pages = [
-        f'"{page}": {_lines(msgspec.to_builtins(stack) for stack in stacks)}'
+        f"{_line(page)}: {_lines(msgspec.to_builtins(stack) for stack in stacks)}"
         for page, stacks in sorted(project.pages.items())
     ]
     blocks = sorted(project.blocks.values(), key=lambda block: natural_key(block.id))
-    entries = [
-        f'"blocks": {_lines(map(_block, blocks))}',
-        f'"format": "{FORMAT}"',
-        f'"name": {_line(project.name)}',
-        '"pages": {\n' + ",\n".join(pages) + "\n}",
-        f'"variables": {_lines(map(msgspec.to_builtins, project.variables))}',
-        f'"version": {VERSION}',
-    ]
-    return ("{\n" + ",\n".join(entries) + "\n}\n").encode()
+    notes = sorted(project.notes.values(), key=lambda note: natural_key(note.id))
+    titles = project.page_titles
+    entries = {
+        "blocks": _lines(map(_block, blocks)),
+        "format": f'"{FORMAT}"',
+        "name": _line(project.name),
+        "notes": _lines(map(msgspec.to_builtins, notes)),
+        "page_order": _lines({"id": page, "title": titles.get(page, "")} for page in project.pages),
+        "pages": "{\n" + ",\n".join(pages) + "\n}",
+        "procedures": _lines(map(msgspec.to_builtins, project.procedures.values())),
+        "variables": _lines(map(msgspec.to_builtins, project.variables)),
+        "version": str(VERSION),
+        **{key: _line(value) for key, value in project.extra.items()},
+    }
+    text = ",\n".join(f"{_line(key)}: {entries[key]}" for key in sorted(entries))
+    return ("{\n" + text + "\n}\n").encode()
 
 
 def natural_key(some_id: str) -> tuple[str, int, str]:

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 
 from nep_core.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
+    HUMAN_BEHAVIOR,
     ROBOT_STATE,
+    SENSE_REQUEST,
     ActionRequest,
     ActionResult,
+    HumanBehavior,
+    SenseRequest,
 )
 from nep_core.node import Node
 from nep_core.pubsub import Publisher, Subscriber
-from nodes.action.naobody.actor import Actor
+from nodes.action.naobody.actor import FINAL, Actor
 from nodes.action.naobody.animations import load_animations
 from nodes.action.naobody.body import load_body
 from nodes.action.naobody.driver import Driver
@@ -37,6 +42,8 @@ def run(node: Node, *, robot: str, driver: str, address: str, speed: float) -> N
     actor = Actor(robot, link)
     results = node.publisher(ACTION_RESULT)
     requests = node.subscriber(ACTION_REQUEST, ActionRequest)
+    senses = node.subscriber(SENSE_REQUEST, SenseRequest)
+    states = node.publisher(HUMAN_BEHAVIOR)
     report = _StateReport(node, link)
     link.connect()
     report.send_news()
@@ -45,11 +52,14 @@ def run(node: Node, *, robot: str, driver: str, address: str, speed: float) -> N
     while not node.stopping:
         heard = _heard(requests, MOVING_LOOP_S if link.moving else RESTING_LOOP_S)
         now_s = (time.monotonic() - start_s) * speed
-        _send(results, actor.step(now_s))  # up to now, so that what is asked now begins now
+        told = actor.step(now_s)  # up to now, so that what is asked now begins now
         for request in filter(actor.is_asked, heard):
-            _send(results, actor.request(request))
-        _send(results, actor.step(now_s))
-        report.send_news()
+            told += actor.request(request)
+        told += actor.step(now_s)
+        felt = [sense for sense in senses.pending() if actor.is_meant(sense)]
+        _send(states, [state for sense in felt for state in actor.sense(sense)])
+        _send(results, told)
+        report.send_news(at_once=bool(felt) or any(result.state in FINAL for result in told))
     _send(results, actor.stop())
 
 
@@ -67,9 +77,9 @@ def _heard(requests: Subscriber[ActionRequest], timeout_s: float) -> list[Action
     return [first, *requests.pending()] if first else []
 
 
-def _send(results: Publisher, what: list[ActionResult]) -> None:
-    for result in what:
-        results.send(result)
+def _send(publisher: Publisher, what: Sequence[ActionResult | HumanBehavior]) -> None:
+    for message in what:
+        publisher.send(message)
 
 
 class _StateReport:
@@ -83,14 +93,14 @@ class _StateReport:
         self._next_s = time.monotonic()
         self._was_moving = False
 
-    def send_news(self) -> None:
-        """Send what has changed, or what is due."""
+    def send_news(self, *, at_once: bool = False) -> None:
+        """Send what has changed, or what is due; ``at_once``: where the body is, in any case."""
         if self._link.connection != self._told:
             self._told = self._link.connection
             self._node.state(*self._told)
         now_s = time.monotonic()
         moving = self._link.moving
-        if moving != self._was_moving:
+        if at_once or moving != self._was_moving:
             self._was_moving = moving
             self._next_s = now_s
         if now_s >= self._next_s:

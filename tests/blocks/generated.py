@@ -7,12 +7,27 @@ import builtins
 import keyword
 import unicodedata
 
-from nep_studio.blocks.generate.names import API, RESERVED
+from nep_studio.blocks.generate.names import API, MODULES, RESERVED
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 
-PARTS_OF_PROGRAMS = {"str", "int", "range", "random", "randint", "behavior", "_", "when", "run"}
+PARTS_OF_PROGRAMS = {
+    *("str", "int", "range", "behavior", "_", "when", "run"),
+    *("abs", "float", "len", "list", "map", "max", "min", "reversed", "round", "sorted", "sum"),
+    *MODULES,
+    *("choice", "randint", "random"),
+    *("mean", "median", "stdev"),
+    *("pi", "e", "tau", "sqrt", "log", "log10", "exp", "radians", "degrees", "ceil", "floor"),
+    *("sin", "cos", "tan", "asin", "acos", "atan"),
+    *("append", "index", "insert", "join", "pop", "reverse", "split"),
+    *("find", "lower", "replace", "title", "upper"),
+}
+HATS_AND_ROBOTS = {
+    *("goal", "when_goal", "when_heard", "when_noticed", "when_true", "when_idle", "source"),
+    *("priority", "stop", "interrupted", "ask", "wait_for_word", "seconds", "sees", "seen_name"),
+}
+"""What the generator functions of robot blocks and goals name."""
 
 
 def parse(text: str) -> ast.Module:
@@ -47,6 +62,8 @@ def names_made(tree: ast.AST) -> set[str]:
             made.add(node.name)
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
             made.add(node.id)
+        elif isinstance(node, ast.arg):
+            made.add(node.arg)
     return made
 
 
@@ -56,7 +73,15 @@ def assert_tame(text: str, language: Language) -> ast.Module:
     made = names_made(tree)
     calls = [d.call for d in language.definitions.values() if d.call is not None]
     known = {call.name for call in calls} | {name for call in calls for name in call.keywords}
-    strange = names_used(tree) - made - known - API - PARTS_OF_PROGRAMS - {"again", "when_started"}
+    strange = (
+        names_used(tree)
+        - made
+        - known
+        - API
+        - PARTS_OF_PROGRAMS
+        - HATS_AND_ROBOTS
+        - {"again", "when_started"}
+    )
     assert not strange, strange
     for name in made - {"behavior", "_"}:
         assert name not in RESERVED and not hasattr(builtins, name) and not keyword.iskeyword(name)
@@ -86,6 +111,7 @@ def constant_of(value: object) -> tuple[type, str]:
 
 def assert_mapped(code: Code, project: Project, language: Language) -> None:
     """Check that each statement of each rule is mapped to the block that makes such a statement."""
+    language = language.of(project)
     for rule in ast.parse(code.text).body:
         if not isinstance(rule, ast.FunctionDef):
             continue
@@ -96,28 +122,50 @@ def assert_mapped(code: Code, project: Project, language: Language) -> None:
                 assert made_by(node, rule, language) & {project.blocks[block].type}, code.text
 
 
+def has_written_code(project: Project) -> bool:
+    """Whether a person wrote Python into the program, which may then name anything."""
+    return any(block.type.startswith("code.") for block in project.blocks.values())
+
+
 def made_by(node: ast.stmt, rule: ast.FunctionDef, language: Language) -> set[str]:
     """The types of blocks that make a statement."""
     shapes = {d.id: d.shape for d in language.definitions.values()}
     hats = {block_type for block_type, shape in shapes.items() if shape == "hat"}
+    calls_code = {"code.lines", "control.note"}
+    own = {block_type for block_type in shapes if block_type.startswith("my.call.")}
     match node:
         case ast.For():
-            return {"control.repeat"}
+            loops = {d.id for d in language.definitions.values() if "loop" in d.flags}
+            return loops - {"control.while", "control.forever", "control.repeat_until"}
         case ast.While():
-            return {"control.while", "control.forever"}
+            return {"control.while", "control.forever", "control.repeat_until"}
         case ast.If():
-            return {"control.if"}
+            return {"control.if", "robot_speech.ask"}
         case ast.Assign():
-            return {"variable.set"}
+            return {"variable.set", "list.set", "robot_speech.ask"}
         case ast.AugAssign():
-            return {"variable.change"}
+            return {"variable.change", "text.append"}
+        case ast.Delete():
+            return {"list.remove"}
+        case ast.Break():
+            return {"control.leave_loop"}
+        case ast.Continue():
+            return {"control.next_round"}
+        case ast.Return():
+            return {"control.stop_rule", "my.return"}
         case ast.FunctionDef():
-            return hats if node is rule else {"control.together"}
+            return hats if node is rule else with_functions(language)
         case ast.Global():
-            return {*hats, "control.together"}
+            return hats | with_functions(language)
         case ast.Pass():
-            return {*hats, *(block_type for block_type, shape in shapes.items() if shape == "c")}
+            bodies = {block_type for block_type, shape in shapes.items() if shape == "c"}
+            return {*hats, *bodies, *calls_code}
         case ast.Expr(value=ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name))):
             calls = {d.id for d in language.definitions.values() if d.call and d.call.name == name}
-            return calls | {f"control.{name}"}
+            return calls | own | {d.id for d in language.definitions.values() if d.generator}
     return set()
+
+
+def with_functions(language: Language) -> set[str]:
+    """The types of blocks whose bodies are functions."""
+    return {d.id for d in language.definitions.values() if "apart" in d.flags}

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from block_building import B, build
 
+from nep_core import Robot
 from nep_studio.blocks.errors import DefinitionError
 from nep_studio.blocks.generate.names import API
 from nep_studio.blocks.generate.program import generate_program
@@ -133,7 +134,7 @@ def test_a_sentence_keeps_words_slots_and_groups_in_order():
 
 
 def test_the_blocks_of_the_product_call_only_what_programs_may(language):
-    methods = {"say", "do", "imitate", "play", "walk", "turn", "look", "leds", "stop"}
+    methods = {name for name in dir(Robot) if not name.startswith("_")}
     for definition in language.definitions.values():
         if definition.call is not None:
             known = methods if definition.call.on else API
@@ -146,14 +147,15 @@ def test_the_choices_of_the_product_are_all_there(language):
         slot.table
         for definition in language.definitions.values()
         for slot in definition.slots.values()
-        if slot.table
+        if slot.table and not slot.master
     }
     for table in tables:
         assert language.choices.get(table), table
     for definition in language.definitions.values():
         for slot in definition.slots.values():
             default = definition.defaults.get(slot.name)
-            assert slot.kind.name != "choice" or default in language.choices[slot.table]
+            made = definition.new_block("b1")
+            assert slot.kind.name != "choice" or default in language.choices_of(slot, made)
     assert language.profile.standing == {
         "posture_stand",
         "posture_stand_init",
@@ -165,6 +167,8 @@ def test_every_block_of_the_behaviour_page_makes_python_as_it_comes_from_the_pal
     for definition in language.definitions.values():
         if definition.page != "behaviour" or "variable" in definition.slots:
             continue
+        if definition.id == "my.return":  # belongs into an own block; see test_own_blocks.py
+            continue
         block = B(definition.id)
         if definition.shape == "hat":
             stack = [block]
@@ -174,6 +178,8 @@ def test_every_block_of_the_behaviour_page_makes_python_as_it_comes_from_the_pal
             stack = [B("event.started"), B("control.wait", inputs={"seconds": block})]
         elif definition.is_value:
             stack = [B("event.started"), B("robot.say", inputs={"text": block})]
+        elif "in_loop" in definition.flags:
+            stack = [B("event.started"), B("control.repeat", bodies={"do": [block]})]
         else:
             stack = [B("event.started"), block]
         project = build(language, stack).project

@@ -18,10 +18,10 @@ LEAVES = (
     | st.builds(ast.Constant, st.integers(0, 10**20) | st.floats(0, 1e308).map(abs))
     | st.builds(ast.Name, NAMES)
 )
-BINARY = st.sampled_from([ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Mod, ast.Pow]).map(lambda k: k())
-COMPARISON = st.sampled_from([ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE]).map(
-    lambda k: k()
-)
+OPERATORS = [ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow]
+SIGNS = [ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.In, ast.NotIn]
+BINARY = st.sampled_from(OPERATORS).map(lambda k: k())
+COMPARISON = st.sampled_from(SIGNS).map(lambda k: k())
 NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
@@ -39,6 +39,8 @@ def larger(inner: st.SearchStrategy[ast.expr]) -> st.SearchStrategy[ast.expr]:
         st.builds(ast.Attribute, inner, NAMES),
         st.builds(ast.List, st.lists(inner, max_size=3)),
         st.builds(lambda body: ast.Lambda(NO_ARGUMENTS, body), inner),
+        st.builds(ast.IfExp, inner, inner, inner),
+        st.builds(ast.Subscript, inner, inner | st.builds(ast.Slice, inner | st.none(), inner)),
     )
 
 

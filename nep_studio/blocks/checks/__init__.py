@@ -7,15 +7,28 @@ from ..program import Project
 from .blocks import check_blocks
 from .deployment import check_deployment
 from .flow import check_flow
+from .inside import check_inside
 from .limits import check_limits
+from .own_blocks import check_own_blocks
 from .problem import Fix, Problem
+from .real_robots import check_real_robots
 from .rules import check_rules
 
-_CHECKS = (check_rules, check_blocks, check_limits, check_flow, check_deployment)
+_CHECKS = (
+    check_rules,
+    check_blocks,
+    check_inside,
+    check_own_blocks,
+    check_limits,
+    check_flow,
+    check_deployment,
+    check_real_robots,
+)
 
 
 def check(project: Project, language: Language) -> list[Problem]:
     """The problems of a program, errors first."""
+    language = language.of(project)
     problems = [problem for find in _CHECKS for problem in find(project, language)]
     order = {"error": 0, "warning": 1, "info": 2}
     return sorted(problems, key=lambda problem: order[problem.severity])

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..arithmetic import number_of
 from ..definitions import Definition
 from ..language import Language
+from ..procedures import procedure_of
 from ..program import Block, Project
 from ..sentence import Slot
 from ..text import sentence
+from ..values import FieldValue
 from .problem import Problem
 
 
@@ -25,6 +28,15 @@ def check_blocks(project: Project, language: Language) -> Iterator[Problem]:
 
 
 def _unknown(page: str, block: Block) -> Problem:
+    if procedure_of(block.type):
+        return Problem(
+            "error",
+            "unknown_own_block",
+            page,
+            block.id,
+            "This block belongs to an own block that is not like this any more.",
+            ("Take it out, or put another block in its place.",),
+        )
     return Problem(
         "error",
         "unknown_block",
@@ -38,7 +50,7 @@ def _unknown(page: str, block: Block) -> Problem:
 def _check_block(
     project: Project, language: Language, page: str, block: Block, definition: Definition
 ) -> Iterator[Problem]:
-    if definition.page != page:
+    if definition.page != project.kind_of_page(page):
         yield Problem(
             "error",
             "wrong_page",
@@ -69,9 +81,29 @@ def _why_not_filled(
     value, kind = definition.value(block, key), slot.kind.name
     if kind == "boolean":
         return ("empty_slot", "a question is missing.", "Put a six-sided block into the slot.")
+    if kind == "list":
+        return ("empty_slot", "a list is missing.", "Put a list or a variable into the slot.")
     if kind == "variable" and project.variable(str(value)) is None:
         return ("no_variable", "no variable is chosen.", "Choose a variable, or make a new one.")
     if kind in ("state", "gesture", "robot") and not str(value).strip():
         return ("empty_slot", f"{slot.kind.noun} is missing.", "Choose or type one.")
-    reason = language.why_not_choice(slot, value)
-    return None if reason is None else ("unknown_choice", reason, "Choose another one.")
+    reason = language.why_not_choice(slot, value, block, key)
+    if reason is not None:
+        return ("unknown_choice", reason, "Choose another one.")
+    return _why_not_number(definition, slot, value)
+
+
+def _why_not_number(
+    definition: Definition, slot: Slot, value: FieldValue | None
+) -> tuple[str, ...] | None:
+    """What is wrong with a number as it is typed, for what it is meant."""
+    if slot.kind.name == "duration" and number_of(value) < 0:
+        return ("negative", "a time cannot be less than 0 seconds.", "Write a time of 0 or more.")
+    if "loop" not in definition.flags or slot.kind.name != "number":
+        return None
+    number = number_of(value)
+    if slot.name == "times" and number < 0:
+        return ("negative", "this cannot be done less than 0 times.", "Write 0 or more.")
+    if slot.name == "step" and int(number) == 0:
+        return ("no_step", "counting in steps of 0 never ends.", "Write a whole number but 0.")
+    return None

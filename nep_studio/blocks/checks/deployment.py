@@ -14,7 +14,7 @@ from ..deployment import (
 from ..language import Language
 from ..program import ALL_ROBOTS, Project
 from ..values import why_not_name
-from .problem import Fix, Problem
+from .problem import Fix, Problem, page_of
 
 
 def check_deployment(project: Project, language: Language) -> Iterator[Problem]:
@@ -37,7 +37,7 @@ def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
         yield Problem(
             "error",
             "robot_missing",
-            "behaviour",
+            page_of(project, block),
             block,
             sentence,
             ("Add the robot to the Robots page.", "Or choose another robot in this block."),
@@ -52,7 +52,7 @@ def _unrecognised_gestures(project: Project, language: Language) -> Iterator[Pro
             yield Problem(
                 "warning",
                 "gesture_unrecognised",
-                "behaviour",
+                page_of(project, block),
                 block,
                 f"No node of the Nodes page recognises the gesture “{gesture}”.",
                 ("Launch a gesture node for it on the Nodes page.",),

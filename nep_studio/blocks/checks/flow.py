@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from ..deployment import rules
+from ..deployment import chains
 from ..language import Language
 from ..program import ALL_ROBOTS, Block, Project
 from ..text import sentence
-from .problem import Fix, Problem
+from .problem import Fix, Problem, page_of
 
 
 def check_flow(project: Project, language: Language) -> Iterator[Problem]:
     """Problems of the order in which blocks run, in rules."""
-    for chain in rules(project, language):
+    for chain in chains(project, language):
         blocks = list(project.within(chain, enabled=True))
         yield from _loops_without_pause(project, language, blocks)
         yield from _never_reached(project, language, chain, blocks)
@@ -35,7 +35,7 @@ def _loops_without_pause(
             yield Problem(
                 "warning",
                 "no_pause",
-                "behaviour",
+                page_of(project, block.id),
                 block.id,
                 f"“{sentence(project, language, block.id)}” never pauses: "
                 "the computer would do nothing else.",
@@ -60,7 +60,7 @@ def _never_reached(
                 yield Problem(
                     "warning",
                     "never_reached",
-                    "behaviour",
+                    page_of(project, lower.id),
                     lower.id,
                     f"“{sentence(project, language, lower.id)}” is never reached: it comes after "
                     f"“{sentence(project, language, upper.id)}”.",
@@ -91,7 +91,7 @@ def _walking_unready(
             yield Problem(
                 "warning",
                 "not_standing",
-                "behaviour",
+                page_of(project, block.id),
                 block.id,
                 f"{name} cannot walk after the posture “{label}”.",
                 ("Let the robot stand first.",),

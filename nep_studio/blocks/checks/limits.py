@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..definitions import Definition
-from ..deployment import rules
+from ..deployment import chains
 from ..generate.expressions import DEEPEST_VALUE, value_cost
 from ..generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
 from ..language import Language
 from ..program import Block, Project
-from .problem import Problem
+from .problem import Problem, page_of
 
 
 class _Depth(NamedTuple):
@@ -24,7 +24,7 @@ class _Depth(NamedTuple):
 
 def check_limits(project: Project, language: Language) -> Iterator[Problem]:
     """The blocks that are nested too deep, the outermost of each chain of them."""
-    for chain in rules(project, language):
+    for chain in chains(project, language):
         waiting = [(block_id, _Depth(0, 1, 0)) for block_id in reversed(chain)]
         while waiting:
             block_id, depth = waiting.pop()
@@ -39,7 +39,7 @@ def check_limits(project: Project, language: Language) -> Iterator[Problem]:
             yield Problem(
                 "error",
                 "too_deep",
-                "behaviour",
+                page_of(project, block_id),
                 block_id,
                 "Blocks are nested too deep here: "
                 f"{DEEPEST_LOOP} loops, {DEEPEST_INDENT} blocks or {DEEPEST_VALUE} values at most.",

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from ..program import Project
+
 Severity = Literal["error", "warning", "info"]
 
 
@@ -33,3 +35,8 @@ class Problem:
     sentence: str
     checklist: tuple[str, ...] = ()
     fix: Fix | None = None
+
+
+def page_of(project: Project, block_id: str) -> str:
+    """The page on which a block is."""
+    return project.page_of(project.stack_of(block_id).id)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..definitions import Definition
 from ..deployment import GESTURE_STATE, rules
 from ..language import Language
 from ..program import Block, Project
 from ..text import sentence
-from .problem import Problem
+from .problem import Problem, page_of
 
 
 def check_rules(project: Project, language: Language) -> Iterator[Problem]:
@@ -37,7 +38,7 @@ def _same_trigger(
             yield Problem(
                 "warning",
                 "same_trigger",
-                "behaviour",
+                page_of(project, hat.id),
                 hat.id,
                 f"Two rules begin with “{sentence(project, language, hat.id)}”. Both will run.",
                 ("Put the blocks of both rules under one.", "Or let one wait for something else."),
@@ -51,19 +52,25 @@ def _trigger(language: Language, hat: Block) -> str:
         if slot.kind.name == "gesture":
             return f"{GESTURE_STATE}{definition.value(hat, slot.name)}"
         if slot.kind.name == "state":
-            return str(definition.value(hat, slot.name))
-    return f"block {hat.type}"
+            return f"{definition.value(hat, slot.name)}{_goal_name(definition, hat)}"
+    values = [str(definition.value(hat, key)) for key, _ in definition.keys(hat.groups)]
+    return f"block {hat.type} {values}"
+
+
+def _goal_name(definition: Definition, hat: Block) -> str:
+    """What tells goals that begin alike from each other, and from rules: their name."""
+    return f" goal {definition.value(hat, 'name')}" if "name" in definition.slots else ""
 
 
 def _loose(project: Project, language: Language) -> Iterator[Problem]:
-    for stack in project.pages["behaviour"]:
+    for page, stack in project.stacks_of_kind("behaviour"):
         first = project.blocks[stack.body[0]]
         definition = language.definitions.get(first.type)
         if definition is not None and definition.shape != "hat" and definition.page == "behaviour":
             yield Problem(
                 "info",
                 "loose_block",
-                "behaviour",
+                page,
                 first.id,
                 f"“{sentence(project, language, first.id)}” is under no “when” block "
                 "and will not run.",

@@ -8,6 +8,9 @@ editor.py. All edits can be written as JSON: a journal of them is a crash-safe a
 from __future__ import annotations
 
 from .content import AddGroup, RemoveGroup, SetComment, SetField, SetFlag
+from .notes import AddNote, ChangeNote, RemoveNote, SetCommentSize
+from .own_blocks import AddProcedure, ChangeProcedure, RemoveProcedure
+from .pages import AddPage, MovePage, RemovePage, RenamePage
 from .placing import CreateBlocks, DeleteBlocks, MoveBlocks
 from .whole import AddVariable, MoveStack, RemoveVariable, RenameProject, RenameVariable
 
@@ -25,21 +28,43 @@ Edit = (
     | AddVariable
     | RemoveVariable
     | RenameVariable
+    | AddNote
+    | RemoveNote
+    | ChangeNote
+    | SetCommentSize
+    | AddPage
+    | RemovePage
+    | RenamePage
+    | MovePage
+    | AddProcedure
+    | RemoveProcedure
+    | ChangeProcedure
 )
 
 __all__ = [
     "AddGroup",
+    "AddNote",
+    "AddPage",
+    "AddProcedure",
     "AddVariable",
+    "ChangeNote",
+    "ChangeProcedure",
     "CreateBlocks",
     "DeleteBlocks",
     "Edit",
     "MoveBlocks",
+    "MovePage",
     "MoveStack",
     "RemoveGroup",
+    "RemoveNote",
+    "RemovePage",
+    "RemoveProcedure",
     "RemoveVariable",
+    "RenamePage",
     "RenameProject",
     "RenameVariable",
     "SetComment",
+    "SetCommentSize",
     "SetField",
     "SetFlag",
 ]

@@ -9,7 +9,7 @@ import msgspec
 
 from ..errors import EditRefused
 from ..places import InBody, InInput, InStack, NewStack, Place, place_of, put, take
-from ..program import PAGES, Block, Parent, Project
+from ..program import Block, Parent, Project
 
 
 class CreateBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
@@ -133,7 +133,7 @@ def _length(project: Project, place: NewStack | InStack | InBody, leaving: Seque
     """How long the list of a place is, once the blocks that are moved have left it."""
     if isinstance(place, NewStack):
         taken = place.stack in project.stacks or place.stack in project.blocks
-        if place.page not in PAGES or taken:
+        if place.page not in project.pages or taken:
             raise EditRefused("A stack cannot be made here.")
         return len(project.pages[place.page]) - _leaves_page(project, leaving, place.page)
     if isinstance(place, InBody):

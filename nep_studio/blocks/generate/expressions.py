@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ast
-import math
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 
+from ..arithmetic import ArithmeticRefused, calculate
 from ..definition_call import Call
 from ..definitions import Definition
 from ..errors import CodeRefused
@@ -14,9 +15,17 @@ from ..program import Block, Project, split_slot
 from ..sentence import Slot
 from ..values import FieldValue
 from .names import NameTable, ProgramNames
+from .nodes import call, constant, method_call
+
+VARIABLE_BLOCK = "variable.get"
 
 DEEPEST_VALUE = 60
 """How deep values may be nested: CPython takes 200 parentheses, a block makes up to three."""
+
+_ARITHMETIC = frozenset({"number", "angle", "slider", "duration"})
+_TEXTS = frozenset({"text", "lines"})
+_COSTS = {"list.find": 10}
+"""Blocks whose Python says an inner value twice cost more: what doubles must not go deep."""
 
 ValueGenerator = Callable[["Expressions", Block], ast.expr]
 
@@ -38,7 +47,10 @@ class Expressions:
         self.api: set[str] = set()
         self.modules: set[str] = set()
         self.robots: set[str] = set()
-        self.variables: set[str] = set()
+        self.variables: dict[str, set[str]] = defaultdict(set)
+        """The variables that are used, each with what it must begin as: "list", "text"."""
+        self.procedure = ""
+        """The own block that is being written, or an empty text."""
         self._depth = 0
         self._parts = 0
         self._part_names: NameTable | None = None
@@ -60,10 +72,12 @@ class Expressions:
         slot = definition.slots[split_slot(key)[0]]
         plugged = self.plugged(block, key)
         if plugged is None:
-            return self._field(block, slot, definition.value(block, key))
+            return self._field(block, slot, key, definition.value(block, key))
         node = self.value(plugged)
-        if slot.kind.name == "text" and self.definition(plugged).result != "text":
+        if slot.kind.name in _TEXTS and self.definition(plugged).result not in ("text", "colour"):
             return call("str", node)
+        if slot.kind.name == "list" and plugged.type == VARIABLE_BLOCK:
+            self.begins_as(plugged, "list")
         return node
 
     def plugged(self, block: Block, key: str) -> Block | None:
@@ -76,10 +90,16 @@ class Expressions:
         """The value of a choice slot, which is one of its table."""
         definition = self.definition(block)
         value = definition.value(block, key)
-        reason = self.language.why_not_choice(definition.slots[key], value)
+        slot = definition.slots[split_slot(key)[0]]
+        reason = self.language.why_not_choice(slot, value, block, key)
         if reason is not None:
             raise CodeRefused(reason, block=block.id, checklist=("Choose another one.",))
         return str(value)
+
+    def slots(self, block: Block, first: str, group: str) -> list[ast.expr]:
+        """What is in the slot of each part of a group."""
+        count = block.groups.get(group, 0)
+        return [self.slot(block, f"{first}.{number}") for number in range(1, count + 1)]
 
     def value(self, block: Block) -> ast.expr:
         """What a reporter block gives."""
@@ -117,6 +137,11 @@ class Expressions:
         self.api.add(name)
         return call(name, *arguments, **keywords)
 
+    def module_value(self, module: str, name: str) -> ast.expr:
+        """A value of a module of the standard library, noted for the import."""
+        self.modules.add(module)
+        return ast.Attribute(ast.Name(module), name)
+
     def module_call(self, module: str, name: str, *arguments: ast.expr) -> ast.Call:
         """A call of a function of a module of the standard library, noted for the import."""
         self.modules.add(module)
@@ -131,8 +156,13 @@ class Expressions:
                 block=block.id,
                 checklist=("Choose a variable, or make a new one.",),
             )
-        self.variables.add(variable_id)
+        self.variables[variable_id]  # a variable that is used is there
         return self.names.variables[variable_id]
+
+    def begins_as(self, block: Block, kind: str) -> None:
+        """Note that the variable of a block must begin as an empty list or text."""
+        self.variable(block)
+        self.variables[str(block.fields["variable"])].add(kind)
 
     def part_name(self) -> str:
         """A name for a function inside the rule: part_1, part_2, and so on."""
@@ -147,7 +177,7 @@ class Expressions:
             definition.value(block, key) == definition.defaults[key]
         )
 
-    def _field(self, block: Block, slot: Slot, value: FieldValue | None) -> ast.expr:
+    def _field(self, block: Block, slot: Slot, key: str, value: FieldValue | None) -> ast.expr:
         kind = slot.kind.name
         if kind == "robot":
             self.robots.add(str(value))
@@ -156,48 +186,26 @@ class Expressions:
             return ast.Name(self.variable(block))
         if kind == "boolean":
             return ast.Constant(False)
+        if kind == "list":
+            return ast.List([])
+        if kind in _ARITHMETIC and isinstance(value, str):
+            return self._arithmetic(block, value)
         if kind == "gesture":
             return ast.Constant(f"gesture_{value}")
         if kind == "choice":
-            return ast.Constant(self.choice(block, slot.name))
+            return ast.Constant(self.choice(block, key))
         return constant(value)
+
+    def _arithmetic(self, block: Block, text: str) -> ast.expr:
+        try:
+            arithmetic = calculate(text)
+        except ArithmeticRefused as refused:
+            raise CodeRefused(str(refused), block=block.id) from refused
+        if arithmetic.needs_math:
+            self.modules.add("math")
+        return arithmetic.node
 
 
 def value_cost(block: Block) -> int:
     """How many levels a value block adds: the items of a join are in each other in Python."""
-    return 1 + sum(block.groups.values())
-
-
-def constant(value: FieldValue | None) -> ast.expr:
-    """A constant of a field; a negative number is a sign and a number, or ``**`` binds wrongly."""
-    if isinstance(value, int | float) and math.copysign(1, value) < 0:
-        return ast.UnaryOp(ast.USub(), ast.Constant(-value))
-    if value is None or isinstance(value, dict):
-        raise TypeError(f"a field of kind {type(value).__name__} is no constant")
-    return ast.Constant(value)
-
-
-def call(name: str, /, *arguments: ast.expr, **keywords: ast.expr) -> ast.Call:
-    """A call of a function by its name."""
-    return ast.Call(ast.Name(name), list(arguments), _keywords(keywords))
-
-
-def method_call(
-    target: ast.expr, method: str, arguments: list[ast.expr], keywords: Mapping[str, ast.expr]
-) -> ast.Call:
-    """A call of a method."""
-    return ast.Call(ast.Attribute(target, method), arguments, _keywords(keywords))
-
-
-def whole(node: ast.expr) -> ast.expr:
-    """Make sure that a number is whole: what is not known to be goes through int()."""
-    number = node.operand if isinstance(node, ast.UnaryOp) else node
-    if isinstance(number, ast.Constant) and isinstance(number.value, int):
-        return node
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-        return node  # random.randint, the only method among values
-    return call("int", node)
-
-
-def _keywords(keywords: Mapping[str, ast.expr]) -> list[ast.keyword]:
-    return [ast.keyword(name, value) for name, value in keywords.items()]
+    return _COSTS.get(block.type, 1) + sum(block.groups.values())

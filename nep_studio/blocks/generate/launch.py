@@ -8,7 +8,7 @@ from ..deployment import NodeEntry, RobotEntry, node_entries, robot_entries
 from ..language import Language
 from ..program import Project
 from ..values import Setting
-from .expressions import constant, method_call
+from .nodes import constant, method_call
 from .printing import show
 from .source_map import Code
 

@@ -7,24 +7,37 @@ import keyword
 import re
 import unicodedata
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 API = frozenset(
     {
         "Behavior",
         "Launcher",
         "Robot",
+        "colour_from",
+        "heard_word",
         "human_state",
+        "in_turn",
+        "is_remembered",
+        "mix_colours",
+        "one_of",
+        "remember",
         "stop_program",
+        "times_seen",
         "together",
+        "until_state",
         "wait",
         "wait_until",
+        "was_seen",
     }
 )
 """What a generated program may import from nep_core under its own name."""
 
 FUNCTIONS = frozenset(name for name in API if name[0].islower())
 """The functions of nep_core that a block may call."""
+
+MODULES = frozenset({"math", "random", "statistics"})
+"""The modules of the standard library that a program may import."""
 
 RESERVED = frozenset(
     {
@@ -33,7 +46,8 @@ RESERVED = frozenset(
         *(name for name in dir(builtins) if not name.startswith("_")),
         *("exit", "quit", "copyright", "credits", "license", "help"),
         *API,
-        *("behavior", "launcher", "random"),
+        *("behavior", "launcher"),
+        *MODULES,
     }
 )
 """Names that keep their meaning in a generated program."""
@@ -78,11 +92,14 @@ class NameTable:
 
 @dataclass(frozen=True, slots=True)
 class ProgramNames:
-    """The Python names in a program: of robots by their names, of variables by their ids."""
+    """The Python names in a program, by the names of robots and the ids of all else."""
 
     robots: dict[str, str]
     variables: dict[str, str]
+    procedures: dict[str, str] = field(default_factory=dict)
+    parameters: dict[str, str] = field(default_factory=dict)
 
     def taken(self) -> set[str]:
         """All these names."""
-        return {*self.robots.values(), *self.variables.values()}
+        named = (self.robots, self.variables, self.procedures, self.parameters)
+        return {name for names in named for name in names.values()}

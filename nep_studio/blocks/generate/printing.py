@@ -18,6 +18,7 @@ _BINARY: dict[type[ast.operator], tuple[str, int]] = {
     ast.Sub: (" - ", _SUM),
     ast.Mult: (" * ", _TERM),
     ast.Div: (" / ", _TERM),
+    ast.FloorDiv: (" // ", _TERM),
     ast.Mod: (" % ", _TERM),
     ast.Pow: (" ** ", _POWER),
 }
@@ -28,7 +29,18 @@ _COMPARISON: dict[type[ast.cmpop], str] = {
     ast.LtE: " <= ",
     ast.Gt: " > ",
     ast.GtE: " >= ",
+    ast.In: " in ",
+    ast.NotIn: " not in ",
 }
+
+
+class Verbatim(ast.expr):
+    """Python that a person wrote, printed as it is; in parentheses unless it ``is_closed``."""
+
+    def __init__(self, text: str, *, is_closed: bool) -> None:
+        super().__init__()
+        self.text = text
+        self.is_closed = is_closed
 
 
 def show(node: ast.expr, least: int = _LAMBDA) -> str:
@@ -104,6 +116,25 @@ def _lambda(node: ast.Lambda) -> tuple[str, int]:
     return f"lambda: {show(node.body)}", _LAMBDA
 
 
+def _choose(node: ast.IfExp) -> tuple[str, int]:
+    test, body = show(node.test, _OR), show(node.body, _OR)
+    return f"{body} if {test} else {show(node.orelse)}", _LAMBDA
+
+
+def _subscript(node: ast.Subscript) -> tuple[str, int]:
+    return f"{show(node.value, _TARGET)}[{show(node.slice)}]", _TARGET
+
+
+def _slice(node: ast.Slice) -> tuple[str, int]:
+    low = show(node.lower) if node.lower is not None else ""
+    high = show(node.upper) if node.upper is not None else ""
+    return f"{low}:{high}", _LAMBDA
+
+
+def _verbatim(node: Verbatim) -> tuple[str, int]:
+    return node.text, _TARGET if node.is_closed else _LAMBDA - 1
+
+
 _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
     ast.Constant: _constant,
     ast.Name: _name,
@@ -115,4 +146,8 @@ _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
     ast.BoolOp: _junction,
     ast.Compare: _compare,
     ast.Lambda: _lambda,
+    ast.IfExp: _choose,
+    ast.Subscript: _subscript,
+    ast.Slice: _slice,
+    Verbatim: _verbatim,
 }

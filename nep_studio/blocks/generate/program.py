@@ -6,14 +6,17 @@ import ast
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from ..deployment import robot_entries, rules
+from ..deployment import chains, robot_entries
+from ..errors import CodeRefused
 from ..language import Language
+from ..procedures import DEFINE, parameters, procedure_of, words
 from ..program import ALL_ROBOTS, Project
-from .expressions import Expressions, call
-from .hats import HATS, Hat
+from .expressions import Expressions
+from .hats import Hat
 from .names import NameTable, ProgramNames
+from .nodes import call
 from .printing import literal, show
-from .reporters import REPORTERS
+from .registry import HATS, REPORTERS
 from .rules import RuleWriter
 from .source_map import Code
 
@@ -28,7 +31,7 @@ class _Rule:
     api: frozenset[str]
     modules: frozenset[str]
     robots: frozenset[str]
-    variables: frozenset[str]
+    variables: dict[str, frozenset[str]]
 
 
 @dataclass(slots=True)
@@ -48,7 +51,7 @@ class ProgramGenerator:
 
     def __init__(self, project: Project, language: Language) -> None:
         self._project = project
-        self._language = language
+        self._language = language.of(project)
         self._rules: dict[str, _Rule] = {}
         self._robots: dict[str, tuple[int, frozenset[str]]] = {}
         self._robot_slots = {
@@ -60,17 +63,37 @@ class ProgramGenerator:
 
     def generate(self) -> Code:
         """The program as it is now; raises CodeRefused, which names the block."""
-        chains = {
+        self._language = self._language.of(self._project)
+        written = {
             self._project.parents[chain[0]].owner: chain
-            for chain in rules(self._project, self._language)
+            for chain in chains(self._project, self._language)
         }
-        self._robots = {s: known for s, known in self._robots.items() if s in chains}
-        names = self._names(chains)
+        self._robots = {s: known for s, known in self._robots.items() if s in written}
+        headers = self._headers(written)
+        names = self._names(written, headers)
         functions = NameTable(names.taken())
+        ordered = [*headers.values(), *(s for s in written if s not in set(headers.values()))]
         self._rules = {
-            stack: self._rule(stack, chain, names, functions) for stack, chain in chains.items()
+            stack: self._rule(stack, written[stack], names, functions) for stack in ordered
         }
         return self._assemble(names, list(self._rules.values()))
+
+    def _headers(self, written: dict[str, list[str]]) -> dict[str, str]:
+        """The stacks that define own blocks, by the ids of those, in the order of the list."""
+        found: dict[str, str] = {}
+        for stack, chain in written.items():
+            header = self._project.blocks[chain[0]]
+            if not header.type.startswith(DEFINE):
+                continue
+            procedure = procedure_of(header.type)
+            if procedure in found:
+                raise CodeRefused(
+                    "This own block is defined twice.",
+                    block=header.id,
+                    checklist=("Take one of the two definitions out.",),
+                )
+            found[procedure] = stack
+        return {p: found[p] for p in self._project.procedures if p in found}
 
     def _rule(
         self, stack: str, chain: list[str], names: ProgramNames, functions: NameTable
@@ -79,17 +102,21 @@ class ProgramGenerator:
         code = Expressions(self._project, self._language, names, REPORTERS)
         hat_block = self._project.blocks[chain[0]]
         hat = HATS[code.definition(hat_block).generator](code, hat_block)
-        function = functions.give(hat.name, "when")
-        made_for = (self._project.revisions.get(stack), function, names)
+        if hat_block.type.startswith(DEFINE):
+            code.procedure, function = procedure_of(hat_block.type), hat.name
+        else:
+            function = functions.give(hat.name, "when")
+        revision = self._project.revisions.get(stack)
+        made_for = (revision, function, names, self._project.procedure_revision)
         known = self._rules.get(stack)
         if known is not None and known.made_for == made_for:
             return known
         return _write(made_for, code, function, hat, chain)
 
-    def _names(self, chains: dict[str, list[str]]) -> ProgramNames:
-        """Names for the robots of the Robots page, then others that rules use, then variables."""
+    def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> ProgramNames:
+        """Names for the robots of the Robots page, others that rules use, variables, own blocks."""
         listed = [entry.name for entry in robot_entries(self._project, self._language)]
-        used = frozenset[str]().union(*(self._robots_in(*item) for item in chains.items()))
+        used = frozenset[str]().union(*(self._robots_in(*item) for item in written.items()))
         table = NameTable()
         robots: dict[str, str] = {}
         for name in [*listed, *sorted(used - {ALL_ROBOTS}), ALL_ROBOTS]:
@@ -97,7 +124,13 @@ class ProgramGenerator:
                 text = "all_robots" if name == ALL_ROBOTS else name.lower()
                 robots[name] = table.give(text, "robot")
         variables = {v.id: table.give(v.name, "variable") for v in self._project.variables}
-        return ProgramNames(robots, variables)
+        procedures = {p: table.give(words(self._project.procedures[p]), "block") for p in headers}
+        names = ProgramNames(robots, variables, procedures)
+        for p in headers:
+            local = NameTable(names.taken())
+            for parameter in parameters(self._project.procedures[p]):
+                names.parameters[f"{p}.{parameter.id}"] = local.give(parameter.name, "value")
+        return names
 
     def _robots_in(self, stack: str, chain: list[str]) -> frozenset[str]:
         revision = self._project.revisions.get(stack, 0)
@@ -116,7 +149,10 @@ class ProgramGenerator:
         api = {"Behavior"}.union(*(rule.api for rule in rules))
         modules = set[str]().union(*(rule.modules for rule in rules))
         used = set[str]().union(*(rule.robots for rule in rules))
-        assigned = set[str]().union(*(rule.variables for rule in rules))
+        begins: dict[str, set[str]] = {}
+        for rule in rules:
+            for variable, kinds in rule.variables.items():
+                begins.setdefault(variable, set()).update(kinds)
         page = _Page()
         robots = self._robot_lines(names, used)
         if robots:
@@ -126,7 +162,9 @@ class ProgramGenerator:
         page.add([line for line, _ in robots], [block for _, block in robots])
         behavior = call("Behavior", ast.Constant(self._project.name))
         page.add([f"behavior = {show(behavior)}"])
-        page.add([f"{name} = 0" for v, name in names.variables.items() if v in assigned])
+        page.add(
+            [f"{name} = {_first(begins[v])}" for v, name in names.variables.items() if v in begins]
+        )
         for rule in rules:
             page.add(["", ""])
             page.add(rule.lines, rule.blocks)
@@ -165,8 +203,13 @@ def _write(
         frozenset(code.api),
         frozenset(code.modules),
         frozenset(code.robots),
-        frozenset(code.variables),
+        {variable: frozenset(kinds) for variable, kinds in code.variables.items()},
     )
+
+
+def _first(kinds: set[str]) -> str:
+    """What a variable holds before anything is put into it."""
+    return "[]" if "list" in kinds else '""' if "text" in kinds else "0"
 
 
 def _docstring(name: str) -> str:

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from .hats import HATS
+from . import hats, reporters, statements
+from .expressions import ValueGenerator
+from .goal_hats import GOAL_HATS
+from .hats import HatGenerator
 from .names import FUNCTIONS
-from .reporters import REPORTERS
-from .statements import STATEMENTS
+from .robot_words import ROBOT_REPORTERS, ROBOT_STATEMENTS
+from .statements import StatementGenerator
+
+HATS: dict[str, HatGenerator] = {**hats.HATS, **GOAL_HATS}
+STATEMENTS: dict[str, StatementGenerator] = {**statements.STATEMENTS, **ROBOT_STATEMENTS}
+REPORTERS: dict[str, ValueGenerator] = {**reporters.REPORTERS, **ROBOT_REPORTERS}
 
 
 def generator_names() -> dict[str, frozenset[str]]:

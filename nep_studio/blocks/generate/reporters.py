@@ -5,7 +5,11 @@ from __future__ import annotations
 import ast
 
 from ..program import Block
-from .expressions import Expressions, ValueGenerator, whole
+from .expressions import Expressions, ValueGenerator
+from .list_words import LIST_REPORTERS
+from .nodes import whole
+from .number_words import NUMBER_REPORTERS
+from .own_blocks import OWN_REPORTERS
 
 _OPERATIONS: dict[str, ast.operator] = {
     "add": ast.Add(),
@@ -14,6 +18,7 @@ _OPERATIONS: dict[str, ast.operator] = {
     "divide": ast.Div(),
     "power": ast.Pow(),
     "remainder": ast.Mod(),
+    "floor_divide": ast.FloorDiv(),
 }
 _COMPARISONS: dict[str, ast.cmpop] = {
     "equal": ast.Eq(),
@@ -48,7 +53,7 @@ def _random_integer(code: Expressions, block: Block) -> ast.expr:
 
 
 def _join(code: Expressions, block: Block) -> ast.expr:
-    items = [code.slot(block, f"item.{number}") for number in range(1, block.groups["item"] + 1)]
+    items = code.slots(block, "item", "item")
     joined = items[0]
     for item in items[1:]:
         joined = ast.BinOp(joined, ast.Add(), item)
@@ -62,7 +67,8 @@ def _compare(code: Expressions, block: Block) -> ast.expr:
 
 def _junction(code: Expressions, block: Block) -> ast.expr:
     word = ast.And() if code.choice(block, "junction") == "and" else ast.Or()
-    return ast.BoolOp(word, [code.slot(block, "a"), code.slot(block, "b")])
+    values = [code.slot(block, "a"), code.slot(block, "b"), *code.slots(block, "c", "more")]
+    return ast.BoolOp(word, values)
 
 
 def _not(code: Expressions, block: Block) -> ast.expr:
@@ -89,4 +95,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "not": _not,
     "truth": _truth,
     "human_state_is": _human_state_is,
+    **LIST_REPORTERS,
+    **NUMBER_REPORTERS,
+    **OWN_REPORTERS,
 }

@@ -5,12 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
+from ..code_text import CodeTextRefused, compile_quietly
 from ..errors import CodeRefused
 from ..program import Block
 from .expressions import Expressions
 from .hats import Hat
+from .pieces import (
+    Assignment,
+    Body,
+    Function,
+    Gap,
+    GiveBack,
+    Leave,
+    Piece,
+    Written,
+    comment_lines,
+)
 from .printing import show
-from .statements import STATEMENTS, Assignment, Body, Function, Gap, Piece
+from .registry import STATEMENTS
 
 DEEPEST_LOOP = 20
 """CPython refuses more: "too many statically nested blocks"."""
@@ -28,6 +40,7 @@ class _Scope:
     line: int
     indent: int
     block: str
+    gives_back: bool
     assigned: set[str] = field(default_factory=set)
 
 
@@ -53,13 +66,15 @@ class RuleWriter:
         self.lines: list[str] = []
         self.blocks: list[str] = []
         self._code = code
+        self._has_code_blocks = False
 
     def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> None:
         """Write decorator, header and body; ``stack[0]`` is the block of the hat."""
         hat_block = self._code.project.blocks[stack[0]]
         self._comment(hat_block, "")
-        self._line(f"@{show(hat.decorator)}", hat_block.id)
-        self._line(f"def {function_name}():", hat_block.id)
+        if hat.decorator is not None:
+            self._line(f"@{show(hat.decorator)}", hat_block.id)
+        self._line(f"def {function_name}({', '.join(hat.arguments)}):", hat_block.id)
         frames = [self._function(stack[1:], hat_block.id, 1)]
         while frames:
             frame = frames[-1]
@@ -70,6 +85,18 @@ class RuleWriter:
                 frames.append(self._block(frame, item))
             elif (inner := self._piece(frame, item)) is not None:
                 frames.append(inner)
+        if self._has_code_blocks:
+            self._require_python()
+
+    def _require_python(self) -> None:
+        """Code that a person wrote is right by itself, but perhaps not where it is."""
+        try:
+            compile_quietly("\n".join(self.lines))
+        except CodeTextRefused as refused:
+            line = min(max(refused.line, 1), len(self.blocks))
+            raise CodeRefused(
+                str(refused), block=self.blocks[line - 1], checklist=("Change the code.",)
+            ) from refused
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
         self._comment(block, _MARGINS[chain.indent])
@@ -92,12 +119,8 @@ class RuleWriter:
         if isinstance(piece, str):
             self._line(margin + piece, frame.block)
             return None
-        if isinstance(piece, Gap):
-            self._line("", "")
-            return None
-        if isinstance(piece, Assignment):
-            frame.scope.assigned.add(piece.variable)
-            self._line(margin + piece.line, frame.block)
+        if not isinstance(piece, Body | Function):
+            self._simple(frame, piece, margin)
             return None
         chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
         if isinstance(piece, Function):
@@ -107,13 +130,44 @@ class RuleWriter:
             return self._function(chain, frame.block, frame.indent + 1)
         return self._chain(chain, frame, piece)
 
+    def _simple(
+        self, frame: _Frame, piece: Gap | Assignment | Leave | GiveBack | Written, margin: str
+    ) -> None:
+        """Write a piece that has no blocks in it."""
+        if isinstance(piece, Gap):
+            self._line("", "")
+            return
+        if isinstance(piece, Written):
+            self._has_code_blocks = True
+            frame.scope.assigned.update(piece.assigned)
+            for number, line in enumerate(piece.lines, start=1):
+                is_inside = number in piece.inside_texts
+                self._line(line if is_inside else (margin + line).rstrip(), frame.block)
+            return
+        if isinstance(piece, Assignment):
+            frame.scope.assigned.add(piece.variable)
+        elif isinstance(piece, Leave) and not frame.loops:
+            raise CodeRefused(
+                "This block leaves a loop, but it is in none.",
+                block=frame.block,
+                checklist=("Put it into a “repeat”, “while” or “for each” block.",),
+            )
+        elif isinstance(piece, GiveBack) and not frame.scope.gives_back:
+            raise CodeRefused(
+                "Only the definition of an own block gives a value back.",
+                block=frame.block,
+                checklist=("Put it under the header of an own block.",),
+            )
+        self._line(margin + piece.line, frame.block)
+
     def _chain(self, chain: Sequence[str], owner: _Frame, body: Body) -> _Frame:
         indent, loops = owner.indent + 1, owner.loops + body.loop
         blocks = self._enabled(chain, owner.block, indent, loops)
         return _Frame(blocks, owner.block, indent, loops, owner.scope)
 
     def _function(self, chain: Sequence[str], owner: str, indent: int) -> _Frame:
-        scope = _Scope(len(self.lines), indent, owner)
+        gives_back = bool(self._code.procedure) and indent == 1
+        scope = _Scope(len(self.lines), indent, owner, gives_back)
         blocks = self._enabled(chain, owner, indent, 0)
         return _Frame(blocks, owner, indent, 0, scope, opens=True)
 
@@ -130,9 +184,13 @@ class RuleWriter:
             )
         project_blocks = self._code.project.blocks
         blocks = [project_blocks[i] for i in chain if not project_blocks[i].disabled]
-        if not blocks:
+        if all(self._is_silent(block) for block in blocks):
             self._line(f"{_MARGINS[indent]}pass", owner)
         return iter(blocks)
+
+    def _is_silent(self, block: Block) -> bool:
+        definition = self._code.language.definitions.get(block.type)
+        return definition is not None and "silent" in definition.flags
 
     def _close(self, frame: _Frame) -> None:
         """At the end of a function, put its ``global`` line at its beginning."""
@@ -148,7 +206,6 @@ class RuleWriter:
 
     def _comment(self, block: Block, margin: str) -> None:
         """What a person wrote at a block; control characters could end the comment."""
-        for line in block.comment.splitlines():
-            visible = "".join(c if c.isprintable() else " " for c in line).strip()
-            if visible:
-                self._line(f"{margin}# {visible}", block.id)
+        if block.comment:
+            for line in comment_lines(block.comment):
+                self._line(margin + line, block.id)

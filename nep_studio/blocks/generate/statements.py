@@ -7,52 +7,38 @@ functions (a body of its own, for what runs at the same time).
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
+from ..code_text import CodeTextRefused, read_lines
+from ..errors import CodeRefused
+from ..procedures import procedure_of
 from ..program import Block
-from .expressions import Expressions, whole
+from .expressions import Expressions
+from .list_words import LIST_STATEMENTS
+from .nodes import call, constant, known_whole, plus, whole
+from .own_blocks import call_of, note_names
+from .pieces import (
+    Assignment,
+    Body,
+    Function,
+    Gap,
+    GiveBack,
+    Leave,
+    Piece,
+    StatementGenerator,
+    Written,
+    comment_lines,
+)
 from .printing import show
 
-
-@dataclass(frozen=True, slots=True)
-class Body:
-    """The chain of blocks in a slot; CPython limits how deep those of a ``loop`` are nested."""
-
-    slot: str
-    loop: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Function:
-    """A function without arguments whose body is the chain of blocks in a slot."""
-
-    name: str
-    slot: str
-
-
-@dataclass(frozen=True, slots=True)
-class Assignment:
-    """A line that assigns to a variable of the whole program."""
-
-    variable: str
-    line: str
-
-
-@dataclass(frozen=True, slots=True)
-class Gap:
-    """An empty line, to keep apart what does not belong together."""
-
-
-Piece = str | Body | Function | Assignment | Gap
-StatementGenerator = Callable[[Expressions, Block], Sequence[Piece]]
+__all__ = ["STATEMENTS", "Body", "Function", "Gap", "Piece", "StatementGenerator"]
 
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
 def _wait_until(code: Expressions, block: Block) -> list[Piece]:
-    condition = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
-    return [show(code.api_call("wait_until", condition))]
+    condition: ast.expr = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
+    limit = [code.slot(block, "seconds.1")] if block.groups.get("limit") else []
+    return [show(code.api_call("wait_until", condition, *limit))]
 
 
 def _repeat(code: Expressions, block: Block) -> list[Piece]:
@@ -66,6 +52,65 @@ def _forever(code: Expressions, block: Block) -> list[Piece]:
 
 def _while(code: Expressions, block: Block) -> list[Piece]:
     return [f"while {show(code.slot(block, 'condition'))}:", Body("do", loop=True)]
+
+
+def _repeat_until(code: Expressions, block: Block) -> list[Piece]:
+    condition = ast.UnaryOp(ast.Not(), code.slot(block, "condition"))
+    return [f"while {show(condition)}:", Body("do", loop=True)]
+
+
+def _count(code: Expressions, block: Block) -> list[Piece]:
+    first, last = whole(code.slot(block, "first")), whole(code.slot(block, "last"))
+    step = whole(code.slot(block, "step"))
+    ends, by = (known_whole(first), known_whole(last)), known_whole(step)
+    if by == 0:
+        raise CodeRefused("Counting in steps of 0 never ends.", block=block.id)
+    if by is not None and by > 0 and None not in ends and ends[0] > ends[1]:  # type: ignore[operator]
+        by, step = -by, constant(-by)  # from 10 to 1: down
+    arguments = [first, plus(last, -1 if by is not None and by < 0 else 1)]
+    counted = call("range", *arguments, *([] if by == 1 else [step]))
+    name = code.variable(block)
+    return [Assignment(name, f"for {name} in {show(counted)}:"), Body("do", loop=True)]
+
+
+def _for_each(code: Expressions, block: Block) -> list[Piece]:
+    items, name = code.slot(block, "list"), code.variable(block)
+    return [Assignment(name, f"for {name} in {show(items)}:"), Body("do", loop=True)]
+
+
+def _leave_loop(code: Expressions, block: Block) -> list[Piece]:
+    return [Leave("break")]
+
+
+def _next_round(code: Expressions, block: Block) -> list[Piece]:
+    return [Leave("continue")]
+
+
+def _stop_rule(code: Expressions, block: Block) -> list[Piece]:
+    return ["return"]
+
+
+def _note(code: Expressions, block: Block) -> list[Piece]:
+    return list(comment_lines(str(code.definition(block).value(block, "text"))))
+
+
+def _code_lines(code: Expressions, block: Block) -> list[Piece]:
+    text = str(code.definition(block).value(block, "code"))
+    try:
+        read = read_lines(text)
+    except CodeTextRefused as refused:
+        raise CodeRefused(str(refused), block=block.id) from refused
+    assigned = note_names(code, read)
+    written = Written(read.lines, read.inside_texts, assigned)
+    return [written, "pass"] if read.is_empty else [written]
+
+
+def _own_call(code: Expressions, block: Block) -> list[Piece]:
+    return [show(call_of(code, block, procedure_of(block.type)))]
+
+
+def _own_return(code: Expressions, block: Block) -> list[Piece]:
+    return [GiveBack(f"return {show(code.slot(block, 'value'))}")]
 
 
 def _if(code: Expressions, block: Block) -> list[Piece]:
@@ -95,6 +140,12 @@ def _change_variable(code: Expressions, block: Block) -> list[Piece]:
     return [Assignment(name, f"{name} += {show(code.slot(block, 'amount'))}")]
 
 
+def _append_text(code: Expressions, block: Block) -> list[Piece]:
+    code.begins_as(block, "text")
+    name = code.variable(block)
+    return [Assignment(name, f"{name} += {show(code.slot(block, 'text'))}")]
+
+
 STATEMENTS: dict[str, StatementGenerator] = {
     "wait_until": _wait_until,
     "repeat": _repeat,
@@ -104,4 +155,16 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "together": _together,
     "set_variable": _set_variable,
     "change_variable": _change_variable,
+    "repeat_until": _repeat_until,
+    "count": _count,
+    "for_each": _for_each,
+    "leave_loop": _leave_loop,
+    "next_round": _next_round,
+    "stop_rule": _stop_rule,
+    "note": _note,
+    "code_lines": _code_lines,
+    "own_call": _own_call,
+    "own_return": _own_return,
+    "append_text": _append_text,
+    **LIST_STATEMENTS,
 }

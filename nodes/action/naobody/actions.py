@@ -8,6 +8,8 @@ import msgspec
 from msgspec import Meta
 
 from nep_core.errors import ActionFailed
+from nodes.action.naobody.body_actions import BODY_ACTIONS, StopMoving
+from nodes.action.naobody.sense_actions import SENSE_ACTIONS
 
 LONGEST_TEXT = 5000
 
@@ -29,6 +31,7 @@ WalkLength = Annotated[float, Meta(ge=-20.0, le=20.0)]
 TurnAngle = Annotated[float, Meta(ge=-3600.0, le=3600.0)]
 LookAngle = Annotated[float, Meta(ge=-180.0, le=180.0)]
 Stretch = Annotated[float, Meta(ge=0.1, le=10.0)]
+VoicePercent = Annotated[float, Meta(ge=50.0, le=200.0)]
 FadeTime = Annotated[float, Meta(ge=0.0, le=60.0)]
 
 
@@ -38,6 +41,8 @@ class Say(msgspec.Struct, frozen=True):
     text: Text
     gesture: str = "no_gesture"
     language: str = ""
+    speed: VoicePercent = 100.0
+    pitch: VoicePercent = 100.0
 
 
 class Do(msgspec.Struct, frozen=True):
@@ -62,10 +67,14 @@ class Play(msgspec.Struct, frozen=True):
 
 
 class Walk(msgspec.Struct, frozen=True):
-    """Walk so many metres forward and to the left (below 0: back, to the right)."""
+    """Walk so many metres forward and to the left (below 0: back, to the right).
+
+    ``turn_deg``: how far it turns on the way, above 0 to the left.
+    """
 
     forward_m: WalkLength = 0.0
     left_m: WalkLength = 0.0
+    turn_deg: TurnAngle = 0.0
 
 
 class Turn(msgspec.Struct, frozen=True):
@@ -95,10 +104,13 @@ class Stop(msgspec.Struct, frozen=True):
     request: str = ""
 
 
-Action = Say | Do | Imitate | Play | Walk | Turn | Look | Leds
-"""What takes its time, and limbs."""
+Action = msgspec.Struct
+"""What takes its time, and limbs: one of those in ACTIONS."""
 
-ACTIONS: dict[str, type[Action | Stop]] = {
+AT_ONCE = (Stop, StopMoving)
+"""What is done before anything else, and never waits."""
+
+ACTIONS: dict[str, type[Action]] = {
     "say": Say,
     "do": Do,
     "imitate": Imitate,
@@ -107,11 +119,14 @@ ACTIONS: dict[str, type[Action | Stop]] = {
     "turn": Turn,
     "look": Look,
     "leds": Leds,
+    **BODY_ACTIONS,
+    **SENSE_ACTIONS,
     "stop": Stop,
+    "stop_moving": StopMoving,
 }
 
 
-def read_action(name: str, args: dict[str, Any]) -> Action | Stop:
+def read_action(name: str, args: dict[str, Any]) -> Action:
     """Return a named action with its arguments checked; arguments it does not know are ignored.
 
     Raises ActionFailed with a sentence that names what is possible.
@@ -133,7 +148,7 @@ def _plain(error: msgspec.ValidationError) -> str:
     return f"{place.rstrip('`')} {what}.".strip().replace("`", "")
 
 
-def _takes(kind: type[Action | Stop]) -> str:
+def _takes(kind: type[Action]) -> str:
     fields = [
         field.name if field.required else f"{field.name} (may be left out)"
         for field in msgspec.structs.fields(kind)

@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from nep_core.errors import ActionFailed
-from nep_core.messages import ActionRequest, ActionResult, ActionState
+from nep_core.messages import (
+    ActionRequest,
+    ActionResult,
+    ActionState,
+    HumanBehavior,
+    SenseRequest,
+)
 from nodes.action.naobody.actions import Stop, read_action
+from nodes.action.naobody.body_actions import LookAtSeen, StopMoving, WalkFreely
 from nodes.action.naobody.driver import Driver
+from nodes.action.naobody.limbs import MOVING, Limb
 from nodes.action.naobody.schedule import Command, Schedule
 
 REMEMBERED_REQUESTS = 500
+FOLLOWING = "following"
+"""The command by which the head follows what it tracks; nobody has asked for it."""
 FINAL: frozenset[ActionState] = frozenset({"done", "failed", "cancelled"})
 
 
@@ -33,20 +43,58 @@ class Actor:
             action = read_action(request.action, request.args)
             if isinstance(action, Stop):
                 return [*self.stop(action.request), self._result(request.id, "done")]
+            if isinstance(action, StopMoving):
+                return [*self._stop_moving(), self._result(request.id, "done")]
             limbs = self.driver.limbs(action)
         except ActionFailed as problem:
             return [self._result(request.id, "failed", problem.sentence)]
+        ended = self._end_free_walk() if Limb.LEGS in limbs else []
         self.schedule.add(Command(request.id, action, limbs, request.priority))
-        return [self._result(request.id, "accepted")]
+        return [*ended, self._result(request.id, "accepted")]
+
+    def is_meant(self, request: SenseRequest) -> bool:
+        """Whether a robot is told to sense something: by its name, or all robots."""
+        return request.robot in ("", "all", self.robot)
+
+    def sense(self, request: SenseRequest) -> list[HumanBehavior]:
+        """Let the robot sense something, and follow it if it tracks that."""
+        states = self.driver.sense(request)
+        state = self.driver.state()
+        if state and request.value > 0 and state.settings.get("tracking") == request.sense:
+            self._follow(request.sense)
+        return [HumanBehavior(human_state=state, source=self.robot) for state in states]
+
+    def _follow(self, thing: str) -> None:
+        command = Command(FOLLOWING, LookAtSeen(thing), frozenset({Limb.HEAD}))
+        if all(known.id != FOLLOWING for known in self.schedule.waiting):
+            if any(known.id == FOLLOWING for known in self.schedule.running):
+                self.stop(FOLLOWING)
+            self.schedule.add(command)
 
     def stop(self, only: str = "") -> list[ActionResult]:
         """End what is running and what waits, at once; or one request of these."""
-        commands = [*self.schedule.running, *self.schedule.waiting]
-        stopped = [command.id for command in commands if only in ("", command.id)]
-        self.driver.stop(stopped)
-        for command_id in stopped:
+        stopped = [command.id for command in self._commands() if only in ("", command.id)]
+        return self._end(stopped, "cancelled", "stopped")
+
+    def _stop_moving(self) -> list[ActionResult]:
+        moving = [command.id for command in self._commands() if command.limbs & MOVING]
+        return self._end(moving, "cancelled", "stopped")
+
+    def _end_free_walk(self) -> list[ActionResult]:
+        """A walk without an end makes way for what else the legs are asked."""
+        free = [one.id for one in self._commands() if isinstance(one.action, WalkFreely)]
+        return self._end(free, "done", "")
+
+    def _commands(self) -> list[Command]:
+        return [*self.schedule.running, *self.schedule.waiting]
+
+    def _end(
+        self, command_ids: list[str], state: ActionState, description: str
+    ) -> list[ActionResult]:
+        self.driver.stop(command_ids)
+        for command_id in command_ids:
             self.schedule.end(command_id)
-        return [self._result(command_id, "cancelled", "stopped") for command_id in stopped]
+        return [self._result(command_id, state, description) for command_id in command_ids]
 
     def step(self, now_s: float) -> list[ActionResult]:
         """Go on to a time, and return what was started and what ended on the way."""

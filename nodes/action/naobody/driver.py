@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Literal, NamedTuple, Protocol
 
-from nep_core.messages import RobotState
+from nep_core.messages import RobotState, SenseRequest
 from nodes.action.naobody.actions import Action
 from nodes.action.naobody.limbs import Limb
 
@@ -56,3 +56,6 @@ class Driver(Protocol):
 
     def state(self) -> RobotState | None:
         """Return where the robot's body is, or None when that is not known."""
+
+    def sense(self, request: SenseRequest) -> list[str]:
+        """Let a virtual robot feel, see or hear something; return the human states that follow."""

@@ -52,13 +52,21 @@ class _Foot:
     yaw: Angles
 
 
-def plan_walk(body: Body, standing: Angles, forward_m: float, left_m: float, turn: float) -> Walk:
+def plan_walk(
+    body: Body,
+    standing: Angles,
+    forward_m: float,
+    left_m: float,
+    turn: float,
+    *,
+    at_least_steps: int = 1,
+) -> Walk:
     """Return the walk by so many m forward and left, turning ``turn`` rad evenly on the way.
 
     ``standing``: the angles of every joint in the posture that it starts and ends in, feet flat.
     """
     way = np.array([forward_m, left_m, turn])
-    steps = max(1, math.ceil(float(np.max(np.abs(way) / _LONGEST_STEP)) - 1e-9))
+    steps = max(at_least_steps, math.ceil(float(np.max(np.abs(way) / _LONGEST_STEP)) - 1e-9))
     times_s = ticks((steps + 1) * STEP_S, TICK_S)
     progress = _body_progress(times_s, steps)
     step = way / steps

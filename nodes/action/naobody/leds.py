@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from nep_core.errors import ActionFailed
 
 OFF = 0x000000
+WHITE = 0xFFFFFF
+Colouring = Callable[[int], int]
+"""Which colour comes when: the number of the change, 0xRRGGBB."""
+
 GROUPS: dict[str, tuple[str, ...]] = {
     "LeftFaceLeds": ("LeftFaceLeds",),
     "RightFaceLeds": ("RightFaceLeds",),
@@ -53,3 +58,11 @@ def mixed(start: int, end: int, part: float) -> int:
         first, last = (start >> shift) & 0xFF, (end >> shift) & 0xFF
         colour |= round(first + (last - first) * part) << shift
     return colour
+
+
+def brightest(colour: int) -> int:
+    """Return a colour with the same hue, as bright as it can be."""
+    parts = [(colour >> shift) & 0xFF for shift in (16, 8, 0)]
+    most = max(parts) or 255
+    red, green, blue = (round(part * 255 / most) for part in parts)
+    return red << 16 | green << 8 | blue

@@ -14,6 +14,7 @@ class Limb(StrEnum):
     RIGHT_ARM = "right_arm"
     LEGS = "legs"
     LEDS = "leds"
+    EARS = "ears"
 
 
 MOVING = frozenset({Limb.HEAD, Limb.LEFT_ARM, Limb.RIGHT_ARM, Limb.LEGS})

@@ -13,7 +13,7 @@ import numpy as np
 
 from nep_core.errors import ActionFailed
 from nodes.action.naobody import leds
-from nodes.action.naobody.actions import Action, Do, Imitate, Leds, Look, Play, Say, Turn, Walk
+from nodes.action.naobody.actions import Play
 from nodes.action.naobody.animations import NO_GESTURE, Animation
 from nodes.action.naobody.body import Angles
 from nodes.action.naobody.gait import plan_walk
@@ -30,7 +30,7 @@ from nodes.action.naobody.motion import (
     move,
 )
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.postures import posture_name, posture_path
+from nodes.action.naobody.postures import posture_path
 from nodes.action.naobody.speech import speaking_time_s
 
 Task = Generator[None, None, str]
@@ -43,36 +43,14 @@ SHORTEST_GESTURE = 0.8
 DOES_NOT_STAND = {"sitting": "sits", "lying": "lies", "crouching": "crouches", "resting": "rests"}
 
 
-def task_for(robot: VirtualRobot, action: Action) -> Task:
-    """Return the task that does an action."""
-    match action:
-        case Say():
-            return say(robot, action.text, action.gesture)
-        case Do():
-            return take_posture(robot, posture_name(robot.body, action.posture))
-        case Imitate():
-            return play(robot, robot.animations.get(action.animal, "animal"))
-        case Play():
-            animation = robot.animations.get(action.animation)
-            return play(robot, animation, _changed(animation.keyframes, action))
-        case Walk():
-            return walk(robot, action.forward_m, action.left_m, 0.0)
-        case Turn():
-            return walk(robot, 0.0, 0.0, math.radians(action.degrees))
-        case Look():
-            return look(robot, math.radians(action.yaw_deg), math.radians(action.pitch_deg))
-        case Leds():
-            return light(robot, action.group, leds.colour_number(action.colour), action.seconds)
-
-
-def say(robot: VirtualRobot, text: str, gesture: str) -> Task:
+def say(robot: VirtualRobot, text: str, gesture: str, speed: float = 1.0) -> Task:
     """Speak, moving as the gesture says, over and over until the words end."""
-    seconds = speaking_time_s(text)
+    seconds = speaking_time_s(text) / speed
     tasks = [speak(robot, text, seconds)]
     if gesture != NO_GESTURE and seconds > 0.0:
         animation = robot.animations.get(gesture, "gesture")
         tasks.append(play(robot, animation, _fitted(robot, animation.keyframes, seconds)))
-    return (yield from _together(tasks))
+    return (yield from at_once(tasks))
 
 
 def speak(robot: VirtualRobot, text: str, seconds: float) -> Task:
@@ -89,7 +67,7 @@ def speak(robot: VirtualRobot, text: str, seconds: float) -> Task:
 def take_posture(robot: VirtualRobot, goal: str) -> Task:
     """Move to a posture, through the postures that lie between."""
     for posture in posture_path(robot.body, robot.posture, goal):
-        yield from _go(robot, posture, MOVING)
+        yield from go(robot, posture, MOVING)
         robot.posture = posture
     return ""
 
@@ -101,10 +79,17 @@ def play(robot: VirtualRobot, animation: Animation, keyframes: Keyframes | None 
     tasks = [_act(robot, keyframes or animation.keyframes)]
     if animation.says:
         tasks.append(speak(robot, animation.says, speaking_time_s(animation.says)))
-    return (yield from _together(tasks))
+    return (yield from at_once(tasks))
 
 
-def walk(robot: VirtualRobot, forward_m: float, left_m: float, turn: float) -> Task:
+def walk(
+    robot: VirtualRobot,
+    forward_m: float,
+    left_m: float,
+    turn: float,
+    *,
+    at_least_steps: int = 1,
+) -> Task:
     """Walk over the floor with steps, turning by ``turn`` rad on the way.
 
     Raises ActionFailed when the robot does not stand.
@@ -116,15 +101,15 @@ def walk(robot: VirtualRobot, forward_m: float, left_m: float, turn: float) -> T
         )
     if not (forward_m or left_m or turn):
         return ""
-    yield from _go(robot, WALKING_POSTURE, {Limb.LEGS})
+    yield from go(robot, WALKING_POSTURE, {Limb.LEGS})
     robot.posture = WALKING_POSTURE
     standing = robot.body.posture_angles(WALKING_POSTURE)
-    plan = plan_walk(robot.body, standing, forward_m, left_m, turn)
+    plan = plan_walk(robot.body, standing, forward_m, left_m, turn, at_least_steps=at_least_steps)
     start = robot.base
-    for place, _ in zip(plan.base, _play_motion(robot, plan.legs), strict=True):
-        robot.base = _moved(start, place)
+    for place, _ in zip(plan.base, play_motion(robot, plan.legs), strict=True):
+        robot.base = moved_base(start, place)
         yield
-    robot.base = _moved(start, np.array([forward_m, left_m, turn]))
+    robot.base = moved_base(start, np.array([forward_m, left_m, turn]))
     return ""
 
 
@@ -134,7 +119,7 @@ def look(robot: VirtualRobot, yaw: float, pitch: float) -> Task:
     head = list(robot.body.head)
     goal[head] = yaw, pitch
     goal, clamped = robot.body.clamped(goal)
-    yield from _play_motion(
+    yield from play_motion(
         robot, move(robot.body, robot.angles, goal, head, speed=LOOKING_SPEED, at_least_s=0.3)
     )
     return _as_far_as_it_goes(goal[head]) if clamped else ""
@@ -160,34 +145,36 @@ def come_to_rest(
     """
     motion = braking(robot.body, robot.angles, joint_speed, robot.body.columns(limbs))
     start = robot.base
-    for part, _ in zip(braking_way_s(), _play_motion(robot, motion), strict=True):
+    for part, _ in zip(braking_way_s(), play_motion(robot, motion), strict=True):
         if Limb.LEGS in limbs:
             robot.base = start + part * base_speed
         yield
     if Limb.LEGS in limbs and robot.family == "standing":
-        yield from _go(robot, robot.posture, {Limb.LEGS})
+        yield from go(robot, robot.posture, {Limb.LEGS})
     return ""
 
 
 def _act(robot: VirtualRobot, keyframes: Keyframes) -> Task:
     motion = keyframe_motion(robot.body, robot.angles, keyframes)
-    yield from _play_motion(robot, motion)
-    yield from _go(robot, robot.posture, robot.body.limbs_of(keyframes.tracks), RETURN_SPEED)
+    yield from play_motion(robot, motion)
+    yield from go(robot, robot.posture, robot.body.limbs_of(keyframes.tracks), RETURN_SPEED)
     return "; ".join(motion.notes)
 
 
-def _go(
+def go(
     robot: VirtualRobot, posture: str, limbs: Collection[Limb], speed: float = POSTURE_SPEED
 ) -> Task:
+    """Move some limbs to where they are in a posture."""
     body = robot.body
     columns = body.columns(limbs)
     goal = body.posture_angles(posture)
     if np.allclose(robot.angles[columns], goal[columns], atol=1e-4):
         return ""
-    return (yield from _play_motion(robot, move(body, robot.angles, goal, columns, speed=speed)))
+    return (yield from play_motion(robot, move(body, robot.angles, goal, columns, speed=speed)))
 
 
-def _play_motion(robot: VirtualRobot, motion: Motion) -> Task:
+def play_motion(robot: VirtualRobot, motion: Motion) -> Task:
+    """Move joints through every row of a motion, one a tick."""
     columns = list(motion.columns)
     for row in motion.angles:
         robot.angles[columns] = row
@@ -195,7 +182,7 @@ def _play_motion(robot: VirtualRobot, motion: Motion) -> Task:
     return ""
 
 
-def _together(tasks: list[Task]) -> Task:
+def at_once(tasks: list[Task]) -> Task:
     """Run tasks at the same time, until the last one ends."""
     notes = []
     while tasks:
@@ -210,7 +197,8 @@ def _together(tasks: list[Task]) -> Task:
     return "; ".join(filter(None, notes))
 
 
-def _changed(keyframes: Keyframes, action: Play) -> Keyframes:
+def changed(keyframes: Keyframes, action: Play) -> Keyframes:
+    """Return keyframes for the other side, backwards, slower or faster, as an action asks."""
     if action.mirror:
         keyframes = keyframes.mirrored()
     if action.reverse:
@@ -226,7 +214,7 @@ def _fitted(robot: VirtualRobot, keyframes: Keyframes, seconds: float) -> Keyfra
     return keyframes.stretched(max(factor, SHORTEST_GESTURE)).repeated(repeats)
 
 
-def _moved(base: Angles, way: Angles) -> Angles:
+def moved_base(base: Angles, way: Angles) -> Angles:
     """Return the base after going a way (m, m, rad) that is relative to it."""
     forward, left, turn = way
     cosine, sine = math.cos(base[2]), math.sin(base[2])

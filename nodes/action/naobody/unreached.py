@@ -12,7 +12,7 @@ import threading
 from collections.abc import Callable, Collection
 
 from nep_core.errors import ActionFailed, ParameterError
-from nep_core.messages import RobotState
+from nep_core.messages import RobotState, SenseRequest
 from nodes.action.naobody.actions import Action
 from nodes.action.naobody.driver import Connection, Ended
 from nodes.action.naobody.limbs import Limb
@@ -106,6 +106,10 @@ class UnreachedNao:
     def state(self) -> RobotState | None:
         """Return None: where the robot's body is is not known."""
         return None
+
+    def sense(self, request: SenseRequest) -> list[str]:
+        """Return nothing: a real robot senses by itself."""
+        return []
 
     @property
     def _place(self) -> str:

@@ -8,16 +8,18 @@ from typing import NamedTuple
 import numpy as np
 
 from nep_core.errors import ActionFailed
-from nep_core.messages import RobotState
-from nodes.action.naobody import leds
-from nodes.action.naobody.actions import Action, Do, Imitate, Leds, Look, Play, Say
-from nodes.action.naobody.animations import NO_GESTURE
+from nep_core.messages import RobotState, SenseRequest
+from nodes.action.naobody.actions import Action
 from nodes.action.naobody.driver import Connection, Ended
+from nodes.action.naobody.gaze import from_world
 from nodes.action.naobody.limbs import MOVING, Limb
 from nodes.action.naobody.motion import TICK_S
+from nodes.action.naobody.parts import SINGLE_PARTS
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.postures import posture_name
-from nodes.action.naobody.tasks import Task, come_to_rest, task_for
+from nodes.action.naobody.repertoire import limbs_of, task_of
+from nodes.action.naobody.sensing import sense
+from nodes.action.naobody.sensors import measured
+from nodes.action.naobody.tasks import Task, come_to_rest
 
 
 class VirtualDriver:
@@ -52,32 +54,11 @@ class VirtualDriver:
 
     def limbs(self, action: Action) -> frozenset[Limb]:
         """Return the limbs that an action needs. Raises ActionFailed if a name is unknown."""
-        animations = self.robot.animations
-        match action:
-            case Say(gesture=gesture) if gesture == NO_GESTURE:
-                return frozenset({Limb.VOICE})
-            case Say():
-                return animations.get(action.gesture, "gesture").limbs | {Limb.VOICE}
-            case Imitate():
-                return animations.get(action.animal, "animal").limbs
-            case Play(mirror=mirrored):
-                limbs = animations.get(action.animation).limbs
-                return frozenset(map(_other_side, limbs)) if mirrored else limbs
-            case Do():
-                posture_name(self.robot.body, action.posture)
-                return MOVING
-            case Look():
-                return frozenset({Limb.HEAD})
-            case Leds():
-                leds.lights(action.group)
-                leds.colour_number(action.colour)
-                return frozenset({Limb.LEDS})
-            case _:
-                return frozenset({Limb.LEGS})
+        return limbs_of(self.robot, action)
 
     def start(self, command_id: str, action: Action) -> None:
         """Begin an action; ``step`` tells when it has ended."""
-        task = task_for(self.robot, action)
+        task = task_of(self.robot, action)
         started = self._held_up if self._braking else self._running
         started[command_id] = _Running(task, self.limbs(action))
 
@@ -114,7 +95,29 @@ class VirtualDriver:
             posture=robot.posture,
             leds=dict(robot.leds),
             saying=robot.saying,
+            moving=self.moves_joints,
+            battery=robot.felt.get("battery", 1.0),
+            sensors=measured(robot, self._joint_speed, self._base_speed),
+            sees={thing: from_world(robot, place) for thing, place in robot.sees.items()},
+            settings=self._settings(),
+            listening=list(robot.listening),
         )
+
+    def sense(self, request: SenseRequest) -> list[str]:
+        """Feel, see or hear something; return the human states that follow from it."""
+        return sense(self.robot, request)
+
+    @property
+    def moves_joints(self) -> bool:
+        """Whether joints move, or are about to."""
+        running = [*self._running.values(), *self._held_up.values()]
+        return bool(self._braking or any(one.limbs & MOVING for one in running))
+
+    def _settings(self) -> dict[str, bool | float | str]:
+        robot = self.robot
+        locked = {f"locked_{part}": part not in robot.released for part in SINGLE_PARTS}
+        awake = not robot.released and robot.posture != "Rest"
+        return {**robot.settings, "awake": awake, **locked}
 
     def _tick(self) -> list[Ended]:
         angles, base = self.robot.angles.copy(), self.robot.base.copy()
@@ -152,7 +155,3 @@ def _is_over(task: Task) -> bool:
     except StopIteration:
         return True
     return False
-
-
-def _other_side(limb: Limb) -> Limb:
-    return {Limb.LEFT_ARM: Limb.RIGHT_ARM, Limb.RIGHT_ARM: Limb.LEFT_ARM}.get(limb, limb)

@@ -1,0 +1,175 @@
+"""Arithmetic typed into a number field, such as 2*pi/3: its value, and its tree for the code.
+
+Known are numbers, + - * / // % **, parentheses, pi, e, tau and a few functions; angles of sin, cos
+and tan are in radians, as in Python. Each step of a calculation is kept small, so that no text,
+however hostile, takes long here or in the program.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+LONGEST_ARITHMETIC = 200
+DEEPEST_ARITHMETIC = 25
+LARGEST_NUMBER = 10**15
+_LARGEST_BITS = 60
+
+Number = int | float
+
+_TOKEN = re.compile(
+    r"\s+|[A-Za-z_][A-Za-z_0-9]*|(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![A-Za-z0-9_.])"
+    r"|\*\*|//|[-+*/%(),]"
+)
+_SIGNS = str.maketrans({"×": "*", "·": "*", "÷": "/", "−": "-", "^": "**", "π": "pi", "τ": "tau"})  # noqa: RUF001 signs that people type
+_CONSTANTS = {"pi": math.pi, "e": math.e, "tau": math.tau}
+_OF_MATH: dict[str, Callable[[float], float]] = {
+    "sqrt": math.sqrt,
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+}
+_OPERATIONS: dict[type[ast.operator], Callable[[Number, Number], Number]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+}
+
+
+class ArithmeticRefused(ValueError):
+    """A text that cannot be calculated; its text says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arithmetic:
+    """What a text comes to, the tree that says so in Python, and whether it needs ``math``."""
+
+    value: Number
+    node: ast.expr
+    needs_math: bool
+
+
+@lru_cache(maxsize=4096)
+def calculate(text: str) -> Arithmetic:
+    """Read and calculate a text, or raise ArithmeticRefused."""
+    if len(text) > LONGEST_ARITHMETIC:
+        raise ArithmeticRefused(f"This is too long: {LONGEST_ARITHMETIC} signs at most.")
+    plain = text.translate(_SIGNS).strip()
+    if not plain:
+        raise ArithmeticRefused("A number is needed here.")
+    _require_known_signs(plain)
+    try:
+        tree = ast.parse(plain, mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise ArithmeticRefused(_not_understood(text)) from error
+    reader = _Reader(text)
+    try:
+        value, node = reader.read(tree, 0)
+    except (ArithmeticError, ValueError) as error:
+        if isinstance(error, ArithmeticRefused):
+            raise
+        raise ArithmeticRefused(f"“{text}” cannot be calculated.") from error
+    return Arithmetic(value, node, reader.needs_math)
+
+
+def number_of(value: object) -> Number:
+    """The number that a field holds: itself, or what its text comes to."""
+    if isinstance(value, str):
+        return calculate(value).value
+    if isinstance(value, int | float):
+        return value
+    raise TypeError(f"{type(value).__name__} is no number")
+
+
+def _require_known_signs(text: str) -> None:
+    """Python warns of “2pi”, and of much else: only signs of arithmetic reach it."""
+    position = 0
+    while position < len(text):
+        token = _TOKEN.match(text, position)
+        if token is None or not token[0].isascii():
+            raise ArithmeticRefused(_not_understood(text))
+        position = token.end()
+    if "\n" in text or "\r" in text:
+        raise ArithmeticRefused("A number is written on one line.")
+
+
+def _not_understood(text: str) -> str:
+    shown = text if len(text) <= 40 else text[:39] + "…"
+    return f"{shown!r} is not a number, nor arithmetic such as 2*pi/3."
+
+
+class _Reader:
+    """Walks a tree of Python once: gives the value of each part, and a clean tree of it."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self.needs_math = False
+
+    def read(self, node: ast.expr, depth: int) -> tuple[Number, ast.expr]:
+        if depth > DEEPEST_ARITHMETIC:
+            raise ArithmeticRefused("There are too many parentheses in each other.")
+        match node:
+            case ast.Constant(value=value) if type(value) in (int, float):
+                return _small(value), ast.Constant(value)
+            case ast.Name(id=name) if name in _CONSTANTS:
+                return _CONSTANTS[name], self._of_math(name)
+            case ast.UnaryOp(op=ast.UAdd(), operand=operand):
+                return self.read(operand, depth + 1)
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                value, inner = self.read(operand, depth + 1)
+                return -value, ast.UnaryOp(ast.USub(), inner)
+            case ast.BinOp(left=left, op=sign, right=right):
+                return self._operation(left, sign, right, depth + 1)
+            case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]):
+                return self._call(name, arguments, depth + 1)
+        raise ArithmeticRefused(_not_understood(self._text))
+
+    def _operation(
+        self, left: ast.expr, sign: ast.operator, right: ast.expr, depth: int
+    ) -> tuple[Number, ast.expr]:
+        a, first = self.read(left, depth)
+        b, second = self.read(right, depth)
+        if not isinstance(sign, ast.Pow) and type(sign) not in _OPERATIONS:
+            raise ArithmeticRefused(_not_understood(self._text))
+        value = _power(a, b) if isinstance(sign, ast.Pow) else _OPERATIONS[type(sign)](a, b)
+        return _small(value), ast.BinOp(first, sign, second)
+
+    def _call(self, name: str, arguments: list[ast.expr], depth: int) -> tuple[Number, ast.expr]:
+        read = [self.read(argument, depth) for argument in arguments]
+        values, nodes = [value for value, _ in read], [node for _, node in read]
+        if name in ("min", "max") and len(values) >= 2:
+            return (min if name == "min" else max)(values), ast.Call(ast.Name(name), nodes, [])
+        if len(values) == 1 and name in ("abs", "round"):
+            value = abs(values[0]) if name == "abs" else round(values[0])
+            return _small(value), ast.Call(ast.Name(name), nodes, [])
+        if len(values) == 1 and name in _OF_MATH:
+            return _small(_OF_MATH[name](values[0])), ast.Call(self._of_math(name), nodes, [])
+        raise ArithmeticRefused(_not_understood(self._text))
+
+    def _of_math(self, name: str) -> ast.expr:
+        self.needs_math = True
+        return ast.Attribute(ast.Name("math"), name)
+
+
+def _power(a: Number, b: Number) -> Number:
+    """A power whose size is looked at before it is calculated."""
+    if a and abs(b) * abs(math.log2(abs(a))) > _LARGEST_BITS:
+        raise ArithmeticRefused("This power is too large or too small.")
+    value = a**b
+    if isinstance(value, complex):
+        raise ArithmeticRefused("A root of a negative number is no number on the number line.")
+    return value  # type: ignore[no-any-return]
+
+
+def _small(value: Number) -> Number:
+    if value != value or abs(value) > LARGEST_NUMBER:
+        raise ArithmeticRefused(f"This number is too large: {LARGEST_NUMBER:,} at most.")
+    return value

@@ -1,0 +1,154 @@
+"""Python that a person writes into a block: whether it can be there, and what it names."""
+
+from __future__ import annotations
+
+import ast
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from types import CodeType
+
+_GENERATOR_FLAGS = 0x20 | 0x80 | 0x200
+"""Of a code object: it is a generator, a coroutine, or both."""
+
+
+class CodeTextRefused(ValueError):
+    """Python that cannot be where it is; ``line`` is the one that is wrong, from 1."""
+
+    def __init__(self, sentence: str, line: int = 1) -> None:
+        super().__init__(sentence)
+        self.line = line
+
+
+@dataclass(frozen=True, slots=True)
+class CodeText:
+    """Python that can be in a block: its lines, and which names it reads and makes.
+
+    ``inside_texts`` are the lines that begin inside a text of several lines.
+    """
+
+    lines: tuple[str, ...]
+    inside_texts: frozenset[int]
+    read: frozenset[str]
+    made: frozenset[str]
+    is_empty: bool = False
+    is_closed: bool = False
+
+
+@lru_cache(maxsize=1024)
+def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
+    """Check statements that stand in a function, or raise CodeTextRefused."""
+    lines = _visible_lines(text)
+    tree = _parse("\n".join(lines), "exec")
+    inside = frozenset(_inside_texts(tree))
+    opening = ["def _():", " while 1:"] if in_loop else ["def _():", " if 1:"]
+    shifted = [
+        line if n in inside or not line.strip() else f"  {line}" for n, line in enumerate(lines, 1)
+    ]
+    try:
+        code = compile_quietly("\n".join([*opening, *shifted, "  pass"]))
+    except CodeTextRefused as refused:
+        line = min(max(refused.line - 2, 1), len(lines))
+        raise CodeTextRefused(_in_line(str(refused), line), line) from refused
+    if any(getattr(c, "co_flags", 0) & _GENERATOR_FLAGS for c in code.co_consts):
+        raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
+    _refuse_global(tree)
+    read, made = _names(tree)
+    return CodeText(tuple(lines), inside, read, made, is_empty=not tree.body)
+
+
+@lru_cache(maxsize=1024)
+def read_value(text: str) -> CodeText:
+    """Check an expression, or raise CodeTextRefused."""
+    lines = _visible_lines(text)
+    if len(lines) != 1:
+        raise CodeTextRefused("A value is written on one line.")
+    plain = lines[0].strip()
+    tree = _parse(plain, "eval")
+    if ast.dump(_parse(f"({plain})", "eval")) != ast.dump(tree):
+        raise CodeTextRefused("This is not one value.")
+    if any(isinstance(node, ast.NamedExpr | ast.Await) for node in ast.walk(tree)):
+        raise CodeTextRefused("“:=” and “await” cannot be in a value.")
+    compile_quietly(f"lambda: ({plain})")
+    read, made = _names(tree)
+    closed = isinstance(tree.body, ast.Name | ast.Attribute | ast.Call | ast.Subscript | ast.List)
+    return CodeText((plain,), frozenset(), read, made, is_closed=closed)
+
+
+def compile_quietly(text: str) -> CodeType:
+    """Compile without running anything and without warnings, or raise CodeTextRefused."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            code: CodeType = compile(text, "program.py", "exec", dont_inherit=True)
+            return code
+    except SyntaxError as error:
+        raise CodeTextRefused(_told(error), error.lineno or 1) from error
+    except (ValueError, RecursionError, MemoryError, OverflowError) as error:
+        raise CodeTextRefused("Python cannot read this.") from error
+
+
+def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return ast.parse(text, mode=mode)  # type: ignore[return-value]
+    except SyntaxError as error:
+        line = error.lineno or 1
+        raise CodeTextRefused(_in_line(_told(error), line), line) from error
+    except (ValueError, RecursionError, MemoryError, OverflowError) as error:
+        raise CodeTextRefused("Python cannot read this.") from error
+
+
+def _visible_lines(text: str) -> list[str]:
+    """The lines of a text; what Python would take for something else is refused."""
+    lines = text.rstrip().split("\n")
+    for number, line in enumerate(lines, start=1):
+        if not line.replace("\t", " ").isprintable():
+            raise CodeTextRefused(
+                _in_line("There is a character here that cannot be seen.", number), number
+            )
+    return lines
+
+
+def _inside_texts(tree: ast.AST) -> Iterator[int]:
+    for node in ast.walk(tree):
+        is_text = isinstance(node, ast.JoinedStr) or (
+            isinstance(node, ast.Constant) and isinstance(node.value, str | bytes)
+        )
+        if is_text and isinstance(node, ast.expr):
+            yield from range(node.lineno + 1, (node.end_lineno or node.lineno) + 1)
+
+
+def _refuse_global(tree: ast.AST) -> None:
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Global | ast.Nonlocal):
+            raise CodeTextRefused(
+                _in_line("The program writes “global” by itself.", node.lineno), node.lineno
+            )
+        if not isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda):
+            waiting += ast.iter_child_nodes(node)
+
+
+def _names(tree: ast.AST) -> tuple[frozenset[str], frozenset[str]]:
+    read, made = set(), set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            (read if isinstance(node.ctx, ast.Load) else made).add(node.id)
+    read |= {n.target.id for n in ast.walk(tree) if _is_own_change(n)}  # type: ignore[attr-defined]
+    return frozenset(read), frozenset(made)
+
+
+def _is_own_change(node: ast.AST) -> bool:
+    return isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name)
+
+
+def _told(error: SyntaxError) -> str:
+    return f"Python does not understand this: {error.msg}."
+
+
+def _in_line(sentence: str, line: int) -> str:
+    return sentence if line == 1 else f"Line {line}: {sentence}"

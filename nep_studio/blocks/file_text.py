@@ -1,0 +1,121 @@
+"""The text of a file as JSON values; what is wrong with it is told with its place, in plain words.
+
+Nothing here trusts the file. Nothing is read by recursion but the JSON, which msgspec limits.
+"""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from .errors import ProjectFileError
+
+OLD_COPY = "Open an older copy of the file, if there is one."
+
+_WORDS = {
+    "str": "a text",
+    "int": "a whole number",
+    "float": "a number",
+    "bool": "yes or no",
+    "object": "a group of values",
+    "array": "a list",
+    "null": "nothing",
+}
+
+
+class Fault(Exception):
+    """What is wrong with a file, and with which block."""
+
+    def __init__(self, sentence: str, block: str = "") -> None:
+        super().__init__(sentence)
+        self.block = block
+
+
+def decode(data: bytes, file_name: str) -> object:
+    """The values in a JSON file, or ProjectFileError."""
+    try:
+        return msgspec.json.decode(data.removeprefix(b"\xef\xbb\xbf"))
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        sentence, place = _why_not_json(data, error)
+        raise ProjectFileError(
+            f"{file_name} cannot be read{place}: {sentence}",
+            checklist=("Was the file copied completely? Copy it again.", OLD_COPY),
+            details=str(error),
+        ) from error
+
+
+def place_in(data: bytes, block: str) -> str:
+    """Where a block is in a file, as " at line 3, block b2"; nothing when no block is meant."""
+    if not block:
+        return ""
+    entry = re.search(rb'"id"\s*:\s*"' + re.escape(block.encode()) + rb'"', data)
+    line = f"line {_line_at(data, entry.start())}, " if entry else ""
+    return f" at {line}block {block}"
+
+
+def in_words(error: msgspec.ValidationError) -> str:
+    """Turn “Expected `str`, got `int` - at `$.name`” into words."""
+    what, _, where = str(error).partition(" - at ")
+    place = re.sub(r"\[(\d+)\]", _entry, where.strip("`").removeprefix("$").lstrip("."))
+    return f"at {place.replace('[...]', '') or 'its beginning'}: {_what_in_words(what)}"
+
+
+def is_deeper(value: object, limit: int) -> bool:
+    """Whether lists and groups of values are in each other more than ``limit`` times."""
+    layer = [value]
+    for _ in range(limit):
+        layer = [
+            inner
+            for outer in layer
+            if isinstance(outer, dict | list)
+            for inner in (outer.values() if isinstance(outer, dict) else outer)
+        ]
+        if not layer:
+            return False
+    return True
+
+
+def _what_in_words(what: str) -> str:
+    missing = re.fullmatch(r"Object missing required field `(\w+)`", what)
+    if missing:
+        return f"“{missing[1]}” is missing"
+    expected = re.fullmatch(r"Expected `([^`]+)`, got `(\w+)`", what)
+    if expected is None:
+        return "this is not what belongs here"
+    wanted = " or ".join(_WORDS.get(word, "a value") for word in expected[1].split(" | "))
+    return f"{wanted} belongs here, not {_WORDS.get(expected[2], 'this')}"
+
+
+def _entry(match: re.Match[str]) -> str:
+    return f" number {int(match[1]) + 1} "
+
+
+def _why_not_json(data: bytes, error: Exception) -> tuple[str, str]:
+    """A sentence and a place for what msgspec says about a file that is no JSON."""
+    if isinstance(error, UnicodeDecodeError):
+        return "it is not text in UTF-8.", ""
+    if isinstance(error, RecursionError):
+        return "groups are nested too deep in it.", ""
+    if isinstance(error, msgspec.ValidationError):
+        return "there is a number in it that is too large.", _place_of_number(data)
+    if "truncated" in str(error):
+        return "it ends too early, as if a part of it were missing.", ""
+    byte = re.search(r"\(byte (\d+)\)", str(error))
+    line = _line_at(data, int(byte[1]) if byte else 0)
+    return "this is not how a project is written.", f" at line {line}"
+
+
+def _line_at(data: bytes, offset: int) -> int:
+    return data.count(b"\n", 0, offset) + 1
+
+
+def _place_of_number(data: bytes) -> str:
+    for number, line in enumerate(data.splitlines(), start=1):
+        try:
+            msgspec.json.decode(line.strip().rstrip(b","))
+        except msgspec.ValidationError:
+            return f" at line {number}"
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+            continue
+    return ""

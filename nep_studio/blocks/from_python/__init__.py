@@ -1,0 +1,1 @@
+"""From Python back to blocks: the inverse of generate/, learned from it block by block."""

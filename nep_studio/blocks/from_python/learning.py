@@ -1,0 +1,276 @@
+"""Learn how the Python of each block looks, by making it with markers in its slots.
+
+So every block that the generators know can be read back, also those that are added later.
+"""
+
+from __future__ import annotations
+
+import ast
+import itertools
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+from ..definitions import Definition
+from ..errors import CodeRefused
+from ..generate.expressions import Expressions
+from ..generate.names import ProgramNames
+from ..generate.nodes import constant
+from ..generate.pieces import Assignment, Body, Function, Gap, Piece
+from ..generate.printing import show
+from ..generate.registry import HATS, REPORTERS, STATEMENTS
+from ..language import Language
+from ..procedures import procedure_of
+from ..program import Block, Project, split_slot
+from ..sentence import Slot
+from ..values import FieldValue
+from .markers import MARKS, VARIABLE_NAME, body_name, number_for, part_name, slot_name, word_for
+
+MOST_PATTERNS, MOST_LANGUAGES = 600, 4
+_WORDS = frozenset({"text", "line", "state", "gesture", "lines"})
+_KEPT_AS_WRITTEN = frozenset({"code_lines", "code_value", "note"})
+
+
+_NOT_MADE = (CodeRefused, KeyError, ValueError, TypeError, IndexError, SyntaxError)
+"""How a generator says that it makes nothing of these choices and numbers."""
+
+_MARKER = "?"
+_ANY_VALUE = re.compile(r"Name\(id='SLOT_\w+', ctx=\w+\(\)\)|Constant\(value=-?[0-9][0-9.e+-]*\)")
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """Python of a block with markers: an expression or statements; ``size`` is how much it says.
+
+    ``fields`` are the choices it was made with, ``keys`` the slots by their positions.
+    """
+
+    definition: Definition
+    nodes: tuple[ast.AST, ...]
+    fields: Mapping[str, FieldValue]
+    groups: Mapping[str, int]
+    keys: tuple[str, ...]
+    size: int
+
+
+@dataclass(slots=True)
+class Learned:
+    """All patterns of a language, the ones that say most first, by what they begin with."""
+
+    values: dict[object, list[Pattern]] = field(default_factory=lambda: defaultdict(list))
+    statements: dict[object, list[Pattern]] = field(default_factory=lambda: defaultdict(list))
+    hats: list[Pattern] = field(default_factory=list)
+
+
+_KNOWN: dict[tuple[int, ...], tuple[object, Learned]] = {}
+"""By the ids of the definitions and the choices, which are kept so that these stay theirs."""
+
+
+def learned(language: Language) -> Learned:
+    """The patterns of a language without a project's own blocks; learned once."""
+    shared = [d for name, d in language.definitions.items() if not procedure_of(name)]
+    key = (id(language.choices), *map(id, shared))
+    if key not in _KNOWN:
+        if len(_KNOWN) >= MOST_LANGUAGES:
+            _KNOWN.clear()
+        _KNOWN[key] = ((language.choices, shared), _learn(shared, language))
+    return _KNOWN[key][1]
+
+
+def beginning(node: ast.AST) -> object:
+    """What a piece of Python is sorted by: its type, its operator, the name that it calls."""
+    match node:
+        case ast.Expr(value=value):
+            return ("statement", beginning(value))
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name)):
+            return ("call", name)
+        case ast.BinOp(op=sign) | ast.UnaryOp(op=sign) | ast.BoolOp(op=sign):
+            return type(sign)
+        case ast.Compare(ops=[sign]):
+            return ("compare", type(sign))
+    return type(node)
+
+
+def _learn(definitions: Sequence[Definition], language: Language) -> Learned:
+    found = Learned()
+    for definition in definitions:
+        if definition.call is not None or definition.generator in _KEPT_AS_WRITTEN:
+            continue
+        for pattern in _patterns(definition, language):
+            if definition.shape == "hat":
+                found.hats.append(pattern)
+            elif definition.is_value:
+                found.values[beginning(pattern.nodes[0])].append(pattern)
+            else:
+                found.statements[beginning(pattern.nodes[0])].append(pattern)
+    for patterns in [*found.values.values(), *found.statements.values(), found.hats]:
+        patterns.sort(key=_order)
+    return found
+
+
+def _order(pattern: Pattern) -> tuple[int, int]:
+    """Patterns that say more come first, then those that take less: a gesture is a state too."""
+    slots = pattern.definition.slots.values()
+    return -pattern.size, sum(slot.kind.name in ("state", "text", "any") for slot in slots)
+
+
+def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
+    seen: set[str] = set()
+    for groups in itertools.islice(_group_counts(definition), MOST_PATTERNS):
+        for fields in _choices(definition, language, groups):
+            keys = tuple(key for key, _ in definition.keys(groups))
+            for literal, plain in _variants(definition, keys):
+                learner = _Learner(language, fields, keys, literal, plain)
+                try:
+                    nodes = learner.nodes(definition, groups)
+                except _NOT_MADE:
+                    continue  # not made in this variant
+                form = _form(nodes)
+                if nodes and form not in (*seen, _MARKER):
+                    seen.add(form)
+                    size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
+                    yield Pattern(definition, nodes, fields, groups, keys, size)
+
+
+def _group_counts(definition: Definition) -> Iterator[dict[str, int]]:
+    names = list(definition.groups)
+    ranges = [
+        range(definition.minimum[name], definition.groups[name].maximum + 1) for name in names
+    ]
+    for counts in itertools.product(*ranges):
+        yield dict(zip(names, counts, strict=True))
+
+
+def _choices(
+    definition: Definition, language: Language, groups: Mapping[str, int]
+) -> list[dict[str, FieldValue]]:
+    """The ways in which the choices can be made by which the Python differs in its form."""
+    keys = tuple(key for key, _ in definition.keys(groups))
+    learner = _Learner(language, {}, keys, False, "")
+    with suppress(*_NOT_MADE):
+        learner.nodes(definition, groups)
+    asked = list(dict.fromkeys(learner.asked))
+    tables = [
+        list(language.choices_of(definition.slots[split_slot(key)[0]])) or [""] for key in asked
+    ]
+    ways = itertools.islice(itertools.product(*tables), MOST_PATTERNS)
+    return [dict(zip(asked, way, strict=True)) for way in ways]
+
+
+def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[bool, str]]:
+    """With numbers typed or plugged in, and each time with one slot left as it is when new."""
+    yield False, ""
+    yield True, ""
+    for key in keys:
+        if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
+            yield True, key
+            yield False, key
+
+
+class _Learner(Expressions):
+    """Makes Python with markers; ``asked`` are the choices that the generator looked at."""
+
+    def __init__(
+        self,
+        language: Language,
+        fields: Mapping[str, FieldValue],
+        keys: Sequence[str],
+        literal: bool,
+        plain: str,
+    ) -> None:
+        super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS)
+        self.asked: list[str] = []
+        self._fields_chosen = fields
+        self._positions = {key: position for position, key in enumerate(keys)}
+        self._literal = literal
+        self._plain = plain
+        self._functions = 0
+
+    def nodes(self, definition: Definition, groups: Mapping[str, int]) -> tuple[ast.AST, ...]:
+        """The Python of a new block of a definition."""
+        block = self._block(definition, groups)
+        if definition.shape == "hat":
+            decorator = HATS[definition.generator](self, block).decorator
+            return () if decorator is None else (_parsed(show(decorator)),)
+        if definition.is_value:
+            return (_parsed(show(REPORTERS[definition.generator](self, block))),)
+        pieces = STATEMENTS[definition.generator](self, block)
+        return tuple(ast.parse("\n".join(_lines(pieces))).body)
+
+    def slot(self, block: Block, key: str) -> ast.expr:
+        """A marker for a slot; the text slots of a value that is no text are markers too."""
+        slot = self._slot(block, key)
+        if key == self._plain:
+            return constant(self.definition(block).defaults[slot.name])
+        if self._literal and slot.kind.name in ("number", "angle", "slider", "duration"):
+            return ast.Constant(number_for(self._positions[key]))
+        return ast.Name(slot_name(key))
+
+    def choice(self, block: Block, key: str) -> str:
+        """The choice that this variant is made with."""
+        self.asked.append(key)
+        if key in self._fields_chosen:
+            return str(self._fields_chosen[key])
+        return next(iter(self.language.choices_of(self._slot(block, key))), "")
+
+    def variable(self, block: Block) -> str:
+        """A marker for the variable of a block."""
+        return VARIABLE_NAME
+
+    def begins_as(self, block: Block, kind: str) -> None:
+        """Nothing begins in what is learned."""
+
+    def part_name(self) -> str:
+        """A marker for the name of a function."""
+        self._functions += 1
+        return part_name(self._functions)
+
+    def _slot(self, block: Block, key: str) -> Slot:
+        return self.definition(block).slots[split_slot(key)[0]]
+
+    def _block(self, definition: Definition, groups: Mapping[str, int]) -> Block:
+        """A new block whose texts are marker words."""
+        block = definition.new_block("b1")
+        block.groups = dict(groups)
+        block.fields = {
+            key: word_for(self._positions[key])
+            for key, slot in definition.keys(groups)
+            if slot.kind.name in _WORDS and not slot.group
+        } | dict(self._fields_chosen)
+        for key, slot in definition.keys(groups):
+            if slot.name in definition.defaults:
+                block.fields.setdefault(key, definition.defaults[slot.name])
+        return block
+
+
+def _says(node: ast.AST) -> bool:
+    """Whether a node is a part of the Python itself, neither a marker nor a note of ast."""
+    if isinstance(node, ast.Name) and node.id.startswith(MARKS):
+        return False
+    return not isinstance(node, ast.expr_context)
+
+
+def _form(nodes: Sequence[ast.AST]) -> str:
+    """What the Python looks like, whatever is in its slots."""
+    return _ANY_VALUE.sub(_MARKER, "".join(ast.dump(node) for node in nodes))
+
+
+def _parsed(text: str) -> ast.expr:
+    return ast.parse(text, mode="eval").body
+
+
+def _lines(pieces: Sequence[Piece]) -> Iterator[str]:
+    for piece in pieces:
+        if isinstance(piece, str):
+            yield piece
+        elif isinstance(piece, Assignment):
+            yield piece.line
+        elif isinstance(piece, Body):
+            yield f"    {body_name(piece.slot)}"
+        elif isinstance(piece, Function):
+            yield f"def {piece.name}():"
+            yield f"    {body_name(piece.slot)}"
+        elif not isinstance(piece, Gap):
+            yield str(getattr(piece, "line", ""))

@@ -1,0 +1,197 @@
+"""Change a program to what its edited Python says, and nothing that the edit did not touch."""
+
+from __future__ import annotations
+
+import ast
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from ..editor import Editor
+from ..edits import DeleteBlocks
+from ..errors import CodeRefused, EditRefused
+from ..generate.program import generate_program
+from ..generate.source_map import Code
+from ..language import Language
+from ..program import Project
+from .chains import ChainUpdater
+from .made import CodeUnread
+from .reading_programs import ReadRule, create_chain, read_rules, scratch_of
+from .source import Source, read_source
+
+
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """A stack that makes a function now: its chain and its lines."""
+
+    stack: str
+    function: str
+    text: str
+
+
+def read_program(text: str, language: Language, base: Project | None = None) -> Project:
+    """The project that a whole program says; of ``base``, what is not said in Python stays.
+
+    Raises CodeUnread, with the line.
+    """
+    editor = scratch_of(base or Project(), language)
+    update_from_python(editor, text)
+    return editor.project
+
+
+def update_from_python(editor: Editor, text: str) -> None:
+    """Make the program what a text says, as one step; raises CodeUnread, and changes nothing.
+
+    Stacks whose lines are the same stay as they are, with their ids, places, comments and disabled
+    blocks; in the others, blocks whose lines are the same do. Disabled rules and loose stacks stay.
+    """
+    source = read_source(text)
+    as_code: set[str] = set()
+    anew = False
+    while True:
+        try:
+            with editor.transaction("change the code"):
+                _update(editor, source, as_code, anew)
+                wrong = _functions_that_differ(editor, source)
+                if wrong:
+                    raise _Differs(wrong)
+        except _Differs as differs:
+            if differs.functions <= as_code:
+                raise CodeUnread(
+                    "This function cannot become blocks that say the same.",
+                    _line_of(source, min(differs.functions)),
+                    checklist=("Write it in another way.", "Or undo the last change."),
+                ) from differs
+            as_code |= differs.functions
+        except EditRefused as refused:
+            if anew:
+                raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
+            anew = True
+        else:
+            return
+
+
+class _Differs(Exception):
+    """Functions that would not be made again from the blocks as they are in the text."""
+
+    def __init__(self, functions: set[str]) -> None:
+        super().__init__()
+        self.functions = functions
+
+
+def _update(editor: Editor, source: Source, as_code: set[str], anew: bool) -> None:
+    """Change the stacks whose lines have changed; ``anew``, make those anew."""
+    code = _code(editor)
+    written = _written(editor.project, code)
+    rules = read_rules(editor, source, as_code)
+    left = {stack.stack: stack for stack in written}
+    same = {id(rule): _take(left, lambda w, r=rule: w.text == r.text) for rule in rules}
+    for rule in rules:
+        if same[id(rule)] is not None:
+            continue
+        known = _take(left, lambda w, r=rule: w.function == r.function.name)
+        if known is None and len(rules) == len(written):
+            known = _take(left, lambda w, r=rule: _is_nth(written, w, rules, r))
+        if known is None:
+            create_chain(editor, rule.chain)
+            continue
+        stack = editor.project.stacks[known.stack]
+        if anew:
+            editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+            create_chain(editor, rule.chain, (stack.x, stack.y))
+        else:
+            ChainUpdater(editor, code).update_stack(stack.body[0], rule.chain)
+    for gone in left.values():
+        stack = editor.project.stacks[gone.stack]
+        editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+
+
+def _take(left: dict[str, _Written], fits: object) -> _Written | None:
+    assert callable(fits)
+    found = next((written for written in left.values() if fits(written)), None)
+    return left.pop(found.stack) if found is not None else None
+
+
+def _is_nth(
+    written: Sequence[_Written], one: _Written, rules: Sequence[ReadRule], rule: ReadRule
+) -> bool:
+    """Whether a rule stands where a stack stood: it has got another name."""
+    return written.index(one) == next(n for n, it in enumerate(rules) if it is rule)
+
+
+def _code(editor: Editor) -> Code:
+    """The code as it is; none when the blocks make none."""
+    try:
+        return generate_program(editor.project, editor.language)
+    except CodeRefused:
+        return Code("", ())
+
+
+def _written(project: Project, code: Code) -> list[_Written]:
+    """The stacks that make functions now, in the order of the code."""
+    lines = code.text.splitlines()
+    found = []
+    for stack, first, last in _spans(project, code):
+        text = textwrap.dedent("\n".join(lines[first - 1 : last])).rstrip()
+        name = next((n for n in map(_function_name, lines[first - 1 : last]) if n), "")
+        found.append(_Written(stack, name, text))
+    return found
+
+
+def _spans(project: Project, code: Code) -> Iterator[tuple[str, int, int]]:
+    """The stacks of the behaviour with their first and last lines."""
+    spans: dict[str, tuple[int, int]] = {}
+    for number, block in enumerate(code.blocks, start=1):
+        if block and project.kind_of_page(_page(project, block)) == "behaviour":
+            stack = project.stack_of(block).id
+            spans[stack] = (spans.get(stack, (number, 0))[0], number)
+    for stack, (first, last) in spans.items():
+        yield stack, first, last
+
+
+def _page(project: Project, block: str) -> str:
+    return project.page_of(project.stack_of(block).id)
+
+
+def _function_name(line: str) -> str:
+    return line[4:].partition("(")[0] if line.startswith("def ") else ""
+
+
+def _functions_that_differ(editor: Editor, source: Source) -> set[str]:
+    """The functions that the blocks would make in another way than the text has them."""
+    try:
+        made = ast.parse(generate_program(editor.project, editor.language).text)
+    except CodeRefused as refused:
+        raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
+    again = [_plain(node) for node in made.body if isinstance(node, ast.FunctionDef)]
+    return {
+        node.name
+        for node in source.tree.body
+        if isinstance(node, ast.FunctionDef) and _plain(node) not in again
+    }
+
+
+def _plain(function: ast.FunctionDef) -> str:
+    """A function as text without what the generator writes by itself: its name, its globals."""
+    nodes: list[ast.AST] = [*function.decorator_list, *_bodies(function.body)]
+    dump = " ".join(ast.dump(node) for node in nodes)
+    return dump if function.decorator_list else f"{function.name} {dump}"
+
+
+def _bodies(body: Sequence[ast.stmt]) -> list[ast.stmt]:
+    kept = [_Plain().visit(node) for node in body if not isinstance(node, ast.Global)]
+    return kept
+
+
+class _Plain(ast.NodeTransformer):
+    """Takes out the global lines of inner functions."""
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        """Take the global lines out of an inner function; its name is the generator's affair."""
+        body = [self.visit(inner) for inner in node.body if not isinstance(inner, ast.Global)]
+        return ast.FunctionDef(node.name, node.args, body, node.decorator_list, node.returns)
+
+
+def _line_of(source: Source, name: str) -> int:
+    functions = (n for n in source.tree.body if isinstance(n, ast.FunctionDef) and n.name == name)
+    return next((node.lineno for node in functions), 1)

@@ -1,0 +1,219 @@
+"""Read expressions: what goes into the field of a slot, and which block is plugged into it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from ..code_text import CodeTextRefused, read_value
+from ..definitions import Definition
+from ..deployment import GESTURE_STATE
+from ..language import Language
+from ..procedures import CALL, PARAMETER, parameters
+from ..program import split_slot
+from ..sentence import Slot
+from ..values import FieldValue
+from .learning import Pattern, beginning, learned
+from .made import Made
+from .matching import Found, match
+from .names import SourceNames
+
+_TEXTS, _TEXT_RESULTS = frozenset({"text", "lines"}), frozenset({"text", "colour"})
+_NUMBERS = frozenset({"number", "angle", "slider", "duration"})
+_DEEPEST = 150
+
+
+class ValueReader:
+    """Reads the expressions of one text."""
+
+    def __init__(self, language: Language, names: SourceNames) -> None:
+        self.language = language
+        self.names = names
+        self._learned = learned(language)
+        self._by_call: dict[str, list[Definition]] = {}
+        self._types: dict[str, str] = {}
+        self._known: dict[int, list[tuple[Made, str]]] = {}
+        self._depth = 0
+        for definition in language.definitions.values():
+            self._types.setdefault(definition.generator, definition.id)
+            if definition.call is not None:
+                self._by_call.setdefault(definition.call.name, []).append(definition)
+
+    def type_of(self, generator: str) -> str:
+        """The type of the block that a generator makes, or an empty text."""
+        return self._types.get(generator, "")
+
+    def fill(self, made: Made, key: str, node: ast.expr) -> bool:
+        """Put an expression into a slot of a block; False when it does not go there."""
+        slot = self.language.definitions[made.type].slots[split_slot(key)[0]]
+        value = self.field(slot, node, made, key)
+        if value is not None:
+            made.fields[key] = value
+            return True
+        if slot.kind.name == "list" and isinstance(node, ast.List) and not node.elts:
+            return True
+        plugged = self.plugged(slot, node) if slot.kind.pluggable else None
+        if plugged is None:
+            return False
+        made.inputs[key] = plugged
+        return True
+
+    def field(self, slot: Slot, node: ast.expr, made: Made, key: str) -> FieldValue | None:
+        """What the field of a slot holds so that it makes this expression, or None."""
+        value = self._field(slot, node)
+        if value is None or slot.why_not(value) is not None:
+            return None
+        if slot.kind.name == "choice":
+            tables = self.language.choices_of(slot) if not slot.master else {}
+            return value if not tables or value in tables else None
+        return value
+
+    def plugged(self, slot: Slot, node: ast.expr) -> Made | None:
+        """The block that makes this expression in a slot, or None."""
+        fits = slot.kind.fits
+        if slot.kind.name not in _TEXTS:
+            return next((made for made, result in self.blocks(node) if result in fits), None)
+        for made, result in self.blocks(node):
+            if result in _TEXT_RESULTS:
+                return made
+        match node:
+            case ast.Call(func=ast.Name(id="str"), args=[inner], keywords=[]):
+                others = fits - _TEXT_RESULTS
+                found = self.blocks(inner)
+                return next((made for made, result in found if result in others), None)
+        return None
+
+    def blocks(self, node: ast.expr) -> list[tuple[Made, str]]:
+        """The value blocks that make an expression, with their results, the best first."""
+        known = self._known.get(id(node))
+        if known is None:
+            if self._depth > _DEEPEST:
+                return []
+            self._depth += 1
+            known = self._known[id(node)] = list(self._blocks(node))
+            self._depth -= 1
+        return known
+
+    def call(self, definition: Definition, node: ast.Call) -> Made | None:
+        """The block of a call, or None when the call is another one."""
+        wanted = definition.call
+        assert wanted is not None
+        made = Made(definition.id)
+        if wanted.on:
+            if not isinstance(node.func, ast.Attribute):
+                return None
+            if not self.fill(made, wanted.on, node.func.value):
+                return None
+        elif not isinstance(node.func, ast.Name):
+            return None
+        given = {keyword.arg: keyword.value for keyword in node.keywords}
+        required = {name for name, key in wanted.keywords.items() if key not in wanted.optional}
+        if len(node.args) != len(wanted.arguments) or not required <= given.keys():
+            return None
+        if not given.keys() <= wanted.keywords.keys() or len(given) < len(node.keywords):
+            return None
+        for key, argument in zip(wanted.arguments, node.args, strict=True):
+            if not self.fill(made, key, argument):
+                return None
+        for name, argument in given.items():
+            key = wanted.keywords[str(name)]
+            if not self.fill(made, key, argument):
+                return None
+            is_unsaid = key in wanted.optional and key not in made.inputs
+            if is_unsaid and made.fields.get(key) == definition.defaults[key]:
+                return None  # the block would not write it
+        return made
+
+    def called(self, node: ast.Call) -> Iterator[Made]:
+        """The blocks of a call, whether they give a value or not."""
+        func = node.func
+        name = func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")
+        for definition in self._by_call.get(name, ()):
+            if (made := self.call(definition, node)) is not None:
+                yield made
+        own = self.names.procedures.get(name) if isinstance(func, ast.Name) else None
+        if own is not None and not node.keywords and len(node.args) == len(parameters(own)):
+            made = Made(CALL + own.id)
+            pairs = zip(parameters(own), node.args, strict=True)
+            if all(self.fill(made, parameter.id, value) for parameter, value in pairs):
+                yield made
+
+    def made_from(self, pattern: Pattern, found: Found) -> Made | None:
+        """The block of a pattern with what was found in it but its bodies, or None."""
+        made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
+        for key, node in found.slots.items():
+            if not self.fill(made, key, node):
+                return None
+        for key, word in found.words.items():
+            if pattern.definition.slots[split_slot(key)[0]].why_not(word) is not None:
+                return None
+            made.fields[key] = word
+        if found.variable:
+            if found.variable not in self.names.variables:
+                return None
+            made.fields["variable"] = self.names.variables[found.variable]
+        return made
+
+    def _blocks(self, node: ast.expr) -> Iterator[tuple[Made, str]]:
+        definitions = self.language.definitions
+        if isinstance(node, ast.Name):
+            yield from self._named(node.id)
+        if isinstance(node, ast.Call):
+            for made in self.called(node):
+                if definitions[made.type].is_value:
+                    yield made, definitions[made.type].result
+        for pattern in self._learned.values.get(beginning(node), ()):
+            found = match(pattern, [node])
+            made_from = self.made_from(pattern, found) if found is not None else None
+            if made_from is not None:
+                yield made_from, pattern.definition.result
+        code = self.type_of("code_value")
+        if code and not isinstance(node, ast.Constant) and _is_code(node):
+            yield Made(code, {"code": ast.unparse(node)}), definitions[code].result
+
+    def _named(self, name: str) -> Iterator[tuple[Made, str]]:
+        definitions = self.language.definitions
+        if name in self.names.parameters:
+            made = Made(PARAMETER + self.names.parameters[name])
+            yield made, definitions[made.type].result
+        elif name in self.names.variables and (getter := self.type_of("variable")):
+            yield Made(getter, {"variable": self.names.variables[name]}), definitions[getter].result
+
+    def _field(self, slot: Slot, node: ast.expr) -> FieldValue | None:
+        kind = slot.kind.name
+        if isinstance(node, ast.Name):
+            if kind == "robot":
+                return self.names.robots.get(node.id)
+            return self.names.variables.get(node.id) if kind == "variable" else None
+        value = _constant(node)
+        if value is None or kind in ("robot", "variable", "body"):
+            return None
+        if kind == "gesture":
+            is_gesture = isinstance(value, str) and value.startswith(GESTURE_STATE)
+            return str(value).removeprefix(GESTURE_STATE) if is_gesture else None
+        is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        if kind in _NUMBERS:
+            return value if is_number else None
+        if kind == "any":
+            return None if isinstance(value, bool) else value
+        if kind == "checkbox":
+            return value if isinstance(value, bool) else None
+        return value if isinstance(value, str) else None
+
+
+def _constant(node: ast.expr) -> str | int | float | bool | None:
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        inner = _constant(node.operand)
+        is_number = isinstance(inner, int | float) and not isinstance(inner, bool)
+        return -inner if is_number else None  # type: ignore[operator]
+    if isinstance(node, ast.Constant) and isinstance(node.value, str | int | float):
+        return node.value
+    return None
+
+
+def _is_code(node: ast.expr) -> bool:
+    try:
+        read_value(ast.unparse(node))
+    except (CodeTextRefused, ValueError, RecursionError):
+        return False
+    return True

@@ -1,0 +1,1 @@
+"""Everything with a widget: the window, the canvas, the panels."""

@@ -1,0 +1,91 @@
+"""The application: its look, its words, its block language, and its window."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtWidgets import QApplication
+
+from nep_studio import __version__, settings
+from nep_studio.blocks.language import Language
+from nep_studio.settings import Settings
+from nep_studio.studio_language import studio_language
+from nep_studio.ui import words
+from nep_studio.ui.theme import Look, application_icon, load_fonts
+
+log = logging.getLogger(__name__)
+
+
+class Studio(QObject):
+    """What all parts of the window share. ``words_changed`` comes after a change of language."""
+
+    words_changed = Signal()
+
+    def __init__(self, app: QApplication, chosen: Settings | None = None) -> None:
+        super().__init__(app)
+        self.app = app
+        self.settings = chosen or Settings()
+        load_fonts()
+        self._use_words()
+        self.look = Look(app, self.settings.theme, self.settings.text_scale)
+        self.language = self._block_language()
+
+    def choose_theme(self, name: str) -> None:
+        """Use a theme from now on."""
+        self.settings.theme = name
+        self.look.choose(name)
+
+    def choose_text_scale(self, scale: float) -> None:
+        """Make the text larger or smaller from now on."""
+        self.settings.text_scale = scale
+        self.look.set_scale(self.settings.text_scale)
+
+    def choose_language(self, code: str) -> None:
+        """Speak a language from now on; "system" is the computer's."""
+        self.settings.language = code
+        self._use_words()
+        self.look.refresh()
+        self.language = self._block_language()
+        self.words_changed.emit()
+
+    def _use_words(self) -> None:
+        code = self.settings.language
+        if code == settings.SYSTEM:
+            code = settings.system_language(words.available_languages())
+        words.use_language(code)
+        is_mirrored = words.is_right_to_left()
+        direction = Qt.LayoutDirection.RightToLeft if is_mirrored else Qt.LayoutDirection.LeftToRight
+        self.app.setLayoutDirection(direction)
+
+    def _block_language(self) -> Language:
+        return studio_language()
+
+
+def make_application() -> QApplication:
+    """The application with its name and icon."""
+    app = QApplication(sys.argv[:1])
+    app.setApplicationName("nep-studio")
+    app.setApplicationDisplayName("NEP Studio")
+    app.setApplicationVersion(__version__)
+    app.setDesktopFileName("nep-studio")
+    app.setWindowIcon(application_icon())
+    return app
+
+
+def main(arguments: list[str]) -> int:
+    """Open the window, with a project if one is named; the exit code."""
+    from nep_studio.ui.last_resort import LastResort
+    from nep_studio.ui.main_window import MainWindow
+
+    app = make_application()
+    with LastResort(settings.log_file()) as last_resort:
+        window = MainWindow(Studio(app))
+        last_resort.watch(window)
+        window.show()
+        window.start(Path(arguments[0]) if arguments else None)
+        code = app.exec()
+        window.deleteLater()
+    return code

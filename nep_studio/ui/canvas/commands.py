@@ -1,0 +1,164 @@
+"""What menus, buttons and keys do with the selected blocks of a canvas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPointF
+
+from nep_studio.blocks.operations.deleting import delete
+from nep_studio.blocks.operations.flags import Flag, toggle
+from nep_studio.blocks.operations.pasting import duplicate, paste
+from nep_studio.blocks.operations.tidy import tidy
+from nep_studio.ui.words import count_words, tr
+
+from .clipboard import clip_from_clipboard, put_on_clipboard
+
+if TYPE_CHECKING:
+    from .canvas import Canvas
+
+PASTE_STEP = 32.0
+"""How far from the corner of the view pasted blocks lie, in canvas units."""
+
+
+class Commands:
+    """The commands of one canvas; each is one step of undo, and each is announced."""
+
+    def __init__(self, canvas: Canvas) -> None:
+        self._canvas = canvas
+
+    def copy(self) -> bool:
+        """Put the selected blocks on the clipboard; False when there are none."""
+        canvas, ids = self._canvas, self._canvas.selection.ids
+        if not ids:
+            return False
+        put_on_clipboard(canvas.editor, ids)
+        canvas.announced.emit(count_words(len(ids), "1 block copied", "{n} blocks copied"))
+        return True
+
+    def cut(self) -> bool:
+        """Copy the selected blocks, and take them away."""
+        return self.copy() and self.delete()
+
+    def paste(self, at: QPointF | None = None) -> bool:
+        """Put what is on the clipboard on the page, at a place of it or where the person looks."""
+        canvas = self._canvas
+        where = at or self._free_place()
+
+        def change() -> Iterable[str]:
+            clip = clip_from_clipboard(canvas.editor)
+            return paste(canvas.editor, clip, canvas.page, where.x(), where.y())
+
+        return self._make(change, tr("pasted"))
+
+    def duplicate(self) -> bool:
+        """Put copies of the selected blocks beside them."""
+        canvas, ids = self._canvas, self._canvas.selection.ids
+        if not ids:
+            return False
+        return self._make(lambda: duplicate(canvas.editor, ids, self._corners(ids)), tr("copied"))
+
+    def delete(self) -> bool:
+        """Take the selected blocks away; those below move up."""
+        canvas, ids = self._canvas, self._canvas.selection.ids
+        if not ids:
+            return False
+        following = _neighbour(canvas, ids)
+
+        def change() -> None:
+            canvas.blocks_deleted.emit(delete(canvas.editor, ids))
+
+        if not canvas.attempt(change):
+            return False
+        canvas.selection.set([following] if following else ())
+        canvas.announced.emit(count_words(len(ids), "1 block deleted", "{n} blocks deleted"))
+        return True
+
+    def toggle(self, flag: Flag) -> bool:
+        """Switch the selected blocks off or on, or fold or unfold them."""
+        canvas, ids = self._canvas, self._canvas.selection.ids
+        if not ids:
+            return False
+        return canvas.attempt(lambda: toggle(canvas.editor, ids, flag))
+
+    def select_all(self) -> None:
+        """Select every stack of the page."""
+        project, page = self._canvas.editor.project, self._canvas.page
+        chains = (stack.body for stack in project.pages.get(page, []))
+        self._canvas.selection.set([block for chain in chains for block in chain])
+
+    def select_stack(self) -> None:
+        """Select all blocks of the stack that the keyboard is at."""
+        canvas = self._canvas
+        cursor = canvas.selection.cursor
+        if cursor in canvas.editor.project.blocks:
+            canvas.selection.set(canvas.editor.project.stack_of(cursor).body, cursor)
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        history, label = self._canvas.editor.history, self._canvas.editor.history.undo_label
+        if history.undo():
+            self._canvas.announced.emit(tr("undone: {step}", step=tr(label)))
+
+    def redo(self) -> None:
+        """Do the step again that was taken back last."""
+        history, label = self._canvas.editor.history, self._canvas.editor.history.redo_label
+        if history.redo():
+            self._canvas.announced.emit(tr("done again: {step}", step=tr(label)))
+
+    def tidy(self, *, columns: bool = False) -> bool:
+        """Push stacks apart that overlap, or put all into columns; their order stays."""
+        canvas = self._canvas
+        sizes = {
+            stack: (canvas.page_layout.index.rect(stack).width, chain.height)
+            for stack, chain in canvas.page_layout.chains.items()
+        }
+        return canvas.attempt(
+            lambda: tidy(canvas.editor, canvas.page, sizes, align="columns" if columns else "")
+        )
+
+    def _make(self, change: Callable[[], Iterable[str]], told: str) -> bool:
+        """Make blocks, select them and show the first."""
+        made: list[str] = []
+        if not self._canvas.attempt(lambda: made.extend(change())) or not made:
+            return False
+        self._canvas.selection.set(made)
+        self._canvas.show_block(made[0])
+        self._canvas.announced.emit(told)
+        return True
+
+    def _free_place(self) -> QPointF:
+        """Near the upper corner of the view, where no stack is."""
+        canvas = self._canvas
+        seen, layout = canvas.visible_page_rect(), canvas.page_layout
+        side = -PASTE_STEP if canvas.measures.is_mirrored else PASTE_STEP
+        x = (seen.right if canvas.measures.is_mirrored else seen.x) + side
+        y = seen.y + PASTE_STEP
+        while layout.hit(x + side / 4, y + PASTE_STEP / 2) is not None and y < seen.bottom:
+            x, y = x + side, y + PASTE_STEP
+        return QPointF(x, y)
+
+    def _corners(self, ids: Iterable[str]) -> dict[str, tuple[float, float]]:
+        """Where blocks lie on the page, by their upper corner."""
+        corners = {}
+        for block in ids:
+            placed = self._canvas.page_layout.placed(block)
+            if placed is not None:
+                corners[block] = (placed.x, placed.y)
+        return corners
+
+
+def _neighbour(canvas: Canvas, ids: Iterable[str]) -> str:
+    """The block that the keyboard goes to when these go: the next, the one above, the owner."""
+    gone, project = set(ids), canvas.editor.project
+    first = next(iter(gone), "")
+    if first not in project.parents:
+        return ""
+    parent = project.parents[first]
+    chain = project.chain_of(parent) or []
+    index = chain.index(first) if first in chain else 0
+    after = [block for block in chain[index + 1 :] if block not in gone]
+    before = [block for block in chain[:index] if block not in gone]
+    near = after[:1] or before[-1:] or [parent.owner]
+    return near[0] if near[0] in project.blocks else ""

@@ -1,0 +1,1 @@
+"""The editors of fields: one real widget, put over the field that is edited."""

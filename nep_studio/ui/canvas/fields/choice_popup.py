@@ -1,0 +1,195 @@
+"""A list to choose from, with a search box: type to filter, arrows and Enter to choose."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
+
+from nep_studio.ui.theme import icon
+from nep_studio.ui.words import tr
+
+from .field_edit import Editing
+from .options import Option, matching, options_of
+from .popup import FieldPopup
+from .question import Question
+
+if TYPE_CHECKING:
+    from .editors import FieldEditors
+
+_MOST_ROWS = 11
+_OPTION = Qt.ItemDataRole.UserRole
+_MOVES = frozenset(
+    {Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown}
+)
+
+
+class ChoicePopup(FieldPopup):
+    """Chooses one of the options; with ``is_free``, what is typed is a value too."""
+
+    is_free = False
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors, edit, title)
+        self.search = QLineEdit(self)
+        self.search.setPlaceholderText(tr("Type to search"))
+        self.search.setAccessibleName(tr("Search: {what}", what=title))
+        self.search.textEdited.connect(self._on_typed)
+        self.search.installEventFilter(self)
+        self.list = QListWidget(self)
+        self.list.setAccessibleName(title)
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.list.setIconSize(QSize(self.line, self.line))
+        self.list.itemClicked.connect(self._choose)
+        self.list.currentItemChanged.connect(self._on_row)
+        self.question: Question | None = None
+        self.column.addWidget(self.search)
+        self.column.addWidget(self.list)
+        self.fill("")
+
+    def first(self) -> QWidget:
+        """The search box has the keyboard."""
+        return self.search
+
+    def options(self) -> list[Option]:
+        """What can be chosen."""
+        editor = self._editors.canvas.editor
+        return options_of(editor.project, editor.language, self.edit)
+
+    def actions(self) -> list[Option]:
+        """Rows at the end that do something else."""
+        return []
+
+    def act(self, action: str) -> None:
+        """Do what a row at the end says."""
+
+    def fill(self, typed: str) -> None:
+        """Show the options that hold what is typed."""
+        self.list.clear()
+        section, found = "", matching(self.options(), typed)
+        for option in found:
+            if option.section != section and not typed:
+                section = option.section
+                self._add_heading(section)
+            self._add(option)
+        if not found and not self.is_free:
+            self._add_heading(tr("Nothing is called “{typed}”.", typed=typed))
+        for option in self.actions():
+            self._add(option)
+        self._point(typed)
+        self._fit()
+
+    def ask(self, question: Question | None) -> None:
+        """Show a question instead of the list, or the list again."""
+        if self.question is not None:
+            self.question.deleteLater()
+        self.question = question
+        for widget in (self.search, self.list):
+            widget.setVisible(question is None)
+        self.reason.tell("")
+        if question is not None:
+            self.column.insertWidget(0, question)
+            question.show()
+        self.adjustSize()
+        self.follow()
+        (question.first() if question else self.search).setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """In the search box, the arrows move in the list and Enter chooses."""
+        if event.type() == QEvent.Type.KeyPress:
+            key = cast(QKeyEvent, event).key()
+            if key in _MOVES:
+                self._move(cast(QKeyEvent, event))
+                return True
+            if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+                self._choose(self.list.currentItem())
+                return True
+        return super().eventFilter(watched, event)
+
+    def _add(self, option: Option) -> None:
+        item = QListWidgetItem(option.label)
+        item.setData(_OPTION, option)
+        is_now = not option.action and option.value == self.edit.value
+        name = "check" if is_now else option.icon
+        if name:
+            item.setIcon(icon(name, self._editors.canvas.theme))
+        spoken = tr("{label}, chosen now", label=option.label) if is_now else option.label
+        item.setData(Qt.ItemDataRole.AccessibleTextRole, spoken)
+        self.list.addItem(item)
+
+    def _add_heading(self, words: str) -> None:
+        item = QListWidgetItem(words)
+        item.setFlags(Qt.ItemFlag.NoItemFlags)
+        font = self.list.font()
+        font.setBold(True)
+        font.setPointSizeF(font.pointSizeF() * 0.9)
+        item.setFont(font)
+        self.list.addItem(item)
+
+    def _point(self, typed: str) -> None:
+        """Point at the value of the field, or at what is found first."""
+        rows = [self.list.item(row) for row in range(self.list.count())]
+        choosable = [item for item in rows if item.data(_OPTION) is not None]
+        now = [i for i in choosable if i.data(_OPTION).value == self.edit.value]
+        is_value = bool(typed) and self.is_free
+        if choosable and not is_value:
+            self.list.setCurrentItem((now if now and not typed else choosable)[0])
+            self.list.scrollToItem(self.list.currentItem())
+
+    def _fit(self) -> None:
+        height = sum(self.list.sizeHintForRow(row) for row in range(min(self.list.count(), 200)))
+        row = max(self.list.sizeHintForRow(0), self.line)
+        frame = 2 * self.list.frameWidth() + 2
+        self.list.setFixedHeight(max(min(height, _MOST_ROWS * row), row) + frame)
+        wide = self.list.sizeHintForColumn(0) + 2 * self.line
+        self.list.setMinimumWidth(max(13 * self.line, min(wide, 26 * self.line)))
+        self.adjustSize()
+
+    def _move(self, event: QKeyEvent) -> None:
+        step = -1 if event.key() in (Qt.Key.Key_Up, Qt.Key.Key_PageUp) else 1
+        count = 8 if event.key() in (Qt.Key.Key_PageUp, Qt.Key.Key_PageDown) else 1
+        rows = range(self.list.count())
+        choosable = [row for row in rows if self.list.item(row).data(_OPTION) is not None]
+        if not choosable:
+            return
+        here = self.list.currentRow()
+        if here not in choosable:
+            at = 0 if step > 0 else len(choosable) - 1
+        else:
+            at = choosable.index(here) + step * count
+            at = at % len(choosable) if count == 1 else max(0, min(at, len(choosable) - 1))
+        self.list.setCurrentRow(choosable[at])
+
+    def _choose(self, item: QListWidgetItem | None) -> None:
+        option: Option | None = item.data(_OPTION) if item is not None else None
+        if option is None:
+            if self.is_free:
+                self._editors.close()
+        elif option.action:
+            self.act(option.action)
+        elif self.try_set(option.value):
+            self._editors.close()
+
+    def _on_typed(self, typed: str) -> None:
+        self.fill(typed)
+        if self.is_free and typed:
+            self.try_set(typed)
+
+    def _on_row(self, item: QListWidgetItem | None) -> None:
+        if item is not None and self.isVisible():
+            self._editors.canvas.announced.emit(item.data(Qt.ItemDataRole.AccessibleTextRole) or "")
+
+
+class StatePopup(ChoicePopup):
+    """A human state: one that is known, or any word that a node will say."""
+
+    is_free = True
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors, edit, title)
+        self.search.setText(str(edit.value or ""))
+        self.search.selectAll()
+        self.search.setPlaceholderText(tr("Type a state, or choose one"))

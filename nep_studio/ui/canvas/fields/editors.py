@@ -1,0 +1,247 @@
+"""Opens the editor of a field over the canvas."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, cast
+
+from PySide6.QtCore import QEvent, QObject
+from PySide6.QtGui import QHelpEvent
+from PySide6.QtWidgets import QToolTip
+
+from nep_studio.ui.words import tr
+
+from . import buttons
+from .angle_popup import AnglePopup
+from .choice_popup import ChoicePopup, StatePopup
+from .colour_popup import ColourPopup
+from .comments import Comments
+from .date_popup import DatePopup
+from .field_edit import Editing, FieldEdit, ParameterEdit
+from .file_popup import FilePopup
+from .line_editor import LineEditor
+from .lines_editor import LinesEditor
+from .naming_popups import RobotPopup, VariablePopup
+from .number_popups import DurationPopup, SliderPopup
+from .order import Place, field_after
+from .places import page_rect_of
+from .settings_popup import SettingsPopup
+from .titles import hint_of, title_of
+
+if TYPE_CHECKING:
+    from ..canvas import Canvas
+
+
+class OpenEditor(Protocol):
+    """A widget that edits one field."""
+
+    edit: Editing
+
+    def show_editor(self) -> None:
+        """Begin to edit."""
+
+    def follow(self) -> None:
+        """Stay at the field when the view moves or the block changes."""
+
+    def dispose(self) -> None:
+        """Go away; the value is kept or restored by others."""
+
+
+_EDITORS: dict[str, type] = {
+    "lines": LinesEditor,
+    "choice": ChoicePopup,
+    "gesture": ChoicePopup,
+    "robot": RobotPopup,
+    "variable": VariablePopup,
+    "state": StatePopup,
+    "colour": ColourPopup,
+    "angle": AnglePopup,
+    "slider": SliderPopup,
+    "duration": DurationPopup,
+    "date": DatePopup,
+    "file": FilePopup,
+    "settings": SettingsPopup,
+}
+"""The editors of the kinds of slot; the others are typed in a line."""
+
+MOST_RECENT_COLOURS = 6
+
+
+class FieldEditors(QObject):
+    """The editors of one canvas; one at most is open.
+
+    ``project_folder`` is where the project's file is: paths inside it are kept short.
+    """
+
+    def __init__(self, canvas: Canvas) -> None:
+        super().__init__(canvas)
+        self.canvas = canvas
+        self.project_folder: Path | None = None
+        self.recent_colours: list[str] = []
+        self.comments = Comments(canvas)
+        self._open: OpenEditor | None = None
+        canvas.view_changed.connect(self._follow)
+        canvas.layout_changed.connect(self._follow)
+        canvas.page_changed.connect(self.close)
+        canvas.viewport().installEventFilter(self)
+
+    @property
+    def place(self) -> Place | None:
+        """The block and field that are edited now."""
+        return (self._open.edit.block, self._open.edit.key) if self._open is not None else None
+
+    @property
+    def widget(self) -> OpenEditor | None:
+        """The editor that is open."""
+        return self._open
+
+    def open(self, block: str, key: str) -> bool:
+        """Edit the field ``key`` of a block; False when it has no editor."""
+        self.close()
+        edit = self.edit_of(block, key)
+        if edit is None:
+            return False
+        if edit.slot.kind.name == "checkbox":
+            return self._toggle(edit)
+        rect = page_rect_of(self.canvas, block, key)
+        if rect is None:
+            return False
+        self.canvas.show_rect(rect)
+        self._open = self._new(edit)
+        self._open.show_editor()
+        return True
+
+    def edit_of(self, block: str, key: str) -> Editing | None:
+        """The editing of a field, or None where nothing can be edited."""
+        editor = self.canvas.editor
+        there = editor.project.blocks.get(block)
+        definition = editor.language.definitions.get(there.type) if there is not None else None
+        if there is None or definition is None or key in there.inputs:
+            return None
+        slot = definition.slot(key, there.groups)
+        if slot is None:
+            return None
+        if slot.kind.name == "parameter":
+            return ParameterEdit(editor, block, key, slot)
+        return FieldEdit(editor, block, key, slot) if slot.kind.typed else None
+
+    def press_button(self, block: str, action: str, group: str, number: int) -> None:
+        """Do what a button inside a block says: add, remove, expand, comment."""
+        self.close()
+        if action == "add":
+            buttons.add(self.canvas, block, group)
+        elif action == "remove":
+            buttons.remove(self.canvas, block, group, number)
+        elif action == "expand":
+            buttons.expand(self.canvas, block)
+        elif action == "comment":
+            self.comments.toggle(block)
+
+    def close(self) -> None:
+        """Keep what was typed, and take the editor away."""
+        if self._open is not None:
+            self._end(restore=False)
+
+    def close_if(self, widget: OpenEditor) -> None:
+        """Keep what was typed in an editor that lost the keyboard, if it is still the open one."""
+        if widget is self._open:
+            self.close()
+
+    def cancel(self) -> None:
+        """Make the field as it was, and take the editor away."""
+        if self._open is not None:
+            self._end(restore=True)
+
+    def go(self, *, forward: bool) -> None:
+        """Keep what was typed, and edit the next field, or the one before."""
+        place = self.place
+        if place is None:
+            return
+        self.close()
+        editor = self.canvas.editor
+        while place is not None:
+            place = field_after(editor.project, editor.language, place, forward=forward)
+            if place is not None and self.open(*place):
+                self.canvas.selection.set([place[0]], place[0])
+                return
+
+    def move_item(self, down: bool) -> None:
+        """Move the part of the block in which the edited field is, and edit it there."""
+        place = self.place
+        if place is None:
+            return
+        self.close()
+        key = buttons.move_item(self.canvas, *place, down=down)
+        self.open(place[0], key or place[1])
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """A press on the canvas keeps what was typed; resting over a field tells what it takes."""
+        if event.type() == QEvent.Type.MouseButtonPress:
+            self.close()
+            self.comments.close()
+        elif event.type() == QEvent.Type.ToolTip:
+            return self._tell_tip(cast(QHelpEvent, event))
+        elif event.type() == QEvent.Type.Resize:
+            self._follow()
+        return False
+
+    def _new(self, edit: Editing) -> OpenEditor:
+        kind, title = edit.slot.kind.name, title_of(edit.slot)
+        made = _EDITORS.get(kind, LineEditor)
+        language, block = self.canvas.editor.language, self.canvas.editor.project.blocks[edit.block]
+        is_open_choice = kind in ("choice", "gesture")
+        if is_open_choice and not language.choices_of(edit.slot, block, edit.key):
+            made = LineEditor
+        return cast(OpenEditor, made(self, edit, title))
+
+    def _toggle(self, edit: Editing) -> bool:
+        edit.set(not edit.value)
+        edit.end()
+        self.canvas.announced.emit(tr("on") if edit.value else tr("off"))
+        return True
+
+    def _end(self, *, restore: bool) -> None:
+        closing, self._open = self._open, None
+        assert closing is not None
+        if restore:
+            closing.edit.restore()
+        self.canvas.attempt(closing.edit.end)
+        if not restore and closing.edit.slot.kind.name == "colour":
+            self._remember(str(closing.edit.value))
+        closing.dispose()
+        self.canvas.setFocus()
+
+    def _remember(self, colour: str) -> None:
+        recent = [c for c in self.recent_colours if c != colour]
+        self.recent_colours = [colour, *recent][:MOST_RECENT_COLOURS]
+
+    def _follow(self) -> None:
+        if self._open is None:
+            return
+        edit = self._open.edit
+        if page_rect_of(self.canvas, edit.block, edit.key) is None:
+            self.close()
+        else:
+            self._open.follow()
+
+    def _tell_tip(self, event: QHelpEvent) -> bool:
+        hit = self.canvas.hit(event.pos())
+        editor = self.canvas.editor
+        block = editor.project.blocks.get(hit.block) if hit is not None else None
+        definition = editor.language.definitions.get(block.type) if block is not None else None
+        if hit is None or hit.piece is None or block is None or definition is None:
+            QToolTip.hideText()
+            return False
+        slot = definition.slot(hit.piece.key, block.groups)
+        words = hint_of(slot) if slot is not None else _BUTTON_TIPS.get(hit.piece.kind, "")
+        QToolTip.showText(event.globalPos(), tr(words) if words else "", self.canvas.viewport())
+        return True
+
+
+_BUTTON_TIPS = {
+    "add": "Add a part",
+    "remove": "Remove this part",
+    "expand": "Show what is folded",
+    "comment": "Show the comment",
+}
+

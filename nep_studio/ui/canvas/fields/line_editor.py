@@ -1,0 +1,171 @@
+"""One line of text or a number, typed right in the field."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QRect, Qt
+from PySide6.QtGui import QFocusEvent, QKeyEvent
+from PySide6.QtWidgets import QLabel, QLineEdit
+
+from nep_studio.blocks.values import FieldValue
+from nep_studio.ui.words import tr
+
+from ..boxes import Outline
+from .field_edit import Editing
+from .looks import line_style, note_style
+from .numbers import is_number, number_text, result_text, stepped, typed_number
+from .places import beside, editor_font, editor_scale, view_rect_of
+from .reason import ReasonBubble
+
+if TYPE_CHECKING:
+    from .editors import FieldEditors
+
+NUMBERS = frozenset({"number", "angle", "slider", "duration"})
+_KEPT_FOCUS = (
+    Qt.FocusReason.PopupFocusReason,
+    Qt.FocusReason.ActiveWindowFocusReason,
+    Qt.FocusReason.MenuBarFocusReason,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How what is typed becomes a value, and a value text."""
+
+    read: Callable[[str], FieldValue]
+    write: Callable[[object], str]
+    is_number: bool = False
+
+
+def reading_of(kind: str) -> Reading:
+    """How fields of a kind are read and written."""
+    if kind in NUMBERS:
+        return Reading(typed_number, number_text, is_number=True)
+    if kind == "any":
+        return Reading(_number_or_text, number_text)
+    return Reading(str, lambda value: "" if value is None else str(value))
+
+
+def _number_or_text(text: str) -> FieldValue:
+    return typed_number(text) if is_number(text) else text
+
+
+class LineEditor(QLineEdit):
+    """A line over a field; sets the field at each key."""
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors.canvas.viewport())
+        self.edit, self._editors = edit, editors
+        self._reading = reading_of(edit.slot.kind.name)
+        self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
+        self.result = QLabel(editors.canvas.viewport())
+        self.result.setStyleSheet(note_style(editors.canvas))
+        self.result.hide()
+        self.setAccessibleName(title)
+        self.setText(self._reading.write(edit.value))
+        self.selectAll()
+        self.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.textEdited.connect(self._on_edited)
+        self._tell_result()
+
+    def follow(self) -> None:
+        """Stay over the field."""
+        rect = view_rect_of(self._editors.canvas, self.edit.block, self.edit.key)
+        if rect is None:
+            return
+        canvas = self._editors.canvas
+        outline: Outline | str = self.edit.slot.kind.shape
+        self.setFont(editor_font(canvas))
+        self.setStyleSheet(line_style(canvas, outline, is_wrong=bool(self.reason.text)))
+        unit = canvas.measures.unit * editor_scale(canvas)
+        text = self.fontMetrics().horizontalAdvance(self.text()) + 24 * unit
+        room = canvas.viewport().rect()
+        width = round(min(max(rect.width(), text, 40 * unit), room.width()))
+        height = round(canvas.measures.field_height * editor_scale(canvas))
+        left = rect.right() - width if canvas.measures.is_mirrored else rect.left()
+        left = max(0.0, min(left, room.width() - width))
+        self.setGeometry(round(left), round(rect.center().y() - height / 2), width, height)
+        self._place_notes()
+
+    def show_editor(self) -> None:
+        """Begin to edit."""
+        self.follow()
+        self.show()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def dispose(self) -> None:
+        """Go away."""
+        for widget in (self.reason, self.result, self):
+            widget.hide()
+            widget.deleteLater()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter keeps, Esc restores, Up and Down count; the rest is typed."""
+        key = event.key()
+        if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self._editors.close()
+        elif key == Qt.Key.Key_Escape:
+            self._editors.cancel()
+        elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
+            self._step(event, 1 if key == Qt.Key.Key_Up else -1)
+        else:
+            super().keyPressEvent(event)
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        """Tab goes from field to field."""
+        self._editors.go(forward=forward)
+        return True
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """A press elsewhere keeps what was typed."""
+        super().focusOutEvent(event)
+        if event.reason() not in _KEPT_FOCUS:
+            self._editors.close_if(self)
+
+    def _step(self, event: QKeyEvent, sign: int) -> None:
+        modifiers = event.modifiers()
+        if modifiers & Qt.KeyboardModifier.AltModifier:
+            self._editors.move_item(sign < 0)
+            return
+        if not (self._reading.is_number or isinstance(self.edit.value, int | float)):
+            return
+        step = 10 if modifiers & Qt.KeyboardModifier.ShiftModifier else 1
+        self.setText(number_text(stepped(self.edit.value, sign * step)))
+        self._on_edited(self.text())
+
+    def _on_edited(self, text: str) -> None:
+        reason = self.edit.set(self._reading.read(text))
+        if reason != self.reason.text:
+            self.reason.tell(reason)
+            self.setAccessibleDescription(reason)
+            if reason:
+                self._editors.canvas.announced.emit(reason)
+        self._tell_result()
+        self.follow()
+
+    def _tell_result(self) -> None:
+        shown = result_text(self.text()) if self._reading.is_number else ""
+        self.result.setText(shown)
+        self.result.setVisible(bool(shown))
+        if shown:
+            self.result.setAccessibleName(tr("The value is {value}", value=shown.lstrip("= ")))
+
+    def _place_notes(self) -> None:
+        canvas, field = self._editors.canvas, self.geometry()
+        is_mirrored = canvas.measures.is_mirrored
+        if not self.result.isHidden():
+            self.result.adjustSize()
+            size = self.result.size()
+            left = field.left() - size.width() - 4 if is_mirrored else field.right() + 5
+            top = field.center().y() - size.height() // 2
+            self.result.move(left, top)
+            self.result.raise_()
+        if self.reason.text:
+            room = QRect(canvas.viewport().rect())
+            corner = beside(field, self.reason.sizeHint(), room, is_mirrored=is_mirrored)
+            self.reason.resize(self.reason.sizeHint())
+            self.reason.move(corner)
+            self.reason.raise_()

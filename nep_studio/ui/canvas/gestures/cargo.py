@@ -1,0 +1,213 @@
+"""What a person carries: blocks of the page, or new ones from elsewhere."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
+from nep_studio.blocks.operations.copying import Clip
+from nep_studio.blocks.operations.deleting import delete
+from nep_studio.blocks.operations.enclosing import enclose, why_not_enclose
+from nep_studio.blocks.operations.moving import (
+    Carried,
+    create_and_drop,
+    drop,
+    move_by,
+    pick_up,
+    why_not_create,
+    why_not_drop,
+)
+from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.operations.selection import members
+
+from ..boxes import Chain
+from ..index import Rect
+from ..layout import Layout
+from ..snapping import Ends, Point, Target, ends_of
+
+if TYPE_CHECKING:
+    from ..canvas import Canvas
+
+
+class Cargo(ABC):
+    """Blocks that are carried: how they look, where they fit, what a drop does.
+
+    ``chains`` are laid out where the blocks were picked up; ``hidden`` are the blocks that the
+    page does not show meanwhile.
+    """
+
+    chains: list[Chain]
+    hidden: frozenset[str] = frozenset()
+
+    @property
+    def bounds(self) -> Rect:
+        """The rectangle around all of it, where it was picked up."""
+        rect = bounds_of(self.chains[0])
+        for chain in self.chains[1:]:
+            rect = rect.united(bounds_of(chain))
+        return rect
+
+    @property
+    def ends(self) -> Ends:
+        """Where it can be joined to others: nowhere when it is several stacks."""
+        return ends_of(self.chains[0]) if len(self.chains) == 1 else Ends()
+
+    @property
+    def count(self) -> int:
+        """How many blocks it is, without those inside them."""
+        return sum(len(chain.boxes) for chain in self.chains)
+
+    @abstractmethod
+    def why_not(self, canvas: Canvas, target: Target) -> str | None:
+        """Why it does not fit into a place, or None when it does."""
+
+    @abstractmethod
+    def why_not_on_page(self, canvas: Canvas) -> str | None:
+        """Why it cannot lie on the page that is shown, or None when it can."""
+
+    @abstractmethod
+    def join(self, canvas: Canvas, target: Target, beside: Point, at: Point | None) -> list[str]:
+        """Drop it into a place, as one step; gives the blocks to select. Raises EditRefused."""
+
+    @abstractmethod
+    def put(self, canvas: Canvas, dx: float, dy: float) -> list[str]:
+        """Drop it on the page, so far from where it was picked up; gives the blocks to select."""
+
+    @abstractmethod
+    def throw_away(self, canvas: Canvas) -> Clip | None:
+        """Drop it where blocks are deleted; gives what was deleted of the program."""
+
+
+class PickedUp(Cargo):
+    """Blocks of the page."""
+
+    def __init__(self, canvas: Canvas, carried: Carried, selected: Collection[str] = ()) -> None:
+        project, layout = canvas.editor.project, canvas.page_layout.layout
+        self._carried = carried
+        self._selected = list(selected) or [carried.first]
+        self._at: dict[str, Point] = {}
+        self.chains, hidden = [], list[str]()
+        for run in carried.runs:
+            blocks = members(project, run)
+            chain = layout.chain(blocks, shown=True)
+            chain.x, chain.y = _corner(canvas, run.first)
+            self._at[run.first] = chain.x, chain.y
+            self.chains.append(chain)
+            hidden += blocks
+        self.hidden = frozenset(hidden)
+
+    def why_not(self, canvas: Canvas, target: Target) -> str | None:
+        """Why it does not fit into a place, or None when it does."""
+        if target.run is not None:
+            block_type = canvas.editor.project.blocks[self._carried.first].type
+            return why_not_enclose(canvas.editor, block_type, target.run)
+        return why_not_drop(canvas.editor, self._carried, target.place, wrap=target.is_around)
+
+    def why_not_on_page(self, canvas: Canvas) -> str | None:
+        """Blocks of a page can lie on it."""
+        return None
+
+    def join(self, canvas: Canvas, target: Target, beside: Point, at: Point | None) -> list[str]:
+        """Move the blocks into a place."""
+        editor, wrap = canvas.editor, target.is_around
+        if target.run is not None:
+            enclose(editor, self._carried.first, target.run)
+        else:
+            drop(editor, self._carried, target.place, wrap=wrap, beside=beside, at=at)
+        return self._selected
+
+    def put(self, canvas: Canvas, dx: float, dy: float) -> list[str]:
+        """Move the blocks on their page."""
+        move_by(canvas.editor, self.hidden, dx, dy, self._at)
+        return self._selected
+
+    def throw_away(self, canvas: Canvas) -> Clip | None:
+        """Delete the blocks."""
+        return delete(canvas.editor, self.hidden)
+
+
+class NewBlocks(Cargo):
+    """Blocks that are not in the program yet: from the palette, or copies."""
+
+    def __init__(self, canvas: Canvas, clip: Clip, at: Point, *, hold: Point | None = None) -> None:
+        """Hold the blocks with their corner at ``at``, or by a point inside them there."""
+        self._clip = clip
+        project = clip.project
+        self.layout = Layout(project, canvas.editor.language.of(project), canvas.measures)
+        left, top = clip.corner
+        self.chains = []
+        for stack in clip.stacks:
+            chain = self.layout.chain(stack.body)
+            chain.x, chain.y = at[0] + stack.x - left, at[1] + stack.y - top
+            self.chains.append(chain)
+        self._at = at
+        if hold is not None:
+            self._hold(canvas, hold)
+
+    def _hold(self, canvas: Canvas, hold: Point) -> None:
+        """Shift the blocks so that a point of the first one is where its corner was."""
+        box = self.chains[0].boxes[0]
+        side = 1 if canvas.measures.is_mirrored else -1
+        dx, dy = side * min(hold[0], box.width / 2), -min(hold[1], box.height / 2)
+        for chain in self.chains:
+            chain.x, chain.y = chain.x + dx, chain.y + dy
+        self._at = self._at[0] + dx, self._at[1] + dy
+
+    def why_not(self, canvas: Canvas, target: Target) -> str | None:
+        """Why it does not fit into a place, or None when it does."""
+        if target.run is not None:
+            block_type = self._clip.project.blocks[self._clip.roots[0][0]].type
+            return why_not_enclose(canvas.editor, block_type, target.run)
+        return why_not_create(canvas.editor, self._clip, target.place, wrap=target.is_around)
+
+    def why_not_on_page(self, canvas: Canvas) -> str | None:
+        """Why blocks of another page cannot lie on this one."""
+        place = canvas.editor.new_stack(canvas.page, 0, 0)
+        single = len(self._clip.stacks) == 1
+        return why_not_create(canvas.editor, self._clip, place) if single else None
+
+    def join(self, canvas: Canvas, target: Target, beside: Point, at: Point | None) -> list[str]:
+        """Make the blocks in a place."""
+        editor, clip, wrap = canvas.editor, self._clip, target.is_around
+        if target.run is None:
+            new = create_and_drop(editor, clip, target.place, wrap=wrap, beside=beside, at=at)
+            return [new[0]]
+        with editor.transaction("add blocks"):
+            [first] = create_and_drop(editor, clip, editor.new_stack(canvas.page, *beside))
+            enclose(editor, first, target.run)
+        return [first]
+
+    def put(self, canvas: Canvas, dx: float, dy: float) -> list[str]:
+        """Make the blocks on the page."""
+        x, y = self._at[0] + dx, self._at[1] + dy
+        return list(paste(canvas.editor, self._clip, canvas.page, x, y))
+
+    def throw_away(self, canvas: Canvas) -> Clip | None:
+        """Let them go: they have never been in the program."""
+        return None
+
+
+def lift(canvas: Canvas, block: str, *, alone: bool = False) -> PickedUp:
+    """Pick up a block with all below it, or alone, or the selection that it is one of."""
+    selected = canvas.selection.ids if block in canvas.selection and not alone else ()
+    if len(selected) == 1:
+        selected = ()
+    carried = pick_up(canvas.editor.project, block, alone=alone, selected=selected)
+    return PickedUp(canvas, carried, selected)
+
+
+def bounds_of(chain: Chain) -> Rect:
+    """The rectangle around a chain whose x and y are on the page."""
+    left = chain.x - chain.width if chain.is_mirrored else chain.x
+    return Rect(left, chain.y, chain.width, chain.height)
+
+
+def _corner(canvas: Canvas, block: str) -> Point:
+    """Where a chain begins on the page whose first block this is."""
+    placed = canvas.page_layout.placed(block)
+    if placed is None:  # on another page, or inside a collapsed block
+        stack = canvas.editor.project.stack_of(block)
+        return stack.x, stack.y
+    x = placed.x + placed.box.width if placed.box.is_mirrored else placed.x
+    return x, placed.y

@@ -1,0 +1,127 @@
+"""Which stacks are near a place: a grid of squares, each with the stacks that touch it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+SQUARE = 512.0
+"""How wide a square of the grid is, in canvas units."""
+
+MOST_SQUARES = 400
+"""A stack that touches more squares is kept apart, and looked at each time."""
+
+
+class Rect(NamedTuple):
+    """A rectangle in canvas units."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+    @property
+    def right(self) -> float:
+        """Its right side."""
+        return self.x + self.width
+
+    @property
+    def bottom(self) -> float:
+        """Its lower side."""
+        return self.y + self.height
+
+    def touches(self, other: Rect) -> bool:
+        """Whether the two have a point in common."""
+        return (
+            self.x <= other.right
+            and other.x <= self.right
+            and self.y <= other.bottom
+            and other.y <= self.bottom
+        )
+
+    def holds(self, x: float, y: float) -> bool:
+        """Whether a point is inside."""
+        return self.x <= x <= self.right and self.y <= y <= self.bottom
+
+    def grown(self, by: float) -> Rect:
+        """This rectangle with a margin on all sides."""
+        return Rect(self.x - by, self.y - by, self.width + 2 * by, self.height + 2 * by)
+
+    def united(self, other: Rect) -> Rect:
+        """The smallest rectangle around both."""
+        x, y = min(self.x, other.x), min(self.y, other.y)
+        right, bottom = max(self.right, other.right), max(self.bottom, other.bottom)
+        return Rect(x, y, right - x, bottom - y)
+
+
+Square = tuple[int, int]
+
+
+class GridIndex:
+    """Rectangles by name."""
+
+    def __init__(self) -> None:
+        self._squares: dict[Square, dict[str, None]] = {}
+        self._rects: dict[str, Rect] = {}
+        self._large: dict[str, None] = {}
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._rects
+
+    def rect(self, name: str) -> Rect:
+        """The rectangle of a name."""
+        return self._rects[name]
+
+    def set(self, name: str, rect: Rect) -> None:
+        """Put a rectangle in, or put it elsewhere."""
+        self.remove(name)
+        self._rects[name] = rect
+        squares = _squares(rect)
+        if len(squares) > MOST_SQUARES:
+            self._large[name] = None
+            return
+        for square in squares:
+            self._squares.setdefault(square, {})[name] = None
+
+    def remove(self, name: str) -> None:
+        """Take a rectangle out, if it is there."""
+        rect = self._rects.pop(name, None)
+        if rect is None:
+            return
+        if name in self._large:
+            del self._large[name]
+            return
+        for square in _squares(rect):
+            names = self._squares[square]
+            del names[name]
+            if not names:
+                del self._squares[square]
+
+    def near(self, rect: Rect) -> Iterator[str]:
+        """The names whose rectangles touch this one."""
+        found = dict(self._large)
+        squares = _squares(rect)
+        if len(squares) > len(self._squares):
+            found.update(dict.fromkeys(self._rects))
+        else:
+            for square in squares:
+                found.update(self._squares.get(square, {}))
+        return (name for name in found if self._rects[name].touches(rect))
+
+    def bounds(self) -> Rect | None:
+        """The rectangle around all of them, or None when there is none."""
+        rects = self._rects.values()
+        if not rects:
+            return None
+        x, y = min(r.x for r in rects), min(r.y for r in rects)
+        right, bottom = max(r.right for r in rects), max(r.bottom for r in rects)
+        return Rect(x, y, right - x, bottom - y)
+
+
+def _squares(rect: Rect) -> list[Square]:
+    first_x, last_x = int(rect.x // SQUARE), int(rect.right // SQUARE)
+    first_y, last_y = int(rect.y // SQUARE), int(rect.bottom // SQUARE)
+    if (last_x - first_x + 1) * (last_y - first_y + 1) > 2 * MOST_SQUARES:
+        last_y = first_y + 2 * MOST_SQUARES  # enough to be seen as large
+        last_x = first_x
+    return [(x, y) for x in range(first_x, last_x + 1) for y in range(first_y, last_y + 1)]

@@ -1,0 +1,1 @@
+"""The canvas without a mouse: moving between blocks, picking up and placing."""

@@ -1,0 +1,173 @@
+"""Paint what is inside a block: words, fields, sockets and buttons."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QColor, QFont, QPainter, QPen
+
+from nep_studio.ui.theme import BlockColours, Theme
+
+from .boxes import Piece
+from .geometry import Outlines
+from .marks import paint_mark, paint_sign, round_pen
+from .measures import Measures
+from .pieces import HINT_SIZE
+from .slot_looks import LEADS, OPENS
+from .texts import Texts
+
+
+class PiecePainter:
+    """Paints the pieces of boxes."""
+
+    def __init__(self, theme: Theme, outlines: Outlines, measures: Measures) -> None:
+        self._theme = theme
+        self._outlines = outlines
+        self._measures = measures
+        self._texts = Texts()
+        self._hints = Texts()
+        self._hint_font: QFont | None = None
+        self._shades: dict[int, QColor] = {}
+
+    def paint(
+        self, painter: QPainter, piece: Piece, colours: BlockColours, *, with_text: bool
+    ) -> None:
+        """Paint one piece; the painter's origin is the block's corner."""
+        if piece.piece == "words":
+            if with_text:
+                painter.setPen(colours.text)
+                painter.drawStaticText(QPointF(piece.x, piece.y), self._texts.of(piece.text))
+        elif piece.piece == "field":
+            self._field(painter, piece, colours, with_text)
+        elif piece.piece == "socket":
+            self._shape(painter, piece, self._darker(colours.fill), colours.line)
+            if with_text and piece.hint:
+                self._hint(painter, piece, colours.text, piece.x, piece.width)
+        elif with_text:
+            self._button(painter, piece, colours)
+
+    def _shape(self, painter: QPainter, piece: Piece, fill: QColor, line: QColor) -> None:
+        painter.setPen(QPen(line, self._measures.unit))
+        painter.setBrush(fill)
+        painter.translate(piece.x, piece.y)
+        painter.drawPath(self._outlines.slot(piece.shape, piece.width, piece.height))
+        painter.translate(-piece.x, -piece.y)
+
+    def _field(
+        self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
+    ) -> None:
+        kind = piece.kind
+        if kind == "parameter":
+            self._pill(painter, piece, colours, with_text)
+            return
+        fill = QColor(piece.text) if kind == "colour" and piece.text else colours.field
+        self._shape(painter, piece, fill, colours.field_line)
+        if not with_text:
+            return
+        lead = self._measures.line * 0.95 if kind in LEADS else 0.0
+        trail = self._measures.line * 0.75 if kind in OPENS else 0.0
+        if lead or trail or kind in ("checkbox", "slider"):
+            self._marks(painter, piece, fill, colours)
+        if kind in ("colour", "checkbox"):
+            return
+        left = piece.x + (trail if self._measures.is_mirrored else lead)
+        room = piece.width - lead - trail
+        if piece.text:
+            painter.setPen(colours.field_text)
+            self._centred(painter, piece, left, room)
+        elif piece.hint:
+            self._hint(painter, piece, self._faint(colours.field_text), left, room)
+
+    def _centred(self, painter: QPainter, piece: Piece, left: float, room: float) -> None:
+        line = self._measures.line
+        if "\n" not in piece.text:
+            width = self._measures.text_width(piece.text)
+            top = piece.y + (piece.height - line) / 2
+            place = QPointF(left + (room - width) / 2, top)
+            painter.drawStaticText(place, self._texts.of(piece.text))
+            return
+        rows, pad = piece.text.split("\n"), self._measures.field_pad
+        top = piece.y + (piece.height - line * len(rows)) / 2
+        for number, row in enumerate(rows):
+            width = self._measures.text_width(row)
+            x = left + room - pad - width if self._measures.is_mirrored else left + pad
+            painter.drawStaticText(QPointF(x, top + number * line), self._texts.of(row))
+
+    def _hint(
+        self, painter: QPainter, piece: Piece, colour: QColor, left: float, room: float
+    ) -> None:
+        """Faint small words in an empty place."""
+        usual = painter.font()
+        if self._hint_font is None:
+            self._hint_font = QFont(usual)
+            self._hint_font.setPointSizeF(usual.pointSizeF() * HINT_SIZE)
+        width = self._measures.text_width(piece.hint) * HINT_SIZE
+        height = self._measures.line * HINT_SIZE
+        painter.setFont(self._hint_font)
+        painter.setPen(colour)
+        place = QPointF(left + (room - width) / 2, piece.y + (piece.height - height) / 2)
+        painter.drawStaticText(place, self._hints.of(piece.hint))
+        painter.setFont(usual)
+
+    def _pill(
+        self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
+    ) -> None:
+        """A parameter looks like the block that is dragged out of it."""
+        self._shape(painter, piece, self._darker(colours.fill), colours.text)
+        if with_text:
+            painter.setPen(colours.text)
+            self._centred(painter, piece, piece.x, piece.width)
+
+    def _marks(
+        self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours
+    ) -> None:
+        """The little drawings in a field: arrow, tick, dial, file, bar."""
+        rect = QRectF(piece.x, piece.y, piece.width, piece.height)
+        unit, is_mirrored = self._measures.unit, self._measures.is_mirrored
+        if piece.kind in OPENS:
+            paint_mark(painter, "arrow", rect, fill, colours, unit, is_mirrored=is_mirrored)
+        if piece.kind in ("angle", "file", "slider", "checkbox"):
+            paint_mark(
+                painter,
+                piece.kind,
+                rect,
+                fill,
+                colours,
+                unit,
+                is_mirrored=is_mirrored,
+                amount=piece.amount,
+            )
+
+    def _button(self, painter: QPainter, piece: Piece, colours: BlockColours) -> None:
+        """A round button with a sign, and a label beside it when it has one."""
+        size, unit = piece.height, self._measures.unit
+        x = piece.x + (piece.width - size if self._measures.is_mirrored else 0.0)
+        circle = QRectF(x, piece.y, size, size).adjusted(unit, unit, -unit, -unit)
+        painter.setPen(QPen(colours.text, 1.2 * unit))
+        painter.setBrush(self._darker(colours.fill))
+        painter.drawEllipse(circle)
+        painter.setPen(round_pen(colours.text, 2 * unit))
+        mirrored = self._measures.is_mirrored
+        paint_sign(painter, piece.kind, circle.center(), size * 0.24, is_mirrored=mirrored)
+        if piece.text:
+            width = self._measures.text_width(piece.text)
+            beside = piece.x if mirrored else piece.x + piece.width - width
+            y = piece.y + (size - self._measures.line) / 2
+            painter.drawStaticText(QPointF(beside, y), self._texts.of(piece.text))
+
+    def _darker(self, colour: QColor) -> QColor:
+        """A shade deeper than the block: a hole in it."""
+        key = colour.rgba()
+        shade = self._shades.get(key)
+        if shade is None:
+            is_black = colour.lightnessF() <= 0.12
+            shade = colour.lighter(180) if is_black else colour.darker(128)
+            self._shades[key] = shade
+        return shade
+
+    def _faint(self, colour: QColor) -> QColor:
+        """The colour of a hint on a field."""
+        faint = QColor(colour)
+        faint.setAlphaF(0.66)
+        return faint
+
+

@@ -1,0 +1,140 @@
+"""A view of a page that can be scrolled and zoomed."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QScrollBar
+
+from .index import Rect
+from .measures import Measures
+from .page import Placed
+from .view import PageView
+
+MARGIN = 160.0
+"""How far a page can be scrolled past its last block, in pixels."""
+
+
+class ScrollingView(PageView):
+    """Moves the camera: by scroll bars, to a block, to the whole page."""
+
+    _is_scrolling = False
+
+    def move_camera(self, x: float, y: float, *, margin: float = 0.0) -> None:
+        """Look at a place of the page with the view's corner, ``margin`` pixels inside it."""
+        self.camera.x = x - margin / self.camera.scale
+        self.camera.y = y - margin / self.camera.scale
+        self._camera_moved()
+
+    def pan(self, dx: float, dy: float) -> None:
+        """Move the view by pixels."""
+        scale = self.camera.scale
+        self.move_camera(self.camera.x + dx / scale, self.camera.y + dy / scale)
+
+    def zoom(self, scale: float, at: QPointF | None = None) -> None:
+        """Zoom, so that a point of the view (its middle) stays where it is."""
+        centre = at if at is not None else QPointF(self.viewport().rect().center())
+        self.camera.zoom_at(centre, scale)
+        self.sharpen.start()
+        self._camera_moved()
+
+    def fit(self, rect: Rect | None = None) -> None:
+        """Zoom and move so that the whole page (or a part of it) can be seen."""
+        whole = rect or self.page_layout.bounds()
+        if whole is None:
+            return
+        view, room = self.viewport().size(), 32.0
+        wide = (view.width() - 2 * room) / max(whole.width, 1.0)
+        high = (view.height() - 2 * room) / max(whole.height, 1.0)
+        self.zoom(min(wide, high, 1.0))
+        left = whole.x + whole.width / 2 - view.width() / 2 / self.camera.scale
+        top = whole.y + whole.height / 2 - view.height() / 2 / self.camera.scale
+        self.move_camera(left, top)
+
+    def show_block(self, block_id: str) -> None:
+        """Scroll, and change the page, so that a block can be seen."""
+        project = self.editor.project
+        if block_id not in project.blocks:
+            return
+        self.show_page(project.page_of(project.stack_of(block_id).id))
+        placed = self.page_layout.placed(block_id)
+        if placed is not None:
+            self.show_rect(_head(placed, self.measures))
+
+    def show_rect(self, rect: Rect) -> None:
+        """Scroll just so far that a part of the page can be seen."""
+        seen = self.visible_page_rect()
+        margin = 24.0 / self.camera.scale
+        dx = _shift(seen.x + margin, seen.right - margin, rect.x, rect.right)
+        dy = _shift(seen.y + margin, seen.bottom - margin, rect.y, rect.bottom)
+        if dx or dy:
+            self.move_camera(self.camera.x + dx, self.camera.y + dy)
+
+    def _camera_moved(self) -> None:
+        self.camera.align(self.devicePixelRatioF())
+        self.update_scroll_bars()
+        self.viewport().update()
+        self.view_changed.emit()
+
+    def show_page(self, page: str) -> None:
+        """Show another page, from its beginning."""
+        if page == self.page:
+            return
+        super().show_page(page)
+        bounds = self.page_layout.bounds()
+        corner = (bounds.x, bounds.y) if bounds is not None else (0.0, 0.0)
+        self.move_camera(*corner, margin=24.0)
+
+    def repaint_all(self) -> None:
+        """Paint everything anew; the page may be larger now."""
+        super().repaint_all()
+        self.update_scroll_bars()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take the new size."""
+        super().resizeEvent(event)
+        self.update_scroll_bars()
+
+    def update_scroll_bars(self) -> None:
+        """Let the scroll bars reach over the page, and say where the camera is."""
+        scale, view = self.camera.scale, self.viewport().size()
+        bounds = self.page_layout.bounds() or Rect(0.0, 0.0, 0.0, 0.0)
+        seen = self.visible_page_rect()
+        whole = bounds.grown(MARGIN / scale).united(seen)
+        self._is_scrolling = True
+        _set(self.horizontalScrollBar(), whole.x, whole.width, seen.x, view.width(), scale)
+        _set(self.verticalScrollBar(), whole.y, whole.height, seen.y, view.height(), scale)
+        self._is_scrolling = False
+
+    def scrollContentsBy(self, dx: int, dy: int) -> None:
+        """Follow a scroll bar."""
+        if self._is_scrolling:
+            return
+        self.camera.x = self.horizontalScrollBar().value() / self.camera.scale
+        self.camera.y = self.verticalScrollBar().value() / self.camera.scale
+        self.camera.align(self.devicePixelRatioF())
+        self.viewport().update()
+        self.view_changed.emit()
+
+
+def _set(
+    bar: QScrollBar, start: float, length: float, value: float, page: int, scale: float
+) -> None:
+    first = int(start * scale)
+    bar.setRange(first, max(first, int((start + length) * scale) - page))
+    bar.setPageStep(page)
+    bar.setSingleStep(40)
+    bar.setValue(round(value * scale))
+
+
+def _shift(low: float, high: float, start: float, end: float) -> float:
+    """How far a view from ``low`` to ``high`` must move to show what is from start to end."""
+    if start < low or end - start > high - low:
+        return start - low
+    return end - high if end > high else 0.0
+
+
+def _head(placed: Placed, measures: Measures) -> Rect:
+    """The first row of a block, which is what a person looks for."""
+    rect = placed.rect
+    return Rect(rect.x, rect.y, rect.width, min(rect.height, 2 * measures.row_height))

@@ -1,0 +1,227 @@
+"""The pane with the Python of the blocks: read it, find blocks by it, change it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
+from nep_studio.blocks.from_python.made import CodeUnread
+from nep_studio.blocks.from_python.updating import update_from_python
+from nep_studio.blocks.generate.source_map import Code
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.messages_card import MessageText
+from nep_studio.ui.theme import Look, icon
+from nep_studio.ui.words import tr
+
+from .live_code import LiveCode
+from .text_view import CodeText
+
+
+class CodePane(QWidget):
+    """Shows the code of an editor; ``block_asked`` asks to see the block of a line."""
+
+    block_asked = Signal(str)
+    applied = Signal()
+
+    def __init__(self, editor: Editor, look: Look) -> None:
+        super().__init__()
+        self._editor, self._look = editor, look
+        self._selected: tuple[str, ...] = ()
+        self._kind = "behaviour"
+        self.is_editing = False
+        self.live = LiveCode(editor, self)
+        self.text = CodeText(look, self)
+        self.note = QFrame()
+        self.note.hide()
+        self.copy_button = QPushButton(tr("Copy"))
+        self.edit_button = QPushButton(tr("Edit"))
+        self.apply_button = QPushButton(tr("Apply"))
+        self.discard_button = QPushButton(tr("Discard"))
+        self._lay_out()
+        self._connect()
+        self._on_theme_changed()
+        self._show_buttons()
+
+    def _lay_out(self) -> None:
+        self.setAccessibleName(tr("Code"))
+        self.apply_button.setProperty("kind", "primary")
+        gap = self.fontMetrics().height() // 3
+        self.buttons = QHBoxLayout()
+        self.buttons.setContentsMargins(gap, gap, gap, gap)
+        self.title = QLabel()
+        self.title.setProperty("role", "hint")
+        self.buttons.addWidget(self.title, 1)
+        for button in (self.copy_button, self.edit_button, self.discard_button, self.apply_button):
+            self.buttons.addWidget(button)
+        QVBoxLayout(self.note)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(0)
+        box.addLayout(self.buttons)
+        box.addWidget(self.note)
+        box.addWidget(self.text, 1)
+        self.text.setFrameShape(QFrame.Shape.NoFrame)
+
+    def _connect(self) -> None:
+        self.live.made.connect(self._on_code_made)
+        self.live.refused.connect(self._on_code_refused)
+        self.text.line_clicked.connect(self._on_line_clicked)
+        self.copy_button.clicked.connect(self._on_copy_clicked)
+        self.edit_button.clicked.connect(self.begin_editing)
+        self.apply_button.clicked.connect(self.apply)
+        self.discard_button.clicked.connect(self.discard)
+        self._look.theme_changed.connect(self._on_theme_changed)
+
+    # What is shown
+
+    def set_editor(self, editor: Editor) -> None:
+        """Show the code of another project."""
+        self._editor, self._selected = editor, ()
+        self._end_editing()
+        self.live.set_editor(editor)
+
+    def show_page(self, page: str) -> None:
+        """Show the code of this kind of page."""
+        kind = self._editor.project.kind_of_page(page)
+        if kind != self._kind and self.is_editing:
+            return  # the person is writing; the page may be another one meanwhile
+        self._kind = kind
+        self.live.show_page(page)
+        self._show_buttons()
+
+    def mark_blocks(self, ids: Iterable[str]) -> None:
+        """Mark the lines of the selected blocks."""
+        self._selected = tuple(ids)
+        if self.isVisible():
+            self._mark()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Work while somebody looks."""
+        super().showEvent(event)
+        self.live.set_awake(not self.is_editing)
+        self._mark()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Rest when nobody looks."""
+        super().hideEvent(event)
+        self.live.set_awake(False)
+
+    def _mark(self) -> None:
+        code = self.live.code
+        if code is None or self.is_editing:
+            return
+        lines = {line for block in self._selected for line in self._lines_of(code, block)}
+        self.text.mark_lines(sorted(lines))
+
+    def _lines_of(self, code: Code, block: str) -> Iterable[int]:
+        """The lines of a block; a value is in the lines of the statement that it belongs to."""
+        project = self._editor.project
+        while block in project.blocks:
+            lines = code.lines_of(block)
+            if lines:
+                return lines
+            block = project.parents[block].owner
+        return ()
+
+    def _on_code_made(self, code: Code) -> None:
+        if self.is_editing:
+            return
+        self.note.hide()
+        self.text.show_text(code.text)
+        self._mark()
+
+    def _on_code_refused(self, refusal: CodeRefused) -> None:
+        if self.is_editing:
+            return
+        show = Answer(tr("Show the block"), lambda: self.block_asked.emit(refusal.block), "primary")
+        self._tell(refusal, *([show] if refusal.block else []))
+
+    def _on_line_clicked(self, line: int) -> None:
+        code = self.live.code
+        block = code.block_at(line) if code is not None and not self.is_editing else None
+        if block is not None:
+            self.block_asked.emit(block)
+
+    def _on_copy_clicked(self) -> None:
+        QGuiApplication.clipboard().setText(self.text.toPlainText() + "\n")
+
+    # Changing it
+
+    def begin_editing(self) -> None:
+        """Let the person change the text."""
+        self.live.make()
+        self.is_editing = True
+        self.live.set_awake(False)
+        self.text.mark_lines(())
+        self.text.set_editable(True)
+        self.text.setFocus()
+        self._show_buttons()
+
+    def apply(self) -> None:
+        """Make the blocks what the text says; when it cannot be, nothing has changed."""
+        self.text.mark_wrong(())
+        try:
+            update_from_python(self._editor, self.text.toPlainText() + "\n")
+        except CodeUnread as error:
+            self.text.mark_wrong([error.line])
+            self._tell(error)
+            return
+        except (CodeRefused, EditRefused) as error:
+            self._tell(error)
+            return
+        self._end_editing()
+        self.applied.emit()
+
+    def discard(self) -> None:
+        """Forget what was typed."""
+        self._end_editing()
+
+    def _end_editing(self) -> None:
+        self.note.hide()
+        if not self.is_editing:
+            return
+        self.is_editing = False
+        self.text.mark_wrong(())
+        self.text.set_editable(False)
+        self._show_buttons()
+        self.live.show_page(self._kind)
+        self.live.make()
+        self.live.set_awake(self.isVisible())
+
+    def _tell(self, error: BlocksError, *answers: Answer) -> None:
+        """Say above the text what is wrong."""
+        box = self.note.layout()
+        assert box is not None
+        while (item := box.takeAt(0)) is not None:
+            item.widget().deleteLater()
+        words = Message("error", tr(error.title), tr(error.sentence), tuple(map(tr, error.checklist)))
+        box.addWidget(MessageText(words))
+        for answer in answers:
+            button = QPushButton(answer.words)
+            button.clicked.connect(lambda: answer.do())
+            box.addWidget(button)
+        self.note.setProperty("kind", "error")
+        self.note.style().unpolish(self.note)
+        self.note.style().polish(self.note)
+        self.note.show()
+
+    def _show_buttons(self) -> None:
+        can_edit = self._kind == "behaviour"
+        self.copy_button.setVisible(not self.is_editing)
+        self.edit_button.setVisible(not self.is_editing and can_edit)
+        self.apply_button.setVisible(self.is_editing)
+        self.discard_button.setVisible(self.is_editing)
+        reading = tr("Made from the blocks") if can_edit else tr("Starts the robots and nodes")
+        self.title.setText(tr("You are changing the Python") if self.is_editing else reading)
+
+    def _on_theme_changed(self) -> None:
+        theme = self._look.theme
+        self.copy_button.setIcon(icon("copy", theme))
+        self.edit_button.setIcon(icon("pencil", theme))
+        self.discard_button.setIcon(icon("x", theme))
+        self.apply_button.setIcon(icon("check", theme.colour("accent_text")))

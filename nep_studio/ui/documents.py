@@ -1,0 +1,147 @@
+"""A project that is open in a window: where its file is, and whether it is saved."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_studio import settings
+from nep_studio.blocks import files
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import RenameProject
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import Changes, Project
+from nep_studio.journal import Journal
+from nep_studio.ui.words import tr
+
+log = logging.getLogger(__name__)
+
+SUFFIX = ".nep"
+FLUSH_MS = 1500
+"""How often the journal goes to the disk: less than the two seconds that may be lost."""
+
+Stamp = tuple[int, int]
+"""When a file was changed, in ns, and its size: whether somebody else has written it."""
+
+
+class Document(QObject):
+    """An editor, its file and its journal. ``changed`` tells of its title and of being saved."""
+
+    changed = Signal()
+
+    def __init__(
+        self,
+        editor: Editor,
+        path: Path | None = None,
+        *,
+        is_unsaved: bool = False,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.editor = editor
+        self.path = path
+        self._saved_position = -1 if is_unsaved else editor.history.position
+        self._stamp = _stamp(path)
+        self._journal = _journal(editor, path, is_unsaved)
+        self._flush = QTimer(self, interval=FLUSH_MS)
+        self._flush.timeout.connect(self.flush)
+        self._flush.start()
+        editor.history.listen(self._on_changes)
+        self._shown = (self.title, self.is_modified)
+
+    @property
+    def project(self) -> Project:
+        """The project."""
+        return self.editor.project
+
+    @property
+    def title(self) -> str:
+        """The name of its file, or of the project when it has none yet."""
+        return self.path.stem if self.path is not None else self.project.name
+
+    @property
+    def is_modified(self) -> bool:
+        """Whether it differs from what was saved last."""
+        return self.editor.history.position != self._saved_position
+
+    @property
+    def folder(self) -> Path:
+        """Where the project's own files are."""
+        return self.path.parent if self.path is not None else Path.cwd()
+
+    def is_changed_by_others(self) -> bool:
+        """Whether the file on the disk is another one than we have read or written."""
+        now = _stamp(self.path)
+        return now is not None and now != self._stamp
+
+    def save(self, path: Path) -> None:
+        """Write the project to a file, which is its file from now on; raises ProjectFileError."""
+        self._name_after(path)
+        files.save(self.project, path)
+        self.editor.history.seal()
+        self.path, self._stamp = path, _stamp(path)
+        self._saved_position = self.editor.history.position
+        if self._journal is not None:
+            self._journal.saved(path)
+        self._tell()
+
+    def flush(self) -> None:
+        """Put the journal on the disk."""
+        if self._journal is not None:
+            self._journal.flush()
+
+    def use_language(self, language: Language) -> None:
+        """Show the blocks in the words of another language."""
+        self.editor.use_language(language)
+
+    def close(self, *, keep: bool = False) -> None:
+        """End; the journal goes, unless it is to be kept for the next start."""
+        self._flush.stop()
+        self.editor.history.unlisten(self._on_changes)
+        if self._journal is not None:
+            self._journal.close(keep=keep)
+            self._journal = None
+
+    def _name_after(self, path: Path) -> None:
+        """A project without a name of its own is called like its file."""
+        rename = RenameProject(path.stem)
+        if self.project.name == new_name() and self.editor.why_not(rename) is None:
+            self.editor.apply(rename)
+
+    def _on_changes(self, changes: Changes) -> None:
+        self._tell()
+
+    def _tell(self) -> None:
+        shown = (self.title, self.is_modified)
+        if shown != self._shown:
+            self._shown = shown
+            self.changed.emit()
+
+
+def new_name() -> str:
+    """What a project is called until it is saved."""
+    return tr("My program")
+
+
+def new_document(language: Language, parent: QObject | None = None) -> Document:
+    """An empty project without a file."""
+    return Document(Editor(Project(new_name()), language), parent=parent)
+
+
+def _journal(editor: Editor, path: Path | None, is_unsaved: bool) -> Journal | None:
+    """The journal, or None where nothing can be written: the work goes on without."""
+    try:
+        return Journal(settings.journal_folder(), editor, path, unsaved=is_unsaved)
+    except OSError as error:
+        log.warning("There is no journal: %s", error)
+        return None
+
+
+def _stamp(path: Path | None) -> Stamp | None:
+    try:
+        found = path.stat() if path is not None else None
+    except OSError:
+        return None
+    return (found.st_mtime_ns, found.st_size) if found is not None else None

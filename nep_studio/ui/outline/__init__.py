@@ -1,0 +1,1 @@
+"""The program as a tree: a second view of the same blocks."""

@@ -1,0 +1,101 @@
+"""Checks the program after each edit, when the person pauses, and never for longer than a frame."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_studio.blocks.checks import Problem
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import Changes, Project
+from nep_studio.node_checks import all_problems
+
+from .slices import RestingMapping, SlicedCall
+
+log = logging.getLogger(__name__)
+
+PAUSE_MS = 150
+SLICE_S = 0.006
+"""How long a check may take of one frame of the screen."""
+
+BETWEEN_SLICES_MS = 4
+
+Check = SlicedCall[list[Problem]]
+
+
+class LiveChecks(QObject):
+    """Follows one editor at a time; ``found`` gives the problems, errors first."""
+
+    found = Signal(list)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._editor: Editor | None = None
+        self._folder: Callable[[], Path] = Path.cwd
+        self._check: Check | None = None
+        self._pause = QTimer(self, singleShot=True, interval=PAUSE_MS)
+        self._pause.timeout.connect(self.start)
+        self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
+        self._next.timeout.connect(self._on_next_slice)
+        self.problems: list[Problem] = []
+
+    def follow(self, editor: Editor | None, folder: Callable[[], Path] = Path.cwd) -> None:
+        """Check another project; None checks nothing."""
+        self.cancel()
+        if self._editor is not None:
+            self._editor.history.unlisten(self._on_changes)
+        self._editor, self._folder = editor, folder
+        if editor is not None:
+            editor.history.listen(self._on_changes)
+            self._pause.start()
+        else:
+            self._tell([])
+
+    def start(self) -> None:
+        """Check now."""
+        self.cancel()
+        if self._editor is None:
+            return
+        self._check = _sliced_check(self._editor.project, self._editor.language, self._folder())
+        self._on_next_slice()
+
+    def cancel(self) -> None:
+        """Give up the check that is under way."""
+        self._pause.stop()
+        self._next.stop()
+        if self._check is not None:
+            self._check.cancel()
+            self._check = None
+
+    def _on_changes(self, changes: Changes) -> None:
+        self.cancel()
+        self._pause.start()
+
+    def _on_next_slice(self) -> None:
+        check = self._check
+        if check is None:
+            return
+        if not check.run(SLICE_S):
+            self._next.start()
+            return
+        self._check = None
+        self._tell(check.result())
+
+    def _tell(self, problems: list[Problem]) -> None:
+        self.problems = problems
+        self.found.emit(problems)
+
+
+def _sliced_check(project: Project, language: Language, folder: Path) -> Check:
+    """All checks look up the definition of each block that they read: there they can rest."""
+
+    def work(rest: Callable[[], None]) -> list[Problem]:
+        resting = replace(language, definitions=RestingMapping(language.definitions, rest))
+        return all_problems(project, resting, folder)
+
+    return SlicedCall(work)

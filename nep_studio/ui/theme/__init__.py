@@ -1,0 +1,61 @@
+"""How the program looks: colours, fonts, icons and the style of its widgets."""
+
+from nep_studio.ui.theme.applying import apply_theme, base_point_size, palette
+from nep_studio.ui.theme.colours import (
+    DARK,
+    DISABLED,
+    HIGH_CONTRAST,
+    LIGHT,
+    PLACEHOLDER,
+    BlockColours,
+    Theme,
+    UnknownColour,
+    load_theme,
+    themes,
+)
+from nep_studio.ui.theme.fonts import Fonts, code_font, load_fonts, text_font
+from nep_studio.ui.theme.icons import (
+    APPLICATION_ICON,
+    CATEGORY_ICONS,
+    UnknownIcon,
+    application_icon,
+    category_icon_name,
+    icon,
+    icon_path,
+    icon_pixmap,
+    paint_icon,
+)
+from nep_studio.ui.theme.look import SYSTEM, Look
+from nep_studio.ui.theme.style_sheet import style_sheet
+
+__all__ = [
+    "APPLICATION_ICON",
+    "CATEGORY_ICONS",
+    "DARK",
+    "DISABLED",
+    "HIGH_CONTRAST",
+    "LIGHT",
+    "PLACEHOLDER",
+    "SYSTEM",
+    "BlockColours",
+    "Fonts",
+    "Look",
+    "Theme",
+    "UnknownColour",
+    "UnknownIcon",
+    "application_icon",
+    "apply_theme",
+    "base_point_size",
+    "category_icon_name",
+    "code_font",
+    "icon",
+    "icon_path",
+    "icon_pixmap",
+    "load_fonts",
+    "load_theme",
+    "paint_icon",
+    "palette",
+    "style_sheet",
+    "text_font",
+    "themes",
+]

@@ -1,0 +1,142 @@
+"""The icons of the program, drawn in any colour and sharp at any size."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, QPointF, QRect, QRectF, QSize, QSizeF, Qt
+from PySide6.QtGui import QColor, QIcon, QIconEngine, QPainter, QPixmap
+from PySide6.QtSvg import QSvgRenderer
+
+from nep_studio import paths
+from nep_studio.ui.theme.colours import Theme
+
+CATEGORY_ICONS = {
+    "events": "flag",
+    "control": "repeat",
+    "robot": "bot",
+    "sensing": "eye",
+    "logic": "git-branch",
+    "math": "calculator",
+    "text": "type",
+    "variables": "variable",
+    "lists": "list",
+    "my_blocks": "puzzle",
+    "colours": "palette",
+    "code": "code",
+    "goals": "target",
+    "nodes": "network",
+    "robots": "plug",
+}
+"""A category's icon, by the category's ``colour``: so that colour never speaks alone."""
+
+APPLICATION_ICON = "nep-studio"
+
+
+class UnknownIcon(KeyError):
+    """An icon was asked for that is not in resources/icons."""
+
+
+def icon_path(name: str) -> Path:
+    """Return the drawing of an icon; raises UnknownIcon."""
+    path = paths.resources() / "icons" / f"{name}.svg"
+    if not path.is_file():
+        raise UnknownIcon(f"There is no icon {name} in {path.parent}.")
+    return path
+
+
+def category_icon_name(category_colour: str) -> str:
+    """Return the icon of a category, or of blocks in general for one that has none."""
+    return CATEGORY_ICONS.get(category_colour, "blocks")
+
+
+def icon(name: str, colour: Theme | QColor) -> QIcon:
+    """Return an icon in one colour, or in a theme's: text, and paler where it is disabled."""
+    if isinstance(colour, Theme):
+        return QIcon(_DrawnIcon(name, colour.colour("text"), colour.colour("disabled")))
+    pale = QColor(colour)
+    pale.setAlphaF(colour.alphaF() * 0.45)
+    return QIcon(_DrawnIcon(name, QColor(colour), pale))
+
+
+def icon_pixmap(name: str, colour: QColor, size: float, ratio: float = 1.0) -> QPixmap:
+    """Return an icon of ``size`` logical pixels for a screen with this device pixel ratio."""
+    pixels = max(1, round(size * ratio))
+    pixmap = QPixmap(pixels, pixels)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(pixmap)
+    paint_icon(painter, QRectF(0, 0, pixels, pixels), name, colour)
+    painter.end()
+    pixmap.setDevicePixelRatio(ratio)
+    return pixmap
+
+
+def paint_icon(painter: QPainter, rect: QRectF, name: str, colour: QColor) -> None:
+    """Draw an icon as large as fits in the middle of a rectangle."""
+    side = min(rect.width(), rect.height())
+    square = QRectF(QPointF(), QSizeF(side, side))
+    square.moveCenter(rect.center())
+    opacity = painter.opacity()
+    painter.setOpacity(opacity * colour.alphaF())
+    QSvgRenderer(QByteArray(_drawing(name, colour.name()).encode())).render(painter, square)
+    painter.setOpacity(opacity)
+
+
+def recoloured(name: str, colour: QColor) -> str:
+    """Return the drawing of an icon, as SVG text, in one colour."""
+    return _drawing(name, colour.name())
+
+
+def application_icon() -> QIcon:
+    """Return the icon of the program itself, in its own colours."""
+    return QIcon(
+        _DrawnIcon(APPLICATION_ICON, QColor(Qt.GlobalColor.black), QColor(Qt.GlobalColor.black))
+    )
+
+
+@cache
+def _source(name: str) -> str:
+    return icon_path(name).read_text(encoding="utf-8")
+
+
+@cache
+def _drawing(name: str, colour: str) -> str:
+    return _source(name).replace("currentColor", colour)
+
+
+class _DrawnIcon(QIconEngine):
+    """Draws an icon anew for each size and screen, in the colour of its state."""
+
+    def __init__(self, name: str, colour: QColor, disabled: QColor) -> None:
+        super().__init__()
+        _source(name)  # a name that does not exist is told where it is written
+        self._name, self._colour, self._disabled = name, colour, disabled
+        self._pixmaps: dict[tuple[int, int, float, bool], QPixmap] = {}
+
+    def _colour_in(self, mode: QIcon.Mode) -> QColor:
+        return self._disabled if mode == QIcon.Mode.Disabled else self._colour
+
+    def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
+        paint_icon(painter, QRectF(rect), self._name, self._colour_in(mode))
+
+    def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
+        return self.scaledPixmap(size, mode, state, 1.0)
+
+    def scaledPixmap(
+        self, size: QSize, mode: QIcon.Mode, state: QIcon.State, scale: float
+    ) -> QPixmap:
+        pixels = size * scale
+        key = (pixels.width(), pixels.height(), scale, mode == QIcon.Mode.Disabled)
+        if key not in self._pixmaps:
+            pixmap = QPixmap(pixels)
+            pixmap.fill(Qt.GlobalColor.transparent)
+            painter = QPainter(pixmap)
+            self.paint(painter, pixmap.rect(), mode, state)
+            painter.end()
+            pixmap.setDevicePixelRatio(scale)
+            self._pixmaps[key] = pixmap
+        return self._pixmaps[key]
+
+    def clone(self) -> QIconEngine:
+        return _DrawnIcon(self._name, self._colour, self._disabled)

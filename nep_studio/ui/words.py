@@ -1,0 +1,110 @@
+"""The words of the window in the language of the person who uses it."""
+
+from __future__ import annotations
+
+import logging
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from nep_studio import paths
+
+log = logging.getLogger(__name__)
+
+ENGLISH = "en"
+PSEUDO = "qps-rtl"
+"""A made-up language for tests: longer than English, written from the right, still readable."""
+
+_RIGHT_TO_LEFT = {"ar", "dv", "fa", "he", "ks", "ku", "ps", "sd", "ug", "ur", "yi", PSEUDO}
+_PLACES = re.compile(r"(\{[^{}]*\})")
+_ACCENTED = str.maketrans("aeiouyAEIOUYcnCN", "àéîôûýÀÉÎÔÛÝçñÇÑ")
+
+
+@dataclass(frozen=True)
+class _Catalogue:
+    code: str = ENGLISH
+    words: Mapping[str, str] = field(default_factory=dict)
+
+
+_used = _Catalogue()
+
+
+def tr(text: str, /, **values: object) -> str:
+    """Return the words in the language in use, with ``{name}`` filled in from the values.
+
+    The English text is the key. Words that are not translated yet are given in English.
+    """
+    words = _pseudo(text) if _used.code == PSEUDO else _used.words.get(text, text)
+    if not values:
+        return words
+    try:
+        return words.format_map(values)
+    except (KeyError, IndexError, ValueError, AttributeError):
+        log.warning("A translation to %s cannot be filled in: %r", _used.code, words)
+        return _filled(text, values)
+
+
+def count_words(count: int, one: str, many: str, /, **values: object) -> str:
+    """Return ``one`` ("1 block") or ``many`` ("{n} blocks"), translated, with the count as n.
+
+    Both are keys of their own in a table. A language with one form gives both the same words; one
+    with more forms writes the many form so that it is right for all, as in "blocks: {n}".
+    """
+    return tr(one if count == 1 else many, n=count, **values)
+
+
+def use_language(code: str) -> None:
+    """Take the words from the table of this language; unknown ones leave the window English."""
+    global _used
+    _used = _Catalogue(code, _window_words(code)) if code in _known() else _Catalogue()
+
+
+def language_code() -> str:
+    """The code of the language in use, such as "en" or "ja"."""
+    return _used.code
+
+
+def is_right_to_left() -> bool:
+    """Whether the language in use is written from right to left."""
+    return _used.code in _RIGHT_TO_LEFT or _used.code.partition("-")[0] in _RIGHT_TO_LEFT
+
+
+def available_languages() -> dict[str, str]:
+    """The languages a person can choose: code to name, as its speakers write it."""
+    return {ENGLISH: "English"} | {code: _table(code).get("name", code) for code in _codes()}
+
+
+def _codes() -> list[str]:
+    return sorted(path.stem for path in (paths.resources() / "translations").glob("*.toml"))
+
+
+def _known() -> Iterable[str]:
+    return {ENGLISH, PSEUDO, *_codes()}
+
+
+def _table(code: str) -> dict[str, Any]:
+    path = paths.resources() / "translations" / f"{code}.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def _window_words(code: str) -> Mapping[str, str]:
+    if code in (ENGLISH, PSEUDO):
+        return {}
+    words: dict[str, str] = _table(code).get("window", {})
+    return words
+
+
+def _filled(text: str, values: Mapping[str, object]) -> str:
+    try:
+        return text.format_map(values)
+    except (KeyError, IndexError, ValueError, AttributeError):
+        return text
+
+
+def _pseudo(text: str) -> str:
+    """Lengthen a text by two fifths and accent its letters; what is filled in stays."""
+    parts = _PLACES.split(text)
+    said = [part if _PLACES.fullmatch(part) else part.translate(_ACCENTED) for part in parts]
+    return "[" + "".join(said) + "·" * (2 * len(text) // 5 + 1) + "]"

@@ -1,0 +1,125 @@
+"""Where a place is as the robot's head and arms see it: angles to look and to point at it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from nep_core.errors import ActionFailed
+from nodes.action.naobody.body import Angles
+from nodes.action.naobody.gait import SHIN_M, THIGH_M
+from nodes.action.naobody.motion import move
+from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.tasks import Task, look, play_motion
+
+Place = tuple[float, float, float]
+
+NECK_M = 0.1265
+SHOULDER_LEFT_M, SHOULDER_UP_M = 0.098, 0.1
+HIP_DOWN_M, ANKLE_UP_M = 0.085, 0.045
+SEATED_TORSO_M = 0.12
+"""About how high the torso is above the ground when NAO sits or lies."""
+POINTING_SPEED = 0.3
+UNSEEN = "Show it one, or try it with a real NAO."
+NOUNS = {"face": "a face", "ball": "the red ball", "sound": "a sound", "mark": "a mark"}
+
+
+def torso_height_m(robot: VirtualRobot) -> float:
+    """Return how high the torso is above the feet: its legs are as long as their joints allow."""
+    if robot.family in ("sitting", "lying"):
+        return SEATED_TORSO_M
+    hip, knee = (robot.angles[robot.body.index[name]] for name in ("LHipPitch", "LKneePitch"))
+    leg = THIGH_M * math.cos(hip) + SHIN_M * math.cos(hip + knee)
+    return float(HIP_DOWN_M + leg + ANKLE_UP_M)
+
+
+def in_torso(robot: VirtualRobot, place: Place, frame: str) -> Place:
+    """Return a place (m) of a frame as seen from the torso: robot is at its feet, world the floor.
+
+    The torso is taken as upright.
+    """
+    x, y, z = from_world(robot, place) if frame == "world" else place
+    return x, y, z if frame == "torso" else z - torso_height_m(robot)
+
+
+def from_world(robot: VirtualRobot, place: Place) -> Place:
+    """Return a place on the floor as seen from the robot's feet."""
+    x, y = place[0] - robot.base[0], place[1] - robot.base[1]
+    cosine, sine = math.cos(robot.base[2]), math.sin(robot.base[2])
+    return float(x * cosine + y * sine), float(y * cosine - x * sine), place[2]
+
+
+def to_world(robot: VirtualRobot, place: Place) -> Place:
+    """Return a place seen from the robot's feet as one on the floor."""
+    x, y, z = place
+    cosine, sine = math.cos(robot.base[2]), math.sin(robot.base[2])
+    return (
+        float(robot.base[0] + x * cosine - y * sine),
+        float(robot.base[1] + x * sine + y * cosine),
+        z,
+    )
+
+
+def head_angles(place: Place) -> tuple[float, float]:
+    """Return yaw and pitch (rad) that turn the head to a place in the torso's frame."""
+    x, y, z = place
+    return math.atan2(y, x), -math.atan2(z - NECK_M, math.hypot(x, y))
+
+
+def arm_angles(place: Place, side: str) -> tuple[float, float]:
+    """Return the pitch and roll (rad) of a shoulder that point its straight arm at a place."""
+    x, y, z = place
+    across = y - (SHOULDER_LEFT_M if side == "left" else -SHOULDER_LEFT_M)
+    up = z - SHOULDER_UP_M
+    way = max(math.hypot(x, across, up), 1e-6)
+    return math.atan2(-up, x), math.asin(across / way)
+
+
+def look_at(robot: VirtualRobot, place: Place, frame: str) -> Task:
+    """Turn the head to a place as far as it goes."""
+    yaw, pitch = head_angles(in_torso(robot, place, frame))
+    return (yield from look(robot, yaw, pitch))
+
+
+def point_at(robot: VirtualRobot, place: Place, frame: str, side: str) -> Task:
+    """Stretch an arm out towards a place, as far as the shoulder goes."""
+    goal, columns = pointing(robot, place, frame, side)
+    allowed, clamped = robot.body.clamped(goal)
+    motion = move(robot.body, robot.angles, allowed, columns, speed=POINTING_SPEED)
+    yield from play_motion(robot, motion)
+    return "pointed as far as its arm goes" if clamped else ""
+
+
+def pointing(robot: VirtualRobot, place: Place, frame: str, side: str) -> tuple[Angles, list[int]]:
+    """Return the angles of every joint while pointing, and which joints that moves."""
+    pitch, roll = arm_angles(in_torso(robot, place, frame), side)
+    letter, bend = ("L", -0.0349) if side == "left" else ("R", 0.0349)
+    joints = {"ShoulderPitch": pitch, "ShoulderRoll": roll, "ElbowYaw": 0.0, "ElbowRoll": bend}
+    goal = robot.angles.copy()
+    columns = [robot.body.index[f"{letter}{name}"] for name in [*joints, "WristYaw", "Hand"]]
+    goal[columns] = np.array([*joints.values(), 0.0, 1.0])
+    return goal, columns
+
+
+def arm_for(robot: VirtualRobot, place: Place, frame: str, arm: str) -> str:
+    """Return the arm to point with: the wanted one, else the one on the side of the place."""
+    return arm or ("left" if in_torso(robot, place, frame)[1] >= 0 else "right")
+
+
+def place_of(robot: VirtualRobot, thing: str) -> Place:
+    """Return where on the floor (world frame) something is that the robot sees.
+
+    Raises ActionFailed when it sees none.
+    """
+    if thing not in robot.sees:
+        kind, _, name = thing.partition("_")
+        noun = f"{kind} {name}" if name else NOUNS.get(kind, kind)
+        sense = "hear" if kind == "sound" else "see"
+        raise ActionFailed(f"{robot.name} does not {sense} {noun}. {UNSEEN}")
+    return robot.sees[thing]
+
+
+def look_at_seen(robot: VirtualRobot, thing: str) -> Task:
+    """Turn the head to something that the robot sees now."""
+    return (yield from look_at(robot, place_of(robot, thing), "world"))

@@ -1,0 +1,182 @@
+"""Which limbs each action needs, and the task by which a virtual robot does it."""
+
+from __future__ import annotations
+
+import math
+
+from nep_core.errors import ActionFailed
+from nodes.action.naobody import actions as a
+from nodes.action.naobody import body_actions as b
+from nodes.action.naobody import body_tasks, gaze, leds, light_tasks, tasks
+from nodes.action.naobody import sense_actions as s
+from nodes.action.naobody.animations import NO_GESTURE
+from nodes.action.naobody.limbs import MOVING, Limb
+from nodes.action.naobody.parts import PLAIN_NAMES, parts_of_limbs, single_parts
+from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.postures import posture_name
+from nodes.action.naobody.setting_tasks import change_setting, listen
+
+ARM_OF = {"left": Limb.LEFT_ARM, "right": Limb.RIGHT_ARM}
+HANDS = {
+    **{side: frozenset({arm}) for side, arm in ARM_OF.items()},
+    "both": frozenset(ARM_OF.values()),
+}
+LOCKS_BY_ITSELF = (a.Do, b.WakeUp, b.Rest, b.Stiffness)
+
+
+def limbs_of(robot: VirtualRobot, action: a.Action) -> frozenset[Limb]:
+    """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
+    match action:
+        case a.Say(gesture=gesture) if gesture == NO_GESTURE:
+            return frozenset({Limb.VOICE})
+        case a.Say():
+            return robot.animations.get(action.gesture, "gesture").limbs | {Limb.VOICE}
+        case a.Imitate():
+            return robot.animations.get(action.animal, "animal").limbs
+        case a.Play(mirror=mirrored):
+            limbs = robot.animations.get(action.animation).limbs
+            return frozenset(map(_other_side, limbs)) if mirrored else limbs
+        case a.Do():
+            posture_name(robot.body, action.posture)
+            return MOVING
+        case a.Leds():
+            leds.colour_number(action.colour)
+            return _lights(action.group)
+        case a.Walk() | a.Turn() | b.WalkFreely():
+            return frozenset({Limb.LEGS})
+        case a.Look() | b.LookAt() | b.LookAtSeen():
+            return frozenset({Limb.HEAD})
+    return _other_limbs(robot, action)
+
+
+def _other_limbs(robot: VirtualRobot, action: a.Action) -> frozenset[Limb]:
+    match action:
+        case b.Hand():
+            return HANDS[action.side]
+        case b.MoveJoint():
+            body_tasks.check_joint(robot.body, action.joint)
+            return robot.body.limbs_of([action.joint])
+        case b.Stiffness():
+            single_parts(action.part)
+        case b.WakeUp() | b.Rest():
+            return MOVING
+        case b.PointAt():
+            place = action.x_m, action.y_m, action.z_m
+            return frozenset({ARM_OF[gaze.arm_for(robot, place, action.frame, action.arm)]})
+        case b.Track():
+            return body_tasks.tracking_limbs(action)
+        case s.Intensity() | s.ResetLeds():
+            return _lights(action.group)
+        case s.RandomEyes() | s.RotateEyes():
+            return frozenset({Limb.LEDS})
+        case s.Listen():
+            return frozenset({Limb.EARS})
+    if reason := s.NEEDS_REAL_ROBOT.get(type(action)):
+        raise ActionFailed(f"The virtual {robot.name} cannot {reason}. A real NAO can.")
+    return frozenset()
+
+
+def task_of(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+    """Return the task that does an action; parts of the body that it moves must be locked."""
+    parts = parts_of_limbs(limbs_of(robot, action))
+    if isinstance(action, LOCKS_BY_ITSELF):
+        return _task(robot, action)
+    return _locked(robot, parts, _task(robot, action))
+
+
+def _locked(robot: VirtualRobot, parts: frozenset[str], task: tasks.Task) -> tasks.Task:
+    if loose := sorted(parts & robot.released):
+        raise ActionFailed(
+            f"{robot.name}'s {PLAIN_NAMES[loose[0]]} is released and cannot move. "
+            "Lock it first, or let the robot wake up."
+        )
+    return (yield from task)
+
+
+def _task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+    match action:
+        case a.Say():
+            return tasks.say(robot, action.text, action.gesture, action.speed / 100.0)
+        case a.Do():
+            return _posture(robot, action.posture)
+        case a.Imitate():
+            return tasks.play(robot, robot.animations.get(action.animal, "animal"))
+        case a.Play():
+            animation = robot.animations.get(action.animation)
+            return tasks.play(robot, animation, tasks.changed(animation.keyframes, action))
+        case a.Walk():
+            turn = math.radians(action.turn_deg)
+            return tasks.walk(robot, action.forward_m, action.left_m, turn)
+        case a.Turn():
+            return tasks.walk(robot, 0.0, 0.0, math.radians(action.degrees))
+        case b.WalkFreely():
+            return body_tasks.walk_freely(robot, action)
+        case a.Look():
+            return tasks.look(robot, math.radians(action.yaw_deg), math.radians(action.pitch_deg))
+    return _light_or_gaze_task(robot, action)
+
+
+def _light_or_gaze_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+    match action:
+        case b.LookAt():
+            return gaze.look_at(robot, (action.x_m, action.y_m, action.z_m), action.frame)
+        case b.LookAtSeen():
+            return gaze.look_at_seen(robot, action.thing)
+        case b.PointAt():
+            place = action.x_m, action.y_m, action.z_m
+            side = gaze.arm_for(robot, place, action.frame, action.arm)
+            return gaze.point_at(robot, place, action.frame, side)
+        case b.Track():
+            return body_tasks.track(robot, action)
+        case a.Leds():
+            colour = leds.colour_number(action.colour)
+            return tasks.light(robot, action.group, colour, action.seconds)
+        case s.Intensity():
+            return light_tasks.set_intensity(robot, action.group, action.percent)
+        case s.ResetLeds():
+            return light_tasks.reset(robot, action.group)
+        case s.RandomEyes():
+            return light_tasks.random_eyes(robot, action.seconds)
+        case s.RotateEyes():
+            return light_tasks.rotate_eyes(robot, action.seconds)
+    return _body_or_setting_task(robot, action)
+
+
+def _body_or_setting_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+    match action:
+        case b.Hand():
+            return body_tasks.move_hands(robot, action.side, is_open=action.open)
+        case b.MoveJoint():
+            return body_tasks.move_joint(robot, action)
+        case b.Stiffness():
+            return body_tasks.lock(robot, action.part, on=action.on)
+        case b.WakeUp():
+            return body_tasks.wake_up(robot)
+        case b.Rest():
+            return body_tasks.rest(robot)
+        case b.Awareness():
+            return change_setting(robot, "awareness", action.on)
+        case b.Breathing():
+            return change_setting(robot, "breathing", action.on)
+        case s.Volume():
+            return change_setting(robot, "volume", action.percent)
+        case s.SetLanguage():
+            return change_setting(robot, "language", action.language)
+        case s.Listen():
+            return listen(robot, action.words, action.seconds)
+    raise ActionFailed(f"The virtual {robot.name} cannot do this.")
+
+
+def _posture(robot: VirtualRobot, word: str) -> tasks.Task:
+    """Take a posture with all joints locked: what is released cannot hold one."""
+    robot.released = frozenset()
+    return (yield from tasks.take_posture(robot, posture_name(robot.body, word)))
+
+
+def _lights(group: str) -> frozenset[Limb]:
+    leds.lights(group)
+    return frozenset({Limb.LEDS})
+
+
+def _other_side(limb: Limb) -> Limb:
+    return {Limb.LEFT_ARM: Limb.RIGHT_ARM, Limb.RIGHT_ARM: Limb.LEFT_ARM}.get(limb, limb)

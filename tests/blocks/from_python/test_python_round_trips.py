@@ -1,0 +1,201 @@
+"""Blocks to Python to blocks: the same blocks; Python to blocks to Python: the same text."""
+
+from __future__ import annotations
+
+from block_building import B
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sound_programs import sound
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.from_python.updating import read_program, update_from_python
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.writing import to_bytes
+
+NUMBERS = st.integers(-9, 99) | st.sampled_from([0.5, -2.25, 1e-7])
+TEXTS = st.sampled_from(
+    ["", "hi", 'a "quote"', "größe", "# no comment", "line\nbreak", "\\", "x = 1"]
+)
+READERS = [B("variable.get", {"variable": "v1"}), B("sensing.human_state")]
+
+
+def numbers(depth: int):
+    """Number blocks to be plugged in."""
+    if depth == 0:
+        return st.just(B("variable.get", {"variable": "v1"}))
+    slots = st.tuples(NUMBERS | numbers(depth - 1), NUMBERS | numbers(depth - 1))
+    signs = st.sampled_from(["add", "subtract", "multiply", "divide", "power", "remainder"])
+    arithmetic = st.builds(
+        lambda sign, ab: filled("math.arithmetic", {"operation": sign}, a=ab[0], b=ab[1]),
+        signs,
+        slots,
+    )
+    random = st.builds(lambda ab: filled("math.random_integer", {}, low=ab[0], high=ab[1]), slots)
+    return arithmetic | random | st.just(B("variable.get", {"variable": "v1"}))
+
+
+def questions(depth: int):
+    """Yes-or-no blocks to be plugged in."""
+    signs = st.sampled_from(["equal", "not_equal", "less", "less_or_equal", "greater"])
+    value = NUMBERS | TEXTS | numbers(1)
+    compare = st.builds(
+        lambda sign, a, b: filled("logic.compare", {"comparison": sign}, a=a, b=b),
+        signs,
+        numbers(1),
+        value,
+    )
+    plain = st.sampled_from(
+        [
+            B("logic.truth", {"truth": "true"}),
+            B("logic.truth", {"truth": "false"}),
+            B("sensing.human_state_is", {"state": "touched_head"}),
+        ]
+    )
+    if depth == 0:
+        return compare | plain
+    inner = questions(depth - 1)
+    junction = st.builds(
+        lambda word, a, b: filled("logic.junction", {"junction": word}, a=a, b=b),
+        st.sampled_from(["and", "or"]),
+        inner.filter(lambda b: b.type != "logic.junction"),
+        inner.filter(lambda b: b.type != "logic.junction"),
+    )
+    return compare | plain | junction | st.builds(lambda a: filled("logic.not", {}, a=a), inner)
+
+
+def filled(block_type: str, fields: dict, **slots) -> B:
+    """A block whose slots hold values or blocks."""
+    made = B(block_type, dict(fields))
+    for key, value in slots.items():
+        (made.inputs if isinstance(value, B) else made.fields)[key] = value
+    return made
+
+
+def statements(depth: int):
+    """One statement block."""
+    say = st.builds(
+        lambda text, face: filled("robot.say", {"gesture": face}, text=text),
+        TEXTS | numbers(1).filter(lambda b: b.type != "x"),
+        st.sampled_from(["no_gesture", "explain", "greet"]),
+    )
+    plain = st.one_of(
+        say,
+        st.builds(lambda n: filled("control.wait", {}, seconds=n), NUMBERS | numbers(2)),
+        st.builds(
+            lambda n: filled("variable.change", {"variable": "v1"}, amount=n), NUMBERS | numbers(1)
+        ),
+        st.builds(
+            lambda n: filled("variable.set", {"variable": "v1"}, value=n),
+            NUMBERS | TEXTS | numbers(2),
+        ),
+        st.builds(lambda q: filled("control.wait_until", {}, condition=q), questions(1)),
+        st.sampled_from(["bow", "wave"]).map(lambda a: B("robot.play", {"animation": a})),
+        st.builds(lambda n: filled("robot.walk", {}, forward=n), NUMBERS),
+    )
+    if depth == 0:
+        return plain
+    body = st.lists(statements(depth - 1), max_size=3)
+    repeat = st.builds(
+        lambda n, do: with_bodies(filled("control.repeat", {}, times=n), do=do),
+        st.integers(0, 9) | numbers(1),
+        body,
+    )
+    loop = st.builds(
+        lambda q, do: with_bodies(filled("control.while", {}, condition=q), do=do),
+        questions(1).filter(lambda q: q.type not in ("logic.truth", "logic.not")),
+        body,
+    )
+    branch = st.builds(
+        branches, questions(1), body, st.lists(st.tuples(questions(0), body), max_size=2), body
+    )
+    together = st.builds(
+        lambda a, b: with_bodies(B("control.together"), **{"do.1": a, "do.2": b}), body, body
+    )
+    return plain | repeat | loop | branch | together
+
+
+def with_bodies(block: B, **bodies) -> B:
+    block.bodies = {key: chain for key, chain in bodies.items() if chain}
+    return block
+
+
+def branches(condition: B, do: list, also: list, otherwise: list) -> B:
+    groups = {"also": len(also), "otherwise": 1 if otherwise else 0}
+    made = B("control.if", inputs={"condition": condition}, groups=groups)
+    made.bodies = {"do": do}
+    for number, (question, chain) in enumerate(also, start=1):
+        made.inputs[f"also_condition.{number}"] = question
+        made.bodies[f"also_do.{number}"] = chain
+    if otherwise:
+        made.bodies["otherwise_do.1"] = otherwise
+    made.bodies = {key: chain for key, chain in made.bodies.items() if chain}
+    return made
+
+
+HATS = st.sampled_from(
+    [
+        B("event.started"),
+        B("event.gesture", {"gesture": "karate", "again": "queue"}),
+        B("event.human_state", {"state": "touched_head"}),
+    ]
+)
+ENDS = st.sampled_from([[], [B("control.stop_program")]])
+RULES = st.lists(
+    st.builds(
+        lambda hat, chain, end: [hat, *chain, *end], HATS, st.lists(statements(2), max_size=5), ENDS
+    ),
+    min_size=1,
+    max_size=3,
+)
+
+
+def shape(project: Project, language) -> list:
+    """A program without ids and places: what its blocks hold, in order."""
+    names = {variable.id: variable.name for variable in project.variables}
+
+    def told(block_id: str):
+        block = project.blocks[block_id]
+        definition = language.definitions[block.type]
+        fields = {
+            key: names.get(definition.value(block, key), definition.value(block, key))
+            for key, slot in definition.keys(block.groups)
+            if slot.kind.typed and key not in block.inputs
+        }
+        inputs = {key: told(inner) for key, inner in sorted(block.inputs.items())}
+        bodies = {key: [told(i) for i in chain] for key, chain in sorted(block.bodies.items())}
+        groups = {name: count for name, count in block.groups.items() if count}
+        return (block.type, fields, inputs, bodies, groups, block.comment)
+
+    return [[told(i) for i in stack.body] for stack in project.pages["behaviour"]]
+
+
+@settings(max_examples=120, deadline=None)
+@given(rules=RULES)
+def test_blocks_become_code_and_the_same_blocks_again(language, rules):
+    project = sound(language, *rules).project
+    text = generate_program(project, language).text
+
+    read = read_program(text, language)
+
+    assert shape(read, language) == shape(project, language)
+    assert generate_program(read, language).text == text
+
+
+@settings(max_examples=60, deadline=None)
+@given(rules=RULES, others=RULES)
+def test_any_program_can_be_edited_into_any_other(language, rules, others):
+    editor = sound(language, *rules)
+    wanted = generate_program(sound(language, *others).project, language).text
+    before = to_bytes(editor.project)
+
+    update_from_python(editor, wanted)
+
+    assert generate_program(editor.project, language).text == wanted
+    after = to_bytes(editor.project)
+    if after != before:
+        editor.history.undo()
+        assert to_bytes(editor.project) == before
+        editor.history.redo()
+        assert to_bytes(editor.project) == after
+    assert isinstance(editor, Editor)

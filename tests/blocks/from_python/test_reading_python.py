@@ -1,0 +1,217 @@
+"""Python back into blocks: examples, whole programs, snippets, edits, and errors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from block_building import B, build, karate
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.files import load
+from nep_studio.blocks.from_python.made import CodeUnread
+from nep_studio.blocks.from_python.reading_programs import read_snippet
+from nep_studio.blocks.from_python.updating import read_program, update_from_python
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.writing import to_bytes
+
+EXAMPLES = sorted((Path(__file__).parents[3] / "resources/examples").glob("*.nep"))
+
+
+def code_of(project, language) -> str:
+    return generate_program(project, language).text
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_the_examples_are_read_back_as_they_are_written(language, path):
+    project = load(path, language)
+    text = code_of(project, language)
+
+    read = read_program(text, language)
+
+    assert code_of(read, language) == text
+
+
+def test_unchanged_code_changes_nothing(language):
+    editor = karate(language)
+    before = to_bytes(editor.project)
+
+    update_from_python(editor, code_of(editor.project, language))
+
+    assert to_bytes(editor.project) == before
+
+
+def test_editing_one_line_changes_one_block_in_one_step(language):
+    editor = karate(language)
+    editor.project.pages["behaviour"][0].x = 77
+    before = {block.id: block.copy() for block in editor.project.blocks.values()}
+    text = code_of(editor.project, language).replace("Impressive!", "Wow, well done!")
+
+    update_from_python(editor, text)
+
+    after = editor.project.blocks
+    changed = [block for block in before if before[block] != after[block]]
+    assert after.keys() == before.keys()
+    assert [after[block].fields["text"] for block in changed] == ["Wow, well done!"]
+    assert code_of(editor.project, language) == text
+    assert editor.history.undo_label == "change the code"
+    editor.history.undo()
+    assert {block.id: block for block in editor.project.blocks.values()} == before
+
+
+def test_disabled_blocks_and_loose_stacks_stay(language):
+    editor = build(
+        language,
+        [B("event.started"), B("robot.say", {"text": "a"}), B("robot.say", {"text": "b"})],
+        [B("robot.say", {"text": "loose"})],
+    )
+    _, a, b = editor.project.pages["behaviour"][0].body
+    editor.project.blocks[a].disabled = True
+    text = code_of(editor.project, language)
+
+    update_from_python(editor, text.replace('nao.say("b")', 'nao.say("c")\n    nao.say("d")'))
+
+    first, loose = editor.project.pages["behaviour"]
+    assert first.body[1:3] == [a, b]
+    texts = [editor.project.blocks[i].fields["text"] for i in first.body[1:]]
+    assert texts == ["a", "c", "d"]
+    assert editor.project.blocks[loose.body[0]].fields["text"] == "loose"
+
+
+def test_lines_can_be_added_moved_and_taken_out(language):
+    says = [B("robot.say", {"text": letter}) for letter in "abcdef"]
+    editor = build(language, [B("event.started"), *says])
+    text = code_of(editor.project, language)
+    lines = {letter: f'    nao.say("{letter}")\n' for letter in "abcdefxyz"}
+    for order in ("bcdef", "abcdefx", "xabcdef", "fabcde", "axbycz", "x", "xyzabc", "def", ""):
+        body = "".join(lines[letter] for letter in order) or "    pass\n"
+        start = text.index("def when_started():\n") + len("def when_started():\n")
+        changed = text[:start] + body + text[text.index("\n\nbehavior.run") :]
+        if not order:
+            changed = changed.replace("import Behavior, Robot", "import Behavior")
+
+        update_from_python(editor, changed)
+
+        stack = editor.project.pages["behaviour"][0]
+        said = [editor.project.blocks[i].fields["text"] for i in stack.body[1:]]
+        assert "".join(said) == order
+
+
+def test_a_new_rule_a_new_variable_and_a_new_robot_come_from_code(language):
+    text = """
+from nep_core import Behavior, Robot
+
+anna = Robot("Anna")
+behavior = Behavior("Mine")
+points = 0
+
+
+@behavior.when("gesture_wave", again="queue")
+def when_waved():
+    # Count first
+    points += 1
+    if points > 3:
+        anna.say("Enough")
+    elif points == 2:
+        anna.say("Two")
+    else:
+        anna.say(str(points) + " points", gesture="explain")
+
+
+behavior.run()
+"""
+
+    project = read_program(text, language)
+
+    assert project.name == "Mine"
+    assert [variable.name for variable in project.variables] == ["points"]
+    types = sorted(block.type for block in project.blocks.values())
+    assert types == sorted(
+        ["robots.robot", "event.gesture", "variable.change", "control.if", *["logic.compare"] * 2]
+        + ["variable.get"] * 3
+        + ["robot.say"] * 3
+        + ["text.join"]
+    )
+    comments = [block.comment for block in project.blocks.values() if block.comment]
+    assert comments == ["Count first"]
+    again = read_program(code_of(project, language), language)
+    assert code_of(again, language) == code_of(project, language)
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("def f(:\n  pass", 1),
+        ("x = 1\nif x\n  pass", 2),
+        ("@behavior.when_moon\ndef f():\n    pass", 1),
+        ("import os\n", 1),
+        ("behavior = Behavior(1)\n", 1),
+        ("print('hello')\n", 1),
+        ("x = '\x00'", 1),
+        ("(" * 500, 1),
+    ],
+)
+def test_what_cannot_be_read_is_told_with_its_line_and_changes_nothing(language, text, line):
+    editor = karate(language)
+    before = to_bytes(editor.project)
+
+    with pytest.raises(CodeUnread) as told:
+        update_from_python(editor, text)
+
+    assert told.value.line == line
+    assert f"Line {line}" in told.value.sentence
+    assert to_bytes(editor.project) == before
+
+
+@pytest.mark.parametrize(
+    ("text", "types"),
+    [
+        ('nao.say("hi")\nwait(2)', ["robot.say", "control.wait"]),
+        ("for _ in range(4):\n    wait(1)", ["control.repeat", "control.wait"]),
+        ("1 + 2", ["math.arithmetic"]),
+        ("42", ["math.number"]),
+        ('"hello"', ["text.text"]),
+        ('human_state() == "touched_head"', ["sensing.human_state_is"]),
+        ("while True:\n    pass", ["control.forever"]),
+    ],
+)
+def test_a_few_lines_are_pasted_as_blocks(language, text, types):
+    base = karate(language).project
+
+    clip = read_snippet(text, language, base)
+
+    assert [b.type for b in clip.project.within(clip.roots[0])] == types
+    editor = Editor(Project(), language)
+    paste(editor, clip, "behaviour", 0, 0)
+    assert len(editor.project.blocks) == len(types)
+
+
+def test_what_has_no_block_keeps_its_text_in_a_code_block(language):
+    if "code.lines" not in language.definitions:
+        pytest.skip("this language has no code blocks")
+    text = (
+        "with open('x') as file:\n    # read all\n    data = file.read()\n"
+        "nao.say('ok')\nfoo[3].bar(1)\n"
+    )
+    base = karate(language).project
+
+    clip = read_snippet(text, language, base)
+
+    first, second, third = (clip.project.blocks[block] for block in clip.roots[0])
+    assert (first.type, second.type, third.type) == ("code.lines", "robot.say", "code.lines")
+    assert first.fields["code"] == text[: text.index("nao") - 1]
+    assert third.fields["code"] == "foo[3].bar(1)"
+
+
+def test_code_blocks_survive_the_way_through_python(language):
+    if "code.lines" not in language.definitions:
+        pytest.skip("this language has no code blocks")
+    rule = [B("event.started"), B("code.lines", {"code": "try:\n    x = 1\nfinally:\n    pass"})]
+    editor = build(language, rule)
+    text = code_of(editor.project, language)
+
+    read = read_program(text, language)
+
+    assert code_of(read, language) == text

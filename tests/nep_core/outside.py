@@ -1,0 +1,41 @@
+"""The world outside a program: a person who does things, and a robot that tells about itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from nep_core.human import (
+    human_listener,
+    times_seen,
+)
+from nep_core.messages import HUMAN_BEHAVIOR, ROBOT_STATE, HumanBehavior, RobotState
+from nep_core.p2p import PeerNetwork
+from nep_core.pubsub import Publisher
+from nep_core.robot import Robot
+from nep_core.tasks import wait_until
+from tests.nep_core.robot_playing import PlayedRobot
+
+Join = Callable[[str], PeerNetwork]
+
+
+class Outside:
+    """A person and a robot as the program meets them."""
+
+    def __init__(self, network: PeerNetwork, own: PeerNetwork) -> None:
+        human_listener(network)
+        self._states = Publisher(HUMAN_BEHAVIOR, network=own)
+        self._bodies = Publisher(ROBOT_STATE, network=own)
+        self.nao = PlayedRobot(own)
+        self.robot = Robot("NAO", network=network)
+
+    def does(self, *states: str, source: str = "") -> None:
+        for state in states:
+            self._states.send(HumanBehavior(human_state=state, source=source))
+
+    def robot_is(self, **state: object) -> None:
+        self._bodies.send(RobotState(robot="NAO", joints={}, **state))
+
+
+def seen(state: str, times: int = 1) -> None:
+    """Wait until the program has heard a state so often."""
+    wait_until(lambda: times_seen(state) >= times)

@@ -1,0 +1,133 @@
+"""Rules that fire by a robot, a word, a condition, or because nothing happens."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from nep_core import tasks
+from nep_core.behavior import Behavior
+from nep_core.p2p import PeerNetwork
+from nep_core.tasks import wait, wait_until
+
+Join = Callable[[str], PeerNetwork]
+
+
+from tests.nep_core.outside import Outside, seen
+
+
+@pytest.fixture(autouse=True)
+def _own_program() -> Iterator[None]:
+    """A program of its own for each test: PROGRAM is one a process."""
+    tasks.PROGRAM.cancelled.clear()
+    tasks.PROGRAM._children.clear()
+    tasks.PROGRAM.undo.clear()
+    yield
+    tasks.PROGRAM.cancel()
+
+
+@pytest.fixture
+def outside(network: PeerNetwork, join: Join) -> Outside:
+    return Outside(network, join("outside"))
+
+
+class Running:
+    """A behaviour that runs in a thread until the end of the test."""
+
+    def __init__(self, behavior: Behavior) -> None:
+        started = threading.Event()
+        behavior.when_started(started.set)
+        self._thread = threading.Thread(target=behavior.run)
+        self._thread.start()
+        assert started.wait(5)
+
+    def end(self) -> None:
+        tasks.PROGRAM.cancel()
+        self._thread.join(5)
+        assert not self._thread.is_alive()
+
+
+def test_a_rule_for_one_robot_does_not_fire_for_another(
+    outside: Outside, network: PeerNetwork
+) -> None:
+    behavior, fired = Behavior(network=network), threading.Semaphore(0)
+    behavior.when("touched_head", source="NAO")(fired.release)
+    running = Running(behavior)
+
+    outside.does("touched_head", source="NAO2")
+    seen("touched_head")
+    by_other = fired.acquire(timeout=0.2)
+    outside.does("touched_head", source="NAO")
+
+    assert not by_other and fired.acquire(timeout=5)
+    running.end()
+
+
+def test_rules_for_words_and_faces_fire(outside: Outside, network: PeerNetwork) -> None:
+    behavior, fired = Behavior(network=network), threading.Semaphore(0)
+    behavior.when_heard("Good morning!")(fired.release)
+    behavior.when_noticed("face", "Anna")(fired.release)
+    behavior.when_noticed("mark", 64)(fired.release)
+    behavior.when_noticed("sound")(fired.release)
+    running = Running(behavior)
+
+    outside.does("heard_good_morning", "seen_face_anna", "seen_mark_64", "heard_sound")
+
+    assert all(fired.acquire(timeout=5) for _ in range(4))
+    running.end()
+
+
+def test_a_rule_fires_each_time_that_its_condition_becomes_true(
+    outside: Outside, network: PeerNetwork
+) -> None:
+    behavior, fired, looked = Behavior(network=network), threading.Semaphore(0), [0]
+    near = [True]
+
+    def is_near() -> bool:
+        looked[0] += 1
+        return near[0]
+
+    behavior.when_true(is_near)(fired.release)
+    running = Running(behavior)
+
+    assert fired.acquire(timeout=5)
+    assert not fired.acquire(timeout=0.2)  # still near
+    near[0] = False
+    before = looked[0]
+    wait_until(lambda: looked[0] > before + 1)
+    near[0] = True
+    assert fired.acquire(timeout=5)
+    running.end()
+
+
+def test_a_rule_for_idleness_fires_again_and_again_until_something_happens(
+    outside: Outside, network: PeerNetwork
+) -> None:
+    behavior, fired = Behavior(network=network), threading.Semaphore(0)
+    behavior.when_idle(0.3)(fired.release)
+    running = Running(behavior)
+
+    assert fired.acquire(timeout=5) and fired.acquire(timeout=5)
+    for _ in range(6):
+        outside.does("waves")
+        wait(0.1)
+    while fired.acquire(blocking=False):
+        pass
+    outside.does("waves")
+    assert not fired.acquire(timeout=0.15)
+    assert fired.acquire(timeout=5)
+    running.end()
+
+
+def test_a_walk_without_an_end_ends_with_the_program(
+    outside: Outside, network: PeerNetwork
+) -> None:
+    behavior = Behavior(network=network)
+    behavior.when_started(lambda: outside.robot.start_walking(50))
+
+    behavior.run()
+
+    wait_until(lambda: "stop" in [action for action, _ in outside.nao.asked])
+    assert [action for action, _ in outside.nao.asked] == ["walk_freely", "stop"]

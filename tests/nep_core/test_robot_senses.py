@@ -1,0 +1,181 @@
+"""What a program knows of its robots and of people: sensors, questions, memory, choices."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from nep_core import errors, human, robot_states, tasks
+from nep_core.choosing import in_turn, one_of
+from nep_core.human import (
+    heard_word,
+    is_remembered,
+    remember,
+    times_seen,
+    until_state,
+    was_seen,
+)
+from nep_core.p2p import PeerNetwork
+from nep_core.tasks import wait, wait_until
+
+Join = Callable[[str], PeerNetwork]
+
+
+from tests.nep_core.outside import Outside, seen
+
+
+@pytest.fixture(autouse=True)
+def _own_program() -> Iterator[None]:
+    """A program of its own for each test: PROGRAM is one a process."""
+    tasks.PROGRAM.cancelled.clear()
+    tasks.PROGRAM._children.clear()
+    tasks.PROGRAM.undo.clear()
+    yield
+    tasks.PROGRAM.cancel()
+
+
+@pytest.fixture
+def outside(network: PeerNetwork, join: Join) -> Outside:
+    return Outside(network, join("outside"))
+
+
+def test_sensors_are_told_in_units_that_people_use(outside: Outside) -> None:
+    outside.robot_is(sensors={"sonar_left": 0.25, "foot_left": 2.6}, battery=0.5)
+
+    robot = outside.robot
+
+    assert robot.sensor("sonar_left") == 25.0
+    assert robot.sensor("foot_left") == 2.6
+    assert robot.sensor("battery") == 50.0
+
+
+def test_what_a_robot_does_and_sees_can_be_asked(outside: Outside) -> None:
+    outside.robot_is(
+        posture="SitRelax",
+        saying="Hello",
+        sensors={"head_rear": 1.0},
+        sees={"face": (1.5, 1.5, 0.4), "face_anna_b": (1.5, 1.5, 0.4), "mark_64": (1, 0, 0)},
+        settings={"volume": 40.0, "language": "de", "awake": True},
+    )
+    robot = outside.robot
+
+    assert robot.is_in("posture_sit_relax") and not robot.is_in("posture_sit")
+    assert robot.is_doing("speaking") and robot.is_doing("awake") and not robot.is_doing("moving")
+    assert robot.is_touched("head") and not robot.is_touched("head_front")
+    assert robot.sees("face", "Anna B.") and robot.sees("mark", 64) and not robot.sees("ball")
+    assert robot.seen_name("face") == "anna b" and robot.seen_name("mark") == "64"
+    assert robot.place_of("face", "left") == 45.0 and robot.place_of("ball") == -1
+    assert robot.person_is("far") and not robot.person_is("close")
+    assert (robot.volume(), robot.language()) == (40.0, "de")
+
+
+def test_a_robot_that_tells_nothing_about_itself_does_not_answer(
+    outside: Outside, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(robot_states, "FIRST_STATE_S", 0.1)
+
+    with pytest.raises(errors.RobotNotAnswering):
+        outside.robot.sensor("battery")
+
+
+def test_a_state_is_read_that_is_newer_than_what_was_done(outside: Outside) -> None:
+    outside.robot_is(settings={"volume": 10.0})
+    assert outside.robot.volume() == 10.0
+    later = threading.Timer(0.2, lambda: outside.robot_is(settings={"volume": 80.0}))
+
+    outside.robot.set_volume(80)
+    later.start()
+
+    assert outside.robot.volume() == 80.0
+
+
+def test_a_question_is_answered_by_a_word_that_counts(outside: Outside) -> None:
+    def answer() -> None:
+        wait_until(lambda: "listen" in [action for action, _ in outside.nao.asked])
+        outside.does("gesture_karate", "heard_maybe", "heard_of_course")
+
+    threading.Thread(target=answer).start()
+    word = outside.robot.ask("Do you like it?", ["No", "Of course!"], 5)
+
+    assert word == "Of course!"
+    assert outside.nao.words() == ["Do you like it?"]
+
+
+def test_a_question_without_words_takes_any_answer(outside: Outside) -> None:
+    def answer() -> None:
+        wait_until(lambda: "listen" in [action for action, _ in outside.nao.asked])
+        outside.does("heard_good_morning")
+
+    threading.Thread(target=answer).start()
+
+    assert outside.robot.ask("Hello?", seconds=5) == "good morning"
+    assert heard_word() == "good morning"
+
+
+def test_a_question_without_an_answer_ends_in_time(outside: Outside) -> None:
+    outside.does("heard_yes")  # before it was asked
+    seen("heard_yes")
+
+    assert outside.robot.ask("Really?", ["yes"], seconds=0.2) == ""
+    assert outside.robot.wait_for_word("yes", seconds=0.1) == ""
+
+
+def test_states_are_remembered_with_time_and_number(
+    outside: Outside, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outside.does("touched_head", "touched_head")
+    seen("touched_head", 2)
+
+    assert was_seen("touched_head", 60) and not was_seen("touched_hand", 60)
+    assert times_seen("touched_head") == 2 and times_seen("touched_hand") == 0
+    wait(0.05)
+    assert not was_seen("touched_head", 0.01)
+
+
+def test_something_is_remembered_as_long_as_asked(outside: Outside) -> None:
+    remember("friend", 60)
+    remember("stranger", 0)
+
+    assert is_remembered("friend") and not is_remembered("stranger")
+    assert not is_remembered("nobody")
+
+
+def test_the_oldest_states_are_forgotten(outside: Outside, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(human, "MOST_STATES", 3)
+
+    outside.does("a", "b", "a", "c", "d")
+    seen("d")
+
+    assert [times_seen(state) for state in "abcd"] == [2, 0, 1, 1]
+
+
+def test_repeating_ends_when_the_state_comes(outside: Outside) -> None:
+    outside.does("touched_head")  # before it began
+    seen("touched_head")
+    turns = []
+
+    for turn in until_state("touched_head", 50):
+        turns.append(turn)
+        if turn == 3:
+            outside.does("touched_head")
+            seen("touched_head", 2)
+
+    assert turns == [1, 2, 3]
+    assert list(until_state("never", 4)) == [1, 2, 3, 4]
+
+
+def test_one_of_several_is_done_by_chance_and_each_in_turn() -> None:
+    done: list[str] = []
+    for _ in range(200):
+        one_of(lambda: done.append("a"), lambda: done.append("b"))
+    by_chance = set(done)
+    done.clear()
+
+    for _ in range(5):
+        in_turn(lambda: done.append("a"), lambda: done.append("b"))
+        in_turn(lambda: done.append("1"), lambda: done.append("2"), lambda: done.append("3"))
+
+    assert by_chance == {"a", "b"}
+    assert "".join(done) == "a1b2a3b1a2"

@@ -1,0 +1,200 @@
+"""The journal of edits: a program that is killed loses nothing that a person did."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from nep_studio import journal as journal_module
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.places import InBody
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.reading import from_bytes
+from nep_studio.blocks.writing import to_bytes
+from nep_studio.journal import Journal, recover
+from nep_studio.studio_language import studio_language
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
+
+
+@pytest.fixture(scope="module")
+def language():
+    return studio_language()
+
+
+@pytest.fixture
+def editor(language):
+    return Editor(Project("Greeting"), language)
+
+
+def add_blocks(editor, count=1):
+    return [
+        editor.create("robot.say", editor.new_stack("behaviour", 10 * n, 20)) for n in range(count)
+    ]
+
+
+def abandon(journal):
+    """Let go of a journal as a dead process does."""
+    journal.close(keep=True)
+
+
+CHILD = """
+import sys
+from pathlib import Path
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.program import Project
+from nep_studio.journal import Journal
+from nep_studio.studio_language import studio_language
+
+editor = Editor(Project("Killed"), studio_language())
+journal = Journal(Path(sys.argv[1]), editor, Path("somewhere.nep"))
+number = 0
+while True:
+    block = editor.create("robot.say", editor.new_stack("behaviour", 0, 0))
+    editor.apply(SetField(block, "text", f"number {number}"))
+    if number % 5 == 4:
+        editor.history.undo()
+        editor.history.redo()
+    number += 1
+    sys.stdout.write(f"{number}\\n")
+    sys.stdout.flush()
+"""
+
+
+def test_a_killed_program_loses_nothing(tmp_path, language):
+    child = subprocess.Popen(
+        [sys.executable, "-c", CHILD, str(tmp_path)], stdout=subprocess.PIPE, text=True
+    )
+    with child:
+        told = 0
+        while told < 1200:
+            told = int(child.stdout.readline())
+        assert recover(tmp_path, language) == []
+        os.kill(child.pid, signal.SIGKILL)
+        told = max([told, *(int(line) for line in child.stdout if line.endswith("\n"))])
+
+    (work,) = recover(tmp_path, language)
+
+    assert (work.name, work.path) == ("Killed", Path("somewhere.nep"))
+    texts = {block.fields["text"] for block in work.project.blocks.values()}
+    assert {f"number {n}" for n in range(told)} <= texts
+    assert len(work.project.blocks) <= told + 1
+    work.discard()
+    assert recover(tmp_path, language) == []
+
+
+def test_undo_redo_and_refused_steps_are_played_again_as_they_were(tmp_path, editor, language):
+    journal = Journal(tmp_path, editor)
+    first, second = add_blocks(editor, 2)
+    editor.apply(SetField(first, "text", "Hi"))
+    editor.history.undo()
+    with pytest.raises(EditRefused), editor.transaction("refused"):
+        editor.apply(SetField(second, "text", "never"))
+        editor.create("robot.say", InBody(first, "do", 0))
+    editor.history.redo()
+    editor.apply(SetField(first, "text", "Hello you"))
+    abandon(journal)
+
+    (work,) = recover(tmp_path, language)
+
+    assert to_bytes(work.project) == to_bytes(editor.project)
+
+
+def test_a_line_that_was_not_finished_is_left_out(tmp_path, editor, language):
+    journal = Journal(tmp_path, editor)
+    add_blocks(editor)
+    before = to_bytes(editor.project)
+    add_blocks(editor)
+    abandon(journal)
+    (edits,) = journal.folder.glob("*.edits")
+    data = edits.read_bytes()
+    last = data.rindex(b"\n", 0, -1) + 1
+
+    for end in range(last + 1, len(data) - 1, 13):
+        edits.write_bytes(data[:end])
+
+        (work,) = recover(tmp_path, language)
+
+        assert to_bytes(work.project) == before
+
+
+def test_the_journal_of_a_running_window_is_not_offered(tmp_path, editor, language):
+    journal = Journal(tmp_path, editor)
+    add_blocks(editor)
+
+    assert recover(tmp_path, language) == []
+    journal.close()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_saved_project_leaves_nothing_to_recover_until_it_is_changed(tmp_path, editor, language):
+    journal = Journal(tmp_path, editor)
+    add_blocks(editor)
+    journal.saved(tmp_path / "greeting.nep")
+    abandon(journal)
+
+    assert recover(tmp_path, language) == []
+    assert list(tmp_path.glob("*-*")) == []
+
+
+def test_a_snapshot_is_made_every_so_many_steps(tmp_path, editor, language, monkeypatch):
+    monkeypatch.setattr(journal_module, "STEPS_PER_SNAPSHOT", 5)
+    journal = Journal(tmp_path, editor)
+
+    for count in range(1, 14):
+        add_blocks(editor)
+        journal.flush()
+        (snapshot,) = journal.folder.glob("*.nep")
+        loaded = from_bytes(snapshot.read_bytes(), "x", language)
+        assert count - len(loaded.blocks) <= 5
+    abandon(journal)
+
+    (work,) = recover(tmp_path, language)
+    assert to_bytes(work.project) == to_bytes(editor.project)
+
+
+def test_a_recovered_project_that_is_open_again_stays_recoverable(tmp_path, editor, language):
+    add_blocks(editor, 3)
+    journal = Journal(tmp_path, editor, unsaved=True)
+    abandon(journal)
+
+    (work,) = recover(tmp_path, language)
+
+    assert len(work.project.blocks) == 3
+
+
+def test_a_journal_that_cannot_be_read_is_left_alone_and_told(tmp_path, editor, language, caplog):
+    journal = Journal(tmp_path, editor)
+    add_blocks(editor)
+    abandon(journal)
+    (snapshot,) = journal.folder.glob("*.nep")
+    snapshot.write_bytes(b"{")
+
+    assert recover(tmp_path, language) == []
+
+    assert snapshot.exists()
+    assert "cannot be read" in caplog.text
+    assert recover(tmp_path / "nowhere", language) == []
+
+
+def test_a_full_disk_is_told_and_does_not_stop_the_work(tmp_path, editor, monkeypatch, caplog):
+    journal = Journal(tmp_path, editor)
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "write", full)
+    add_blocks(editor)
+    monkeypatch.undo()
+
+    assert "No space" in journal.error and "No space" in caplog.text
+    assert len(editor.project.blocks) == 1
+    journal.close()

@@ -1,0 +1,134 @@
+"""Screen readers find every visible block, hear what it is, and where the keyboard is."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import QPoint
+from PySide6.QtGui import QAccessible
+
+from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.edits import DeleteBlocks, SetComment, SetFlag
+from nep_studio.studio_language import studio_language
+from nep_studio.ui.canvas.accessibility.installing import interface_of, make_accessible
+from nep_studio.ui.canvas.scrolling import ScrollingView
+from nep_studio.ui.theme import load_theme
+from tests.blocks.block_building import B, build
+
+NAME, DESCRIPTION = QAccessible.Text.Name, QAccessible.Text.Description
+
+
+@pytest.fixture
+def view(qtbot) -> ScrollingView:
+    does = [B("robot.say", {"text": "one"}), B("control.wait"), B("control.wait")]
+    number = B("math.arithmetic", {"a": 4, "b": 6})
+    repeat = B("control.repeat", {}, {"times": number}, {"do": does})
+    far_away = [B("event.started")]
+    editor = build(studio_language(), [B("event.started"), repeat], *[far_away] * 9)
+    view = ScrollingView(editor, load_theme("light"))
+    make_accessible(view)
+    qtbot.addWidget(view)
+    view.resize(600, 500)
+    view.show()
+    qtbot.waitExposed(view)
+    return view
+
+
+def block_of(view: ScrollingView, block_type: str) -> str:
+    return next(b.id for b in view.editor.project.blocks.values() if b.type == block_type)
+
+
+def test_the_canvas_is_a_tree_of_the_blocks_in_view(view: ScrollingView) -> None:
+    tree = QAccessible.queryAccessibleInterface(view)
+
+    names = [tree.child(number).text(NAME) for number in range(tree.childCount())]
+
+    assert tree.role() == QAccessible.Role.Tree
+    assert names[:2] == ["when the program starts", "repeat 4 + 6 times, contains 3 blocks"]
+    assert len(names) < 11
+
+
+def test_a_block_has_the_blocks_inside_it_as_children(view: ScrollingView) -> None:
+    tree = interface_of(view)
+    repeat = tree.block(block_of(view, "control.repeat"))
+
+    inside = [repeat.child(number) for number in range(repeat.childCount())]
+
+    assert [child.text(NAME) for child in inside][0] == "4 + 6"
+    assert [repeat.indexOfChild(child) for child in inside] == [0, 1, 2, 3]
+    assert all(child.parent() is repeat for child in inside)
+    assert repeat.parent() is tree
+    assert inside[1].text(DESCRIPTION) == "1 of 3, level 2"
+
+
+def test_a_place_on_the_screen_leads_to_the_block_there(view: ScrollingView) -> None:
+    tree = interface_of(view)
+    say = tree.block(block_of(view, "robot.say"))
+    rect = say.rect()
+
+    found = tree.childAt(rect.left() + 3, rect.center().y())
+
+    assert found is say
+    assert tree.rect().contains(rect)
+    assert tree.childAt(rect.right() + 150, rect.center().y() + 5) is None
+
+
+def test_what_a_block_looks_like_is_said_in_words(view: ScrollingView) -> None:
+    wait = block_of(view, "control.wait")
+    view.editor.apply(SetFlag(wait, "disabled", True))
+    view.editor.apply(SetComment(wait, "a short rest"))
+    view.problems.show([Problem("error", "x", "behaviour", wait, "It waits too long.")])
+
+    item = interface_of(view).block(wait)
+
+    assert item.text(NAME) == (
+        "wait 1 seconds, switched off, comment: a short rest, problem: It waits too long."
+    )
+    assert item.state().disabled
+
+
+def test_a_folded_block_hides_its_children(view: ScrollingView) -> None:
+    repeat = block_of(view, "control.repeat")
+    view.editor.apply(SetFlag(repeat, "collapsed", True))
+
+    item = interface_of(view).block(repeat)
+
+    assert item.childCount() == 0
+    assert item.state().collapsed
+    assert interface_of(view).block(block_of(view, "robot.say")).state().invisible
+
+
+def test_the_block_of_the_keyboard_has_the_focus(view: ScrollingView) -> None:
+    QAccessible.setActive(True)
+    say = block_of(view, "robot.say")
+    view.setFocus()
+
+    view.selection.set([say])
+
+    focused = interface_of(view).focusChild()
+    assert focused.text(NAME).startswith("NAO says one")
+    assert focused.state().selected
+    QAccessible.setActive(False)
+
+
+def test_a_deleted_block_is_not_valid_any_more(view: ScrollingView) -> None:
+    wait = block_of(view, "control.wait")
+    item = interface_of(view).block(wait)
+
+    view.editor.apply(DeleteBlocks(wait, 1))
+
+    assert not interface_of(view).block("b999").isValid()
+    assert wait not in interface_of(view)._blocks
+    del item
+
+
+def test_blocks_outside_the_view_say_so(view: ScrollingView) -> None:
+    last = view.editor.project.pages["behaviour"][-1].body[0]
+
+    item = interface_of(view).block(last)
+
+    assert item.state().offscreen
+    assert (
+        not view.viewport()
+        .rect()
+        .contains(view.viewport().mapFromGlobal(QPoint(item.rect().x(), item.rect().y())))
+    )

@@ -1,0 +1,123 @@
+"""The picture of what rests: repaired where it changed, it is the same as one painted anew."""
+
+from __future__ import annotations
+
+import random
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QImage
+
+from nep_studio.blocks.edits import DeleteBlocks, MoveStack, SetField, SetFlag
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.studio_language import studio_language
+from nep_studio.ui.canvas.scrolling import ScrollingView
+from nep_studio.ui.theme import load_theme
+from tests.blocks.block_building import B, build
+
+
+def many_stacks() -> Editor:
+    stacks = []
+    for number in range(6):
+        inner = [B("robot.say", {"text": f"number {number}"}), B("control.wait")]
+        stacks.append([B("event.started"), B("control.repeat", bodies={"do": inner})])
+    return build(studio_language(), *stacks)
+
+
+@pytest.fixture
+def view(qtbot) -> ScrollingView:
+    view = ScrollingView(many_stacks(), load_theme("light"))
+    qtbot.addWidget(view)
+    view.resize(700, 600)
+    view.show()
+    qtbot.waitExposed(view)
+    return view
+
+
+def picture(view: ScrollingView) -> QImage:
+    return view.viewport().grab().toImage()
+
+
+def painted_anew(view: ScrollingView) -> QImage:
+    view.repaint_all()
+    return picture(view)
+
+
+def is_same(one: QImage, other: QImage) -> bool:
+    """Whether they differ by no more than how smooth edges are rounded in parts of a picture."""
+    pixels = [np.frombuffer(i.constBits(), np.uint8).astype(int) for i in (one, other)]
+    return one.size() == other.size() and int((np.abs(pixels[0] - pixels[1]) > 60).sum()) < 30
+
+
+def random_step(view: ScrollingView, chance: random.Random) -> None:
+    editor, project = view.editor, view.editor.project
+    block = chance.choice(list(project.blocks.values()))
+    stack = chance.choice(list(project.stacks.values()))
+    step = chance.randrange(7)
+    try:
+        if step == 0 and block.type == "robot.say":
+            editor.apply(SetField(block.id, "text", "x" * chance.randrange(60)))
+        elif step == 1:
+            editor.apply(SetFlag(block.id, "disabled", not block.disabled))
+        elif step == 2:
+            editor.apply(SetFlag(block.id, "collapsed", not block.collapsed))
+        elif step == 3 and len(project.stacks) > 3:
+            editor.apply(DeleteBlocks(block.id, 1))
+        elif step == 4:
+            editor.apply(MoveStack(stack.id, chance.randrange(500), chance.randrange(900)))
+        elif step == 5:
+            view.pan(chance.randrange(-80, 80), chance.randrange(-80, 80))
+        else:
+            editor.history.undo()
+    except EditRefused:
+        pass
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_repaired_picture_is_the_same_as_one_painted_anew(view: ScrollingView, seed) -> None:
+    chance = random.Random(seed)
+    picture(view)
+
+    for _ in range(12):
+        random_step(view, chance)
+        repaired = picture(view)
+
+        assert is_same(repaired, painted_anew(view))
+
+
+def test_zooming_stretches_the_picture_at_once_and_sharpens_it_when_it_rests(view, qtbot) -> None:
+    picture(view)
+
+    view.zoom(1.7, QPointF(100, 100))
+    stretched = picture(view)
+    qtbot.waitUntil(lambda: not view.sharpen.isActive())
+    sharp = picture(view)
+
+    assert not is_same(stretched, sharp)
+    assert is_same(sharp, painted_anew(view))
+
+
+def test_a_page_of_another_name_is_shown_empty(view: ScrollingView) -> None:
+    view.show_page("robots")
+
+    assert view.page_layout.bounds() is None
+    assert view.page == "robots"
+
+
+def test_the_scroll_bars_reach_over_the_whole_page(view: ScrollingView) -> None:
+    bar = view.verticalScrollBar()
+
+    bar.setValue(bar.maximum())
+
+    bounds = view.page_layout.bounds()
+    assert view.visible_page_rect().bottom >= bounds.bottom
+
+
+def test_fitting_shows_every_block(view: ScrollingView) -> None:
+    view.fit()
+
+    bounds, seen = view.page_layout.bounds(), view.visible_page_rect()
+    assert seen.holds(bounds.x, bounds.y)
+    assert seen.holds(bounds.right, bounds.bottom)
