@@ -138,6 +138,8 @@ def dragging(view: View, driver: Driver, name: str) -> Figures:
         before = now
 
     times_ms = driver.drag(grip(view), drag_path(), note_gap)
+    while view.editor.history.undo():  # a drop may have moved the stack a little
+        driver.settle()
     steps = [t for t, is_new in zip(times_ms, gaps, strict=True) if not is_new]
     previews = [t for t, is_new in zip(times_ms, gaps, strict=True) if is_new]
     found = {

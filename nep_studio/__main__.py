@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 
 JOBS = {
@@ -18,8 +18,11 @@ JOBS = {
     "master": "nep_core.cli.services:run_master",
 }
 
+WINDOW = "nep_studio.ui.app:main"
+
 USAGE = """NEP Studio: give a social robot its behaviour with blocks.
 
+  nep-studio [FILE.nep]        the window, with a project
   nep-studio run FILE.nep      play a project, on the robots on the screen unless it names others
   nep-studio code FILE.nep     the Python that the blocks make
   nep-studio check FILE.nep    what is not right yet, in plain words
@@ -30,7 +33,7 @@ USAGE = """NEP Studio: give a social robot its behaviour with blocks.
 Each of them explains itself with --help. For robot developers there is also: nep --help
 """
 
-NO_WINDOW = """NEP Studio has no window yet: this version plays projects in the terminal. Try
+NO_WINDOW = """NEP Studio needs a display for its window, and there is none here. In a terminal, try
 
   nep-studio run {example}
 
@@ -38,6 +41,7 @@ NO_WINDOW = """NEP Studio has no window yet: this version plays projects in the 
 
 
 FAILED = 1
+UNUSABLE = 2
 INTERRUPTED = 130
 """The exit code after Ctrl-C, by the shells' custom."""
 
@@ -75,9 +79,20 @@ def _do(words: list[str]) -> int:
 
     if words and not words[0].endswith(".nep"):
         print(f'"{words[0]}" is not something that nep-studio can do.\n', file=sys.stderr)
-    example = words[0] if words and words[0].endswith(".nep") else _example(paths.examples())
+        print(USAGE, file=sys.stderr)
+        return UNUSABLE
+    if _has_display(os.environ, sys.platform):
+        return _load(WINDOW)(words)
+    example = words[0] if words else _example(paths.examples())
     print(NO_WINDOW.format(example=example) + USAGE, file=sys.stderr)
-    return 2
+    return UNUSABLE
+
+
+def _has_display(environment: Mapping[str, str], system: str) -> bool:
+    """Whether a window can be shown, as far as can be told without Qt."""
+    if not system.startswith(("linux", "freebsd")):
+        return True
+    return any(environment.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"))
 
 
 def _write_what_can_be_written() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nep_core.messages import ActionRequest
 from nep_studio.blocks.language import Language
+from nep_studio.body_words import body_words
 
 
 def action_words(request: ActionRequest, language: Language) -> str:
@@ -27,7 +28,9 @@ def action_words(request: ActionRequest, language: Language) -> str:
             return f"plays the animation {label('animations', 'animation')}"
         case "walk":
             steps = _walk_words(_number(args, "forward_m"), _number(args, "left_m"))
-            return f"walks {steps}" if steps else "stays where it is"
+            turn = _sided(_number(args, "turn_deg"), "°", "to the left", "to the right")
+            ways = [f"walks {steps}" if steps else "", f"turns {turn}" if turn else ""]
+            return " and ".join(filter(None, ways)) or "stays where it is"
         case "turn":
             return f"turns {_sided(_number(args, 'degrees'), '°', 'to the left', 'to the right')}"
         case "look":
@@ -36,7 +39,7 @@ def action_words(request: ActionRequest, language: Language) -> str:
             return f"looks {' and '.join(word for word in (yaw, pitch) if word) or 'ahead'}"
         case "leds":
             return f"lights {label('led_groups', 'group')} in {args.get('colour')}"
-    return request.action
+    return body_words(request.action, args, label) or request.action
 
 
 def _walk_words(forward_m: float, left_m: float) -> str:

@@ -110,6 +110,17 @@ class Settings:
         self._values.setValue("files/recent", [str(path) for path in paths][:MOST_RECENT])
 
     @property
+    def recent_blocks(self) -> list[str]:
+        """The types of blocks that were used last, the newest first."""
+        stored = self._values.value("palette/recent", [])
+        names = [stored] if isinstance(stored, str) else stored
+        return [n for n in names if isinstance(n, str) and n] if isinstance(names, list) else []
+
+    @recent_blocks.setter
+    def recent_blocks(self, types: Iterable[str]) -> None:
+        self._values.setValue("palette/recent", list(types))
+
+    @property
     def last_folder(self) -> Path:
         """Where a project was opened or saved last."""
         documents = QStandardPaths.StandardLocation.DocumentsLocation

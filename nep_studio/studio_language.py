@@ -10,6 +10,7 @@ from nep_core.places import node_folders
 from nep_studio import paths
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.loading import load_language
+from nep_studio.blocks.translation import translated
 
 
 def shipped_gestures() -> dict[str, str]:
@@ -33,12 +34,19 @@ def launchable_nodes() -> dict[str, str]:
     return nodes
 
 
-def studio_language() -> Language:
-    """The language of this installation; raises DefinitionError."""
+def studio_language(code: str = "en") -> Language:
+    """The language of this installation, in the words of ``code``; raises DefinitionError.
+
+    Words that the table of ``code`` does not have stay English, all of them without a table.
+    """
     resources = paths.resources()
-    return load_language(
+    language = load_language(
         resources / "blocks",
         resources / "robots" / "nao" / "robot.toml",
         gestures=shipped_gestures(),
         nodes=launchable_nodes(),
     )
+    table = resources / "translations" / f"{code}.toml"
+    if code == "en" or not table.is_file():
+        return language
+    return translated(language, tomllib.loads(table.read_text(encoding="utf-8")))

@@ -134,16 +134,14 @@ def _refuse_global(tree: ast.AST) -> None:
 
 
 def _names(tree: ast.AST) -> tuple[frozenset[str], frozenset[str]]:
-    read, made = set(), set()
+    read: set[str] = set()
+    made: set[str] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Name):
             (read if isinstance(node.ctx, ast.Load) else made).add(node.id)
-    read |= {n.target.id for n in ast.walk(tree) if _is_own_change(n)}  # type: ignore[attr-defined]
+        if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name):
+            read.add(node.target.id)
     return frozenset(read), frozenset(made)
-
-
-def _is_own_change(node: ast.AST) -> bool:
-    return isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name)
 
 
 def _told(error: SyntaxError) -> str:

@@ -36,6 +36,8 @@ FLAGS = {
     "apart": "its bodies are functions of their own",
     "last": "nothing after this block is ever reached",
     "stands": "the robot must stand",
+    "stands_up": "the robot stands from then on",
+    "rests": "the robot rests from then on, and cannot move",
     "needs_real_robot": "the robot on the screen cannot do it",
     "posture": "the choice in slot `posture` is the robot's posture from then on",
 }

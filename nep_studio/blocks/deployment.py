@@ -109,17 +109,17 @@ def chains(project: Project, language: Language) -> Iterator[list[str]]:
 
 
 def _slots_of_kind(project: Project, language: Language, kind: str) -> Iterator[tuple[Block, str]]:
-    """The blocks in rules that have a slot of this kind, and the slot's name."""
-    keys = {
-        definition.id: slot.name
+    """The blocks in rules that have slots of this kind, and the key of each."""
+    types = {
+        definition.id
         for definition in language.definitions.values()
-        for slot in definition.slots.values()
-        if slot.kind.name == kind
+        if any(slot.kind.name == kind for slot in definition.slots.values())
     }
     for chain in chains(project, language):
         for block in project.within(chain, enabled=True):
-            if block.type in keys:
-                yield block, keys[block.type]
+            if block.type in types:
+                keys = language.definitions[block.type].keys(block.groups)
+                yield from ((block, key) for key, slot in keys if slot.kind.name == kind)
 
 
 def _entries(project: Project, page: str, block_type: str) -> Iterator[Block]:

@@ -65,8 +65,7 @@ class Editor:
         reason = self.why_not(edit)
         if reason is not None:
             raise EditRefused(reason)
-        followers = self._followers(edit) if isinstance(edit, SetField) else []
-        if not followers:
+        if not isinstance(edit, SetField) or not (followers := self._followers(edit)):
             self.history.apply(edit, label)
             return
         with self.history.transaction(label or edit.label):

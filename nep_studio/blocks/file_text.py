@@ -58,7 +58,8 @@ def in_words(error: msgspec.ValidationError) -> str:
     """Turn “Expected `str`, got `int` - at `$.name`” into words."""
     what, _, where = str(error).partition(" - at ")
     place = re.sub(r"\[(\d+)\]", _entry, where.strip("`").removeprefix("$").lstrip("."))
-    return f"at {place.replace('[...]', '') or 'its beginning'}: {_what_in_words(what)}"
+    place = place.replace("[...]", "").replace(" .", ", ").strip()
+    return f"at {place or 'its beginning'}: {_what_in_words(what)}"
 
 
 def is_deeper(value: object, limit: int) -> bool:

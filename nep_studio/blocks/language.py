@@ -26,13 +26,15 @@ class Language:
     """Definitions by block type and choices by table (value to label).
 
     A table that is absent or empty is not known here (no node manifests were given, say), and
-    then any value passes. ``profile`` is the kind of robot.
+    then any value passes. ``profile`` is the kind of robot. ``words`` are other words of sentences
+    in the language of the person, by the English ones.
     """
 
     definitions: Mapping[str, Definition]
     categories: tuple[Category, ...]
     choices: Mapping[str, Mapping[str, str]]
     profile: RobotProfile
+    words: Mapping[str, str] = field(default_factory=dict)
     _base: Language | None = field(default=None, repr=False, compare=False)
     _own: WeakKeyDictionary[Project, _Own] = field(
         default_factory=WeakKeyDictionary, repr=False, compare=False
@@ -47,7 +49,14 @@ class Language:
         own = base._own.get(project)
         if own is None:
             own = _Own(
-                Language(dict(base.definitions), base.categories, base.choices, base.profile, base)
+                Language(
+                    dict(base.definitions),
+                    base.categories,
+                    base.choices,
+                    base.profile,
+                    base.words,
+                    base,
+                )
             )
             base._own[project] = own
         if own.revision != project.procedure_revision:
@@ -56,8 +65,12 @@ class Language:
             assert isinstance(definitions, dict)
             definitions.clear()
             definitions |= base.definitions
-            definitions |= definitions_of(project.procedures.values())
+            definitions |= definitions_of(project.procedures.values(), base.words)
         return own.language
+
+    def word(self, english: str) -> str:
+        """A word of the sentences in the language of the person."""
+        return self.words.get(english, english)
 
     def table_of(self, slot: Slot, block: Block | None = None, key: str = "") -> str:
         """The name of the table of choices of a slot; ``key`` is its key where it is numbered.

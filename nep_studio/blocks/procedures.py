@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from .definitions import Category, Definition, Shape
 from .program import Parameter, Procedure, Project
@@ -19,6 +19,7 @@ PARAMETER_KINDS = ("number", "text", "boolean", "list", "any")
 MOST_PROCEDURES = 500
 MOST_PARTS = 40
 
+NO_WORDS: Mapping[str, str] = {}
 _ID = re.compile(r"[a-z][a-z0-9_]{0,63}")
 _DEFAULTS: dict[str, FieldValue] = {"number": 0, "text": "", "any": 0}
 
@@ -52,9 +53,14 @@ def words(procedure: Procedure) -> str:
     return " ".join(part for part in procedure.parts if isinstance(part, str))
 
 
-def definitions_of(procedures: Iterable[Procedure]) -> dict[str, Definition]:
-    """The definitions of own blocks by type: a header, a call, and one for each parameter."""
-    found = (d for procedure in procedures for d in _definitions(procedure))
+def definitions_of(
+    procedures: Iterable[Procedure], words: Mapping[str, str] = NO_WORDS
+) -> dict[str, Definition]:
+    """The definitions of own blocks by type: a header, a call, and one for each parameter.
+
+    ``words`` are those of the person's language by the English ones.
+    """
+    found = (d for procedure in procedures for d in _definitions(procedure, words))
     return {definition.id: definition for definition in found}
 
 
@@ -96,14 +102,15 @@ def _why_not_parameter(parameter: Parameter, ids: set[str]) -> str | None:
     return why_not_line(parameter.name) or why_not_name(parameter.name)
 
 
-def _definitions(procedure: Procedure) -> Iterator[Definition]:
+def _definitions(procedure: Procedure, words: Mapping[str, str]) -> Iterator[Definition]:
     given = parameters(procedure)
     slots = {p.id: Slot(p.id, KINDS[p.kind]) for p in given}
     pills = {p.id: _pill(procedure, p) for p in given}
     defaults = {p.id: _DEFAULTS[p.kind] for p in given if p.kind in _DEFAULTS}
     call_shape: Shape = "reporter" if procedure.gives_value else "statement"
     call = _sentence(procedure, slots)
-    yield _definition(DEFINE, procedure.id, "hat", ("define", *_sentence(procedure, pills)), pills)
+    header = (words.get("define", "define"), *_sentence(procedure, pills))
+    yield _definition(DEFINE, procedure.id, "hat", header, pills)
     yield _definition(
         CALL,
         procedure.id,

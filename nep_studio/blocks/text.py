@@ -23,7 +23,7 @@ def sentence(project: Project, language: Language, block_id: str) -> str:
 def _sentence(project: Project, language: Language, block: Block, depth: int) -> str:
     definition = language.definitions.get(block.type)
     if definition is None:
-        return f"unknown block {block.type}"
+        return f"{language.word('unknown block')} {block.type}"
     if depth > _DEEPEST:
         return _EMPTY
     words = []
@@ -70,7 +70,7 @@ def field_text(
     if isinstance(value, bool):
         return "on" if value else "off"
     if slot.kind.name == "robot" and value == ALL_ROBOTS:
-        return "all robots"
+        return language.word("all robots")
     if value is None or value == "":
         return _EMPTY
     return language.choices_of(slot, block, key).get(str(value), str(value))

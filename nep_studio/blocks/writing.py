@@ -53,6 +53,9 @@ def _block(block: Block) -> dict[str, Any]:
     """What is not said is empty, off or the default; extra keys are as they were."""
     entry: dict[str, Any] = msgspec.to_builtins(block)
     entry.update(entry.pop("extra", {}))
+    for size in ("comment_width", "comment_height"):
+        if not entry.get(size, 1):
+            del entry[size]
     groups = {name: count for name, count in block.groups.items() if count}
     if groups:
         entry["groups"] = groups

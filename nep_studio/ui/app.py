@@ -57,11 +57,13 @@ class Studio(QObject):
             code = settings.system_language(words.available_languages())
         words.use_language(code)
         is_mirrored = words.is_right_to_left()
-        direction = Qt.LayoutDirection.RightToLeft if is_mirrored else Qt.LayoutDirection.LeftToRight
+        direction = (
+            Qt.LayoutDirection.RightToLeft if is_mirrored else Qt.LayoutDirection.LeftToRight
+        )
         self.app.setLayoutDirection(direction)
 
     def _block_language(self) -> Language:
-        return studio_language()
+        return studio_language(words.language_code())
 
 
 def make_application() -> QApplication:

@@ -83,7 +83,7 @@ class LastResort(QObject):
             file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
             root = logging.getLogger()
             root.addHandler(file)
-            self._restore.append(lambda: (root.removeHandler(file), file.close()))
+            self._restore += [file.close, lambda: root.removeHandler(file)]
 
     def _on_error(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None

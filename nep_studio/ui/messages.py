@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, Protocol
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QAccessible, QAccessibleAnnouncementEvent
@@ -15,8 +14,6 @@ from nep_core.errors import NepError
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.problems import Problem, problem_of
 from nep_studio.ui.words import tr
-
-log = logging.getLogger(__name__)
 
 Kind = Literal["info", "success", "warning", "error"]
 
@@ -40,7 +37,11 @@ class Answer:
 
 @dataclass(frozen=True)
 class Message:
-    """What happened and what to do; one that ``passes`` goes by itself after it could be read."""
+    """What happened and what to do.
+
+    One that ``passes`` goes by itself after it could be read; one that ``is_busy`` tells of
+    something that goes on, until it is withdrawn.
+    """
 
     kind: Kind
     title: str
@@ -49,11 +50,25 @@ class Message:
     details: str = ""
     answers: tuple[Answer, ...] = ()
     passes: bool = False
+    is_busy: bool = False
 
     @property
     def spoken(self) -> str:
         """What a screen reader says."""
         return " ".join(part for part in (self.title, self.sentence, *self.checklist) if part)
+
+
+class Place(Protocol):
+    """Where messages are shown."""
+
+    def show_message(self, message: Message) -> None:
+        """Show one."""
+
+    def withdraw(self, message: Message) -> None:
+        """Take one away."""
+
+    def clear_passing(self) -> None:
+        """Take away those that go by themselves."""
 
 
 class Messages(QObject):
@@ -62,16 +77,16 @@ class Messages(QObject):
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
         self._window = window
-        self._show: Callable[[Message], None] = _log_only
-        self._clear_passing: Callable[[], None] = lambda: None
+        self._place: Place | None = None
 
-    def show_in(self, show: Callable[[Message], None], clear_passing: Callable[[], None]) -> None:
+    def show_in(self, place: Place) -> None:
         """Use this place for what is told from now on."""
-        self._show, self._clear_passing = show, clear_passing
+        self._place = place
 
     def tell(self, message: Message) -> None:
         """Show a message; nobody has to answer it."""
-        self._show(message)
+        if self._place is not None:
+            self._place.show_message(message)
         announce(self._window, message.spoken)
 
     def tell_problem(self, problem: Problem, *answers: Answer, kind: Kind = "error") -> None:
@@ -96,7 +111,13 @@ class Messages(QObject):
 
     def clear_passing(self) -> None:
         """Take away what goes by itself: the person has gone on."""
-        self._clear_passing()
+        if self._place is not None:
+            self._place.clear_passing()
+
+    def withdraw(self, message: Message) -> None:
+        """Take a message away."""
+        if self._place is not None:
+            self._place.withdraw(message)
 
     def ask(self, message: Message) -> None:
         """Ask a question that must be answered before the work goes on; Esc is the last answer."""
@@ -109,7 +130,3 @@ def announce(widget: QWidget, words: str) -> None:
     """Let a screen reader say something."""
     if QAccessible.isActive() and words:
         QAccessible.updateAccessibility(QAccessibleAnnouncementEvent(widget, words))
-
-
-def _log_only(message: Message) -> None:
-    log.warning("Nobody sees this message: %s", message.spoken)

@@ -43,6 +43,11 @@ class MessageArea(QWidget):
         self.show()
         self._place()
 
+    def withdraw(self, message: Message) -> None:
+        """Take the card of a message away."""
+        for card in [card for card in self.cards if card.message is message]:
+            self._remove(card)
+
     def clear_passing(self) -> None:
         """Take away the cards that go by themselves."""
         for card in [card for card in self.cards if card.message.passes]:

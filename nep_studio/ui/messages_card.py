@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPlainTextEdit,
+    QProgressBar,
     QPushButton,
     QSizePolicy,
     QToolButton,
@@ -116,6 +117,8 @@ class MessageCard(QFrame):
         row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
         words = QVBoxLayout()
         words.addWidget(MessageText(self.message))
+        if self.message.is_busy:
+            words.addWidget(_endless_progress())
         if self.buttons:
             answers = QHBoxLayout()
             for button in self.buttons:
@@ -124,6 +127,7 @@ class MessageCard(QFrame):
             words.addLayout(answers)
         row.addLayout(words, 1)
         row.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
+        self.close_button.setVisible(not self.message.is_busy)
 
     def _button(self, answer: Answer) -> QPushButton:
         button = QPushButton(answer.words)
@@ -153,6 +157,13 @@ def _cross(theme: Theme) -> QToolButton:
     button.setToolTip(tr("Close"))
     button.setAccessibleName(tr("Close this message"))
     return button
+
+
+def _endless_progress() -> QProgressBar:
+    bar = QProgressBar()
+    bar.setRange(0, 0)
+    bar.setTextVisible(False)
+    return bar
 
 
 def _label(words: str, role: str = "") -> QLabel:

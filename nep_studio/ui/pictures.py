@@ -16,7 +16,7 @@ from nep_studio.ui.canvas.texts import TextWidths
 from nep_studio.ui.theme import Theme
 
 MARGIN = 18.0
-SMALLEST_SCALE = 0.32
+SMALLEST_SCALE = 0.56
 
 
 def picture_of(
@@ -40,7 +40,7 @@ def picture_of(
         painter.translate(-seen.x, -seen.y)
         paint_background(painter, shown, seen, theme)
         blocks = BlockPainter(theme, editor.language, measures, font)
-        blocks.paint(painter, layout.boxes(shown), seen.scale)
+        blocks.paint(painter, layout.boxes(shown), max(seen.scale, 0.7))  # with all words
     return pixmap
 
 

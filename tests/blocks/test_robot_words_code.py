@@ -127,3 +127,12 @@ def test_hats_for_different_parts_are_different_rules(language: Language) -> Non
     goals = [[B("goal.goal", {"name": name}), B("robot.say")] for name in ("a", "b")]
 
     assert kinds(sound(language, *touched, *goals), language) == ["same_trigger"]
+
+
+def test_a_resting_robot_must_wake_up_before_it_walks(language: Language) -> None:
+    rest, wake, walk = B("robot_moves.rest"), B("robot_moves.wake_up"), B("robot.walk")
+
+    refused = kinds(sound(language, [B("event.started"), rest, walk]), language)
+    woken = kinds(sound(language, [B("event.started"), rest, wake, walk]), language)
+
+    assert (refused, woken) == (["not_standing"], [])

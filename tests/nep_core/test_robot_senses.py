@@ -19,11 +19,9 @@ from nep_core.human import (
 )
 from nep_core.p2p import PeerNetwork
 from nep_core.tasks import wait, wait_until
+from tests.nep_core.outside import Outside, seen
 
 Join = Callable[[str], PeerNetwork]
-
-
-from tests.nep_core.outside import Outside, seen
 
 
 @pytest.fixture(autouse=True)

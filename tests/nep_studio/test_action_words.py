@@ -7,6 +7,8 @@ import pytest
 from nep_core.messages import ActionRequest
 from nep_studio.action_words import action_words
 from nep_studio.studio_language import studio_language
+from nodes.action.naobody.body_actions import BODY_ACTIONS
+from nodes.action.naobody.sense_actions import SENSE_ACTIONS
 
 
 @pytest.mark.parametrize(
@@ -23,6 +25,16 @@ from nep_studio.studio_language import studio_language
         ("look", {"yaw_deg": 40, "pitch_deg": -10}, "looks 40° to the left and 10° up"),
         ("look", {"yaw_deg": 0, "pitch_deg": 0}, "looks ahead"),
         ("leds", {"group": "LeftFaceLeds", "colour": "#ff0000"}, "lights the left eye in #ff0000"),
+        ("walk", {"forward_m": 1, "turn_deg": -90}, "walks 1 m forward and turns 90° to the right"),
+        ("hand", {"side": "both", "open": True}, "opens both hands"),
+        ("move_joint", {"joint": "HeadYaw", "degrees": 20}, "moves HeadYaw to 20°"),
+        ("stiffness", {"part": "legs", "on": False}, "releases both legs"),
+        ("breathing", {"on": False}, "no longer breathes"),
+        ("breathing", {"on": True}, "breathes"),
+        ("track", {"thing": "ball", "using": "head"}, "follows the red ball with its head"),
+        ("listen", {"words": ["yes", "no"]}, "listens for “yes” or “no”"),
+        ("language", {"language": "fr"}, "speaks French from now on"),
+        ("learn_face", {"name": "Anna"}, "learns the face of Anna"),
         ("fly", {}, "fly"),
     ],
 )
@@ -30,3 +42,10 @@ def test_an_action_in_words(action: str, args: dict[str, object], words: str) ->
     request = ActionRequest(id="1", robots=["NAO"], action=action, args=args)
 
     assert action_words(request, studio_language()) == words
+
+
+def test_every_action_of_the_robot_has_words() -> None:
+    for action in (*BODY_ACTIONS, *SENSE_ACTIONS):
+        request = ActionRequest(id="1", robots=["NAO"], action=action)
+
+        assert action_words(request, studio_language()) not in ("", action)

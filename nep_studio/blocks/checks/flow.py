@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
+from ..definitions import Definition
 from ..deployment import chains
 from ..language import Language
 from ..program import ALL_ROBOTS, Block, Project
 from ..text import sentence
 from .problem import Fix, Problem, page_of
+
+_POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
+"""The postures after blocks with such a flag."""
 
 
 def check_flow(project: Project, language: Language) -> Iterator[Problem]:
@@ -75,14 +79,14 @@ def _walking_unready(
     postures: dict[str, str] = {}
     for block in blocks:
         flags = _flags(language, block)
-        if not flags & {"posture", "stands"}:
+        if not flags & {"posture", "stands", *_POSTURES}:
             continue
         definition = language.definitions[block.type]
         robot = str(definition.value(block, "robot"))
-        if "posture" in flags:
+        if taken := _posture_taken(definition, block):
             if robot == ALL_ROBOTS:
                 postures.clear()
-            postures[robot] = str(definition.value(block, "posture"))
+            postures[robot] = taken
             continue
         posture = postures.get(robot, postures.get(ALL_ROBOTS))
         if posture is not None and posture not in language.profile.standing:
@@ -97,6 +101,13 @@ def _walking_unready(
                 ("Let the robot stand first.",),
                 Fix("stand_first", "Stand first", {"block": block.id, "robot": robot}),
             )
+
+
+def _posture_taken(definition: Definition, block: Block) -> str:
+    """The posture that a block leaves a robot in, "" when it leaves it as it is."""
+    if "posture" in definition.flags:
+        return str(definition.value(block, "posture"))
+    return next((_POSTURES[flag] for flag in definition.flags if flag in _POSTURES), "")
 
 
 def _flags(language: Language, block: Block) -> frozenset[str]:

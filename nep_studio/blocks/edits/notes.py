@@ -22,7 +22,7 @@ class AddNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         if self.note.id in project.notes:
             raise EditRefused("A note with this id is already there.")
         _require_page(project, self.note.page)
-        project.notes[self.note.id] = self.note
+        project.notes[self.note.id] = _in_floats(self.note)
         project.id_seen(self.note.id)
         project.touch_note(self.note.id)
         return RemoveNote(self.note.id)
@@ -52,7 +52,7 @@ class ChangeNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         """Change the note."""
         old = _require_note(project, self.note.id)
         _require_page(project, self.note.page)
-        project.notes[self.note.id] = self.note
+        project.notes[self.note.id] = _in_floats(self.note)
         project.touch_note(self.note.id)
         return ChangeNote(old)
 
@@ -72,6 +72,12 @@ class SetCommentSize(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         block.comment_width, block.comment_height = float(self.width), float(self.height)
         project.touch(project.stack_of(self.block).id, self.block)
         return old
+
+
+def _in_floats(note: Note) -> Note:
+    """A note as it is read from a file: places and sizes are no whole numbers there."""
+    x, y = float(note.x), float(note.y)
+    return Note(note.id, note.page, x, y, float(note.width), float(note.height), note.text)
 
 
 def _require_note(project: Project, note_id: str) -> Note:

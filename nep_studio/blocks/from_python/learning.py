@@ -26,9 +26,19 @@ from ..procedures import procedure_of
 from ..program import Block, Project, split_slot
 from ..sentence import Slot
 from ..values import FieldValue
-from .markers import MARKS, VARIABLE_NAME, body_name, number_for, part_name, slot_name, word_for
+from .markers import (
+    MARKS,
+    VARIABLE_NAME,
+    body_name,
+    number_for,
+    part_name,
+    position_of,
+    slot_name,
+    word_for,
+)
 
-MOST_PATTERNS, MOST_LANGUAGES = 600, 4
+MOST_PATTERNS, MOST_LANGUAGES, MOST_MIXED = 600, 4, 3
+_NUMBERS = frozenset({"number", "angle", "slider", "duration"})
 _WORDS = frozenset({"text", "line", "state", "gesture", "lines"})
 _KEPT_AS_WRITTEN = frozenset({"code_lines", "code_value", "note"})
 
@@ -110,10 +120,14 @@ def _learn(definitions: Sequence[Definition], language: Language) -> Learned:
     return found
 
 
-def _order(pattern: Pattern) -> tuple[int, int]:
-    """Patterns that say more come first, then those that take less: a gesture is a state too."""
+def _order(pattern: Pattern) -> tuple[int, int, int]:
+    """Patterns that say more come first, then those that take any number, not just 0 in “> 0”;
+
+    then those that take less: a gesture is a state too.
+    """
     slots = pattern.definition.slots.values()
-    return -pattern.size, sum(slot.kind.name in ("state", "text", "any") for slot in slots)
+    fixed = sum(_is_plain(node) for nodes in pattern.nodes for node in ast.walk(nodes))
+    return -pattern.size, fixed, sum(slot.kind.name in ("state", "text", "any") for slot in slots)
 
 
 def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
@@ -121,8 +135,8 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
     for groups in itertools.islice(_group_counts(definition), MOST_PATTERNS):
         for fields in _choices(definition, language, groups):
             keys = tuple(key for key, _ in definition.keys(groups))
-            for literal, plain in _variants(definition, keys):
-                learner = _Learner(language, fields, keys, literal, plain)
+            for typed, plain in _variants(definition, keys):
+                learner = _Learner(language, fields, keys, typed, plain)
                 try:
                     nodes = learner.nodes(definition, groups)
                 except _NOT_MADE:
@@ -148,7 +162,7 @@ def _choices(
 ) -> list[dict[str, FieldValue]]:
     """The ways in which the choices can be made by which the Python differs in its form."""
     keys = tuple(key for key, _ in definition.keys(groups))
-    learner = _Learner(language, {}, keys, False, "")
+    learner = _Learner(language, {}, keys, frozenset(), "")
     with suppress(*_NOT_MADE):
         learner.nodes(definition, groups)
     asked = list(dict.fromkeys(learner.asked))
@@ -159,14 +173,17 @@ def _choices(
     return [dict(zip(asked, way, strict=True)) for way in ways]
 
 
-def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[bool, str]]:
+def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[frozenset[str], str]]:
     """With numbers typed or plugged in, and each time with one slot left as it is when new."""
-    yield False, ""
-    yield True, ""
-    for key in keys:
-        if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
-            yield True, key
-            yield False, key
+    numbers = [key for key in keys if definition.slots[split_slot(key)[0]].kind.name in _NUMBERS]
+    if len(numbers) > MOST_MIXED:
+        numbers = []
+    for count in range(len(numbers) + 1):
+        for typed in itertools.combinations(numbers, count):
+            yield frozenset(typed), ""
+            for key in keys:
+                if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
+                    yield frozenset(typed), key
 
 
 class _Learner(Expressions):
@@ -177,14 +194,14 @@ class _Learner(Expressions):
         language: Language,
         fields: Mapping[str, FieldValue],
         keys: Sequence[str],
-        literal: bool,
+        typed: frozenset[str],
         plain: str,
     ) -> None:
         super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS)
         self.asked: list[str] = []
         self._fields_chosen = fields
         self._positions = {key: position for position, key in enumerate(keys)}
-        self._literal = literal
+        self._typed = typed
         self._plain = plain
         self._functions = 0
 
@@ -204,7 +221,7 @@ class _Learner(Expressions):
         slot = self._slot(block, key)
         if key == self._plain:
             return constant(self.definition(block).defaults[slot.name])
-        if self._literal and slot.kind.name in ("number", "angle", "slider", "duration"):
+        if key in self._typed:
             return ast.Constant(number_for(self._positions[key]))
         return ast.Name(slot_name(key))
 
@@ -249,7 +266,14 @@ def _says(node: ast.AST) -> bool:
     """Whether a node is a part of the Python itself, neither a marker nor a note of ast."""
     if isinstance(node, ast.Name) and node.id.startswith(MARKS):
         return False
-    return not isinstance(node, ast.expr_context)
+    return not isinstance(node, ast.expr_context) and not _is_plain(node)
+
+
+def _is_plain(node: ast.AST) -> bool:
+    """Whether a node is a number or an empty text: a comparison with 0 is a comparison first."""
+    if not isinstance(node, ast.Constant) or position_of(node.value) is not None:
+        return False
+    return node.value == "" or type(node.value) in (int, float)
 
 
 def _form(nodes: Sequence[ast.AST]) -> str:

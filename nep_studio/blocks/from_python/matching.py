@@ -48,6 +48,8 @@ class _Matcher:
             return self._name(wanted.id, there)
         if isinstance(wanted, ast.Constant):
             return self._constant(wanted.value, there)
+        if isinstance(wanted, ast.Call) and (key := _whole_slot(wanted)):
+            return isinstance(there, ast.expr) and self._slot(key, _without_int(there))
         if type(wanted) is not type(there):
             return False
         if isinstance(wanted, list):
@@ -106,6 +108,21 @@ class _Matcher:
             if self._found.words.setdefault(self._keys[position], word) != word:
                 return False
         return True
+
+
+def _whole_slot(node: ast.Call) -> str:
+    """The slot in ``int(slot)``, which is written only where the slot may give a fraction."""
+    match node:
+        case ast.Call(func=ast.Name(id="int"), args=[ast.Name(id=name)], keywords=[]):
+            return slot_of(name)
+    return ""
+
+
+def _without_int(node: ast.expr) -> ast.expr:
+    match node:
+        case ast.Call(func=ast.Name(id="int"), args=[inner], keywords=[]):
+            return inner
+    return node
 
 
 def _is_elif(node: object) -> bool:

@@ -32,7 +32,7 @@ class ValueReader:
         self._learned = learned(language)
         self._by_call: dict[str, list[Definition]] = {}
         self._types: dict[str, str] = {}
-        self._known: dict[int, list[tuple[Made, str]]] = {}
+        self._known: dict[int, tuple[ast.expr, list[tuple[Made, str]]]] = {}
         self._depth = 0
         for definition in language.definitions.values():
             self._types.setdefault(definition.generator, definition.id)
@@ -90,9 +90,12 @@ class ValueReader:
             if self._depth > _DEEPEST:
                 return []
             self._depth += 1
-            known = self._known[id(node)] = list(self._blocks(node))
+            known = self._known[id(node)] = (
+                node,
+                list(self._blocks(node)),
+            )  # so its id stays its own
             self._depth -= 1
-        return known
+        return known[1]
 
     def call(self, definition: Definition, node: ast.Call) -> Made | None:
         """The block of a call, or None when the call is another one."""

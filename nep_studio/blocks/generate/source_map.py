@@ -6,6 +6,8 @@ from collections import defaultdict
 from dataclasses import dataclass
 from functools import cached_property
 
+from ..program import Project
+
 
 @dataclass(frozen=True)
 class Code:
@@ -23,6 +25,13 @@ class Code:
     def lines_of(self, block: str) -> tuple[int, ...]:
         """The lines that a statement block made itself, without those of the blocks inside it."""
         return self._lines.get(block, ())
+
+    def statement_of(self, block: str, project: Project) -> str | None:
+        """The statement block that a block is, or in whose lines it is, or None."""
+        while block and block not in self._lines:
+            parent = project.parents.get(block)
+            block = parent.owner if parent is not None else ""
+        return block or None
 
     @cached_property
     def _lines(self) -> dict[str, tuple[int, ...]]:

@@ -6,7 +6,7 @@ from ..connections import why_not_below
 from ..editor import Editor
 from ..edits import MoveBlocks
 from ..errors import EditRefused
-from ..places import InBody, place_of
+from ..places import InBody, NewStack, place_of
 from .landing import first_body
 from .selection import Run, chain_around, members, page_of_block
 
@@ -37,9 +37,9 @@ def enclose(editor: Editor, block: str, run: Run) -> None:
     if not body or project.blocks[block].bodies.get(body):
         raise EditRefused("This block has no free place for blocks inside it.")
     with editor.transaction("put a block around"):
-        stack = project.stack_of(run.first)
-        page = page_of_block(project, run.first)
-        editor.apply(MoveBlocks(block, 1, editor.new_stack(page, stack.x, stack.y)))
+        if not isinstance(place_of(project, block, 1), NewStack):
+            stack, page = project.stack_of(run.first), page_of_block(project, run.first)
+            editor.apply(MoveBlocks(block, 1, editor.new_stack(page, stack.x, stack.y)))
         place = place_of(project, run.first, run.count)
         editor.apply(MoveBlocks(run.first, run.count, InBody(block, body, 0)))
         editor.apply(MoveBlocks(block, 1, place))

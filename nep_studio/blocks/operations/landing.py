@@ -80,7 +80,8 @@ def first_body(definition: Definition, block: Block) -> str:
 
 def blocks_below(project: Project, load: Load, place: Place) -> list[str]:
     """The blocks that would be below the new ones in their chain."""
-    left = [block for block in chain_at(project, place) if block not in load.ids]
+    moved = load.ids
+    left = [block for block in chain_at(project, place) if block not in moved]
     return left[place.index :] if isinstance(place, InStack | InBody) else []
 
 
@@ -107,7 +108,8 @@ def _why_not_cut(
 ) -> str | None:
     """The same question when the blocks below go away, or into the mouth of the new block."""
     project, definitions = editor.project, editor.language.definitions
-    left = [block for block in chain_at(project, place) if block not in load.ids]
+    moved = load.ids
+    left = [block for block in chain_at(project, place) if block not in moved]
     over = project.blocks[left[-len(below) - 1]] if len(below) < len(left) else None
     first = definitions.get(load.chain[0].type)
     is_top = over is None and isinstance(place, InStack)

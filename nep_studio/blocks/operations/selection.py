@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 
 from ..errors import EditRefused
@@ -25,10 +25,8 @@ def runs(project: Project, ids: Iterable[str]) -> tuple[Run, ...]:
     """
     selected = {block for block in ids if block in project.blocks}
     outer = {block for block in selected if not is_inside(project, block, selected)}
-    starts = [block for block in outer if above(project, block) not in outer]
-    return tuple(
-        Run(start, _length(project, start, outer)) for start in in_page_order(project, starts)
-    )
+    found = {run.first: run for run in _in_chains(project, outer)}
+    return tuple(found[start] for start in in_page_order(project, found))
 
 
 def require_runs(project: Project, ids: Iterable[str]) -> tuple[Run, ...]:
@@ -106,10 +104,23 @@ def is_within_run(project: Project, place: Place, run: Run) -> bool:
     return owner in moved or is_inside(project, owner, moved)
 
 
-def _length(project: Project, start: str, selected: Collection[str]) -> int:
-    chain = chain_around(project, start)
-    index = chain.index(start)
-    end = index
-    while end < len(chain) and chain[end] in selected:
-        end += 1
-    return end - index
+def _in_chains(project: Project, selected: Collection[str]) -> Iterator[Run]:
+    """The runs of selected blocks, chain by chain: each chain is walked once."""
+    plugged = {block for block in selected if _is_plugged(project, block)}
+    yield from (Run(block, 1) for block in plugged)
+    for parent in {project.parents[block] for block in selected if block not in plugged}:
+        first, count = "", 0
+        for block in project.chain_of(parent) or ():
+            if block in selected:
+                first, count = first or block, count + 1
+            elif count:
+                yield Run(first, count)
+                first, count = "", 0
+        if count:
+            yield Run(first, count)
+
+
+def _is_plugged(project: Project, block: str) -> bool:
+    parent = project.parents[block]
+    owner = project.blocks.get(parent.owner)
+    return owner is not None and owner.inputs.get(parent.slot) == block

@@ -24,7 +24,7 @@ from nep_studio.blocks.program import Changes
 from nep_studio.ui.theme import Theme
 
 from .commands import Commands
-from .context_menu import Section, menu_for
+from .context_menu import menu_for
 from .dropping_in import DropTarget
 from .fields.editors import FieldEditors
 from .gestures.bubble import Bubble
@@ -37,6 +37,8 @@ from .gestures.pointing import Pointing
 from .gestures.wheel import native_gesture, wheel
 from .keyboard.carrying import KeyboardCarry
 from .keyboard.keys import Keyboard
+from .menu_entries import Section
+from .note_editing import press_key
 from .snapping import Point
 
 _FINGERS = {
@@ -54,7 +56,8 @@ class Canvas(DropTarget):
     ``menu_requested`` gives a place in the viewport, where ``hit`` tells what is there;
     ``blocks_deleted`` brings what was deleted, for the list of deleted blocks;
     ``delete_area`` says whether a place on the screen takes blocks away (the palette, the trash),
-    ``delete_area_entered`` whether carried blocks are there now.
+    ``delete_area_entered`` whether carried blocks are there now; ``uses_requested`` brings the
+    Subject whose uses a person looks for, ``help_requested`` the name of a page of help.
     """
 
     refused = Signal(str)
@@ -64,6 +67,9 @@ class Canvas(DropTarget):
     block_opened = Signal(str)
     blocks_deleted = Signal(object)
     delete_area_entered = Signal(bool)
+    uses_requested = Signal(object)
+    help_requested = Signal(str)
+    picture_requested = Signal()
 
     def __init__(
         self,
@@ -199,7 +205,7 @@ class Canvas(DropTarget):
         if self.gesture is not None and not isinstance(self.gesture, KeyboardCarry):
             if event.key() == Qt.Key.Key_Escape:
                 self.cancel_gesture()
-        elif not self.keyboard.press(event):
+        elif not (press_key(self, event) or self.keyboard.press(event)):
             super().keyPressEvent(event)
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:
@@ -218,7 +224,10 @@ class Canvas(DropTarget):
     def request_menu(self, place: QPoint) -> None:
         """Ask for the menu of what is at a place of the view; that becomes the selection."""
         hit = self.hit(place)
-        if hit is not None and hit.block not in self.selection:
+        if hit is None:
+            note = self.notes.hit(self.to_page(place))
+            self.notes.select(note.id if note is not None else "")
+        elif hit.block not in self.selection:
             self.selection.set([hit.block])
         self.menu_requested.emit(place)
 
@@ -237,6 +246,4 @@ class Canvas(DropTarget):
         inset = self.measures.row_height * self.camera.scale / 4
         x = rect.right() - inset if self.measures.is_mirrored else rect.left() + inset
         place = QPoint(round(x), round(rect.top() + inset))
-        return QPoint(
-            min(max(place.x(), 0), view.right()), min(max(place.y(), 0), view.bottom())
-        )
+        return QPoint(min(max(place.x(), 0), view.right()), min(max(place.y(), 0), view.bottom()))

@@ -85,6 +85,11 @@ class StaticLayer:
         """Put the picture into the view, stretched when it was painted at another zoom."""
         if self.is_sharp(camera):
             ratio = self._ratio
+            if ratio == int(ratio):  # whole pixels: nothing to resample
+                corner = exposed.topLeft() * int(ratio)
+                source_rect = QRect(corner, exposed.size() * int(ratio))
+                painter.drawPixmap(exposed.topLeft(), self._pixmap, source_rect)
+                return
             source = QRectF(
                 exposed.x() * ratio,
                 exposed.y() * ratio,

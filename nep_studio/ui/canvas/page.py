@@ -14,6 +14,7 @@ from .index import GridIndex, Rect
 from .layout import Gap, Layout
 from .measures import Measures
 from .repairs import changed_rects
+from .stacks import Stacks
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,20 +47,16 @@ class PageLayout:
         self.project = project
         self.layout = Layout(project, language, measures)
         self.page = "behaviour"
-        self.chains: dict[str, Chain] = {}
-        self.index = GridIndex()
+        self.chains = Stacks(self.layout)
         self._order: dict[str, int] = {}
         self.show(self.page)
 
     def show(self, page: str) -> None:
         """Lay out the stacks of a page."""
         self.page = page
-        self.chains.clear()
-        self.index = GridIndex()
         self._order = self._new_order()
         with paused_garbage_collection():
-            for stack_id in self._order:
-                self._place(stack_id)
+            self.chains.begin(self._order)
 
     def refresh_all(self) -> None:
         """Lay everything out anew: the language, the font or the direction has changed."""
@@ -84,10 +81,9 @@ class PageLayout:
         rects: list[Rect] = []
         for stack_id in stacks:
             rect = self.index.rect(stack_id) if stack_id in self.index else None
-            old = self.chains.pop(stack_id, None)
-            self.index.remove(stack_id)
+            old = self.chains.drop(stack_id)
             if stack_id in here:
-                self._place(stack_id)
+                self.chains.lay_out(stack_id)
             new = self.chains.get(stack_id)
             if old is not None and new is not None:
                 rects += changed_rects(old, new, self.layout.measures.notch_depth)
@@ -104,22 +100,25 @@ class PageLayout:
 
     def near(self, rect: Rect) -> list[str]:
         """The stacks that touch a rectangle, the one on top last."""
-        return sorted(self.index.near(rect), key=self._order.__getitem__)
+        return sorted(self.chains.near(rect), key=self._order.__getitem__)
 
-    def _place(self, stack_id: str) -> None:
-        stack = self.project.stacks[stack_id]
-        chain = self.layout.stack(stack_id)
-        if not chain.boxes:
-            return
-        chain.x, chain.y = stack.x, stack.y
-        self.chains[stack_id] = chain
-        left = stack.x - (chain.width if chain.is_mirrored else 0.0)
-        tab = self.layout.measures.notch_depth
-        self.index.set(stack_id, Rect(left, stack.y, chain.width, chain.height + tab))
+    @property
+    def index(self) -> GridIndex:
+        """Where the stacks are; of those that are not laid out yet, roughly."""
+        return self.chains.index
 
     def bounds(self) -> Rect | None:
-        """The rectangle around all stacks, or None on an empty page."""
-        return self.index.bounds()
+        """The rectangle around all stacks and notes, or None on an empty page.
+
+        While stacks wait to be laid out it may be too large; ``chains.lay_out_all`` makes it exact.
+        """
+        bounds = self.index.bounds()
+        for note in self.project.notes.values():
+            if note.page == self.page:
+                left = note.x - note.width if self.layout.measures.is_mirrored else note.x
+                rect = Rect(left, note.y, note.width, note.height)
+                bounds = bounds.united(rect) if bounds is not None else rect
+        return bounds
 
     def boxes(self, rect: Rect) -> Iterator[Placed]:
         """The boxes that touch a rectangle, each before what is inside it."""

@@ -10,11 +10,14 @@ from .measures import Measures
 
 Item = Piece | Plug
 
-PUNCTUATION = frozenset(",.;:?!、。，：？！")  # noqa: RUF001 signs of Japanese sentences too
-"""Words that begin with one of these stand close to what is before them."""
+PUNCTUATION = frozenset(",.;:?!°%、。，：？！")  # noqa: RUF001 signs of Japanese sentences too
+"""Words that begin with one of these (a unit too) stand close to what is before them."""
 
 TIGHT = 0.34
 """The share of the usual gap that is before what belongs to the item in front of it."""
+
+SPACE = 0.72
+"""The share of it between two words of one sentence."""
 
 
 @dataclass(slots=True)
@@ -45,6 +48,14 @@ def is_tied(item: Item) -> bool:
     return item.kind == "remove" and item.key != "" and item.shape == "tied"
 
 
+def gap_share(before: Item, item: Item) -> float:
+    """How much of the usual gap is between two items of a row."""
+    if is_tied(item):
+        return TIGHT
+    are_words = all(isinstance(each, Piece) and each.piece == "words" for each in (before, item))
+    return SPACE if are_words else 1.0
+
+
 def flow(items: Iterable[Item], measures: Measures) -> list[Row]:
     """Put items into rows that are not wider than can be; an item that is wider has its own.
 
@@ -52,9 +63,10 @@ def flow(items: Iterable[Item], measures: Measures) -> list[Row]:
     """
     rows = [Row()]
     for item in items:
-        row, is_close = rows[-1], is_tied(item)
-        gap = measures.gap * (TIGHT if is_close else 1.0)
-        if row.items and not is_close and row.width + gap + width_of(item) > measures.widest:
+        row = rows[-1]
+        gap = measures.gap * gap_share(row.items[-1], item) if row.items else 0.0
+        is_full = row.width + gap + width_of(item) > measures.widest
+        if row.items and is_full and not is_tied(item):
             row = Row()
             announcing = _announcing(rows[-1], item, measures)
             rows.append(row)
@@ -68,7 +80,7 @@ def place(row: Row, x: float, y: float, height: float, gap: float) -> None:
     """Give the items of a row their places, centred in its height."""
     for number, item in enumerate(row.items):
         if number:
-            x += gap * TIGHT if is_tied(item) else gap
+            x += gap * gap_share(row.items[number - 1], item)
         item.x = x
         item.y = y + (height - height_of(item)) / 2
         x += width_of(item)
@@ -76,7 +88,7 @@ def place(row: Row, x: float, y: float, height: float, gap: float) -> None:
 
 def _append(row: Row, item: Item, measures: Measures) -> None:
     if row.items:
-        row.width += measures.gap * (TIGHT if is_tied(item) else 1.0)
+        row.width += measures.gap * gap_share(row.items[-1], item)
     row.width += width_of(item)
     row.height = max(row.height, height_of(item))
     row.items.append(item)
@@ -92,6 +104,6 @@ def _announcing(row: Row, item: Item, measures: Measures) -> list[Item]:
     if width > measures.widest / 2.4 or width + measures.gap + width_of(item) > measures.widest:
         return []
     row.items.pop()
-    row.width -= width + measures.gap
+    row.width -= width + measures.gap * gap_share(row.items[-1], last)
     row.height = max(height_of(kept) for kept in row.items)
     return [last]

@@ -20,6 +20,11 @@ class ScrollingView(PageView):
 
     _is_scrolling = False
 
+    def lay_out_more(self) -> None:
+        """Lay out more of a large page, and know its size better."""
+        super().lay_out_more()
+        self.update_scroll_bars()
+
     def move_camera(self, x: float, y: float, *, margin: float = 0.0) -> None:
         """Look at a place of the page with the view's corner, ``margin`` pixels inside it."""
         self.camera.x = x - margin / self.camera.scale
@@ -40,6 +45,7 @@ class ScrollingView(PageView):
 
     def fit(self, rect: Rect | None = None) -> None:
         """Zoom and move so that the whole page (or a part of it) can be seen."""
+        self.page_layout.chains.lay_out_all()
         whole = rect or self.page_layout.bounds()
         if whole is None:
             return

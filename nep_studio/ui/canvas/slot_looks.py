@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import cast
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, number_of
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
-from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.sentence import Group, Part, Slot
 from nep_studio.blocks.slots import KINDS, RESULT_SHAPES
 from nep_studio.blocks.values import FieldValue
 from nep_studio.ui.words import tr
@@ -44,6 +45,9 @@ HINTS = {
 }
 """What an empty place says of itself."""
 
+UNITS = {"angle": "°", "duration": " s"}
+"""What a number means, shown where the sentence does not say it behind the field."""
+
 MOST_LINES = 3
 """So many lines of a long text are shown in its field."""
 
@@ -70,6 +74,24 @@ def block_outline(definition: Definition | None, *, is_value: bool) -> Outline:
     if definition.shape == "hat":
         return "hat"
     return "cap" if definition.is_last else "statement"
+
+
+@lru_cache(maxsize=1024)
+def _said_units(parts: tuple[Part, ...]) -> frozenset[tuple[str, str]]:
+    """The slots of a sentence with the word that follows each."""
+    flat = [p for part in parts for p in (part.parts if isinstance(part, Group) else (part,))]
+    pairs = zip(flat, flat[1:], strict=False)
+    return frozenset(
+        (slot.name, words.split()[0])
+        for slot, words in pairs
+        if isinstance(slot, Slot) and isinstance(words, str) and words.strip()
+    )
+
+
+def says_unit(definition: Definition, slot_name: str, unit: str) -> bool:
+    """Whether the words behind a slot begin with its unit: then the field does not repeat it."""
+    said = (word for name, word in _said_units(definition.parts) if name == slot_name)
+    return any(word.startswith(unit.strip()) for word in said)
 
 
 def hint_word(kind: str) -> str:
@@ -121,8 +143,8 @@ def _text(
         return variable.name if variable is not None else ""
     if kind == "robot" and value == ALL_ROBOTS:
         return tr("all robots")
-    if kind == "angle":
-        return f"{value}°"
+    if kind in UNITS and not says_unit(language.definitions[block.type], slot.name, UNITS[kind]):
+        return f"{value}{UNITS[kind]}"
     if kind == "file":
         return str(value).replace("\\", "/").rpartition("/")[2]
     return language.choices_of(slot, block, key).get(str(value), str(value))

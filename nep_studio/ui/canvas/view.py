@@ -19,6 +19,7 @@ from .index import Rect
 from .layers import StaticLayer, rects_of
 from .layout import Gap
 from .measures import Measures
+from .notes import Notes
 from .overlay import Overlay, ProblemOverlay, SelectionOverlay
 from .page import Hit, PageLayout
 from .selection import Selection
@@ -27,6 +28,9 @@ from .texts import TextWidths
 
 SHARPEN_MS = 80
 """How long zooming must rest before the blocks are painted anew at their new size."""
+
+SLICE_S = 0.006
+"""How long stacks out of view are laid out at a time."""
 
 
 class PageView(QAbstractScrollArea):
@@ -50,12 +54,15 @@ class PageView(QAbstractScrollArea):
         self.camera = Camera()
         self.selection = Selection(self)
         self.problems = ProblemOverlay()
-        self.overlays: list[Overlay] = [SelectionOverlay(), self.problems]
+        self.notes = Notes(self)
+        self.overlays: list[Overlay] = [self.notes, SelectionOverlay(), self.problems]
         self.sprite: Sprite | None = None
         self.accessible: object = None
         self._layer = StaticLayer(self._paint_page)
         self.sharpen = QTimer(self, singleShot=True, interval=SHARPEN_MS)
         self.sharpen.timeout.connect(self.viewport().update)
+        self._rest = QTimer(self, interval=0)
+        self._rest.timeout.connect(self.lay_out_more)
         self.set_look(theme, font or self.font(), is_mirrored=is_mirrored)
         editor.history.listen(self._on_changes)
         self.selection.changed.connect(self.viewport().update)
@@ -128,8 +135,15 @@ class PageView(QAbstractScrollArea):
 
     # Painting
 
+    def lay_out_more(self) -> None:
+        """Lay out, while nobody waits, some of the stacks of a large page that are out of view."""
+        if not self.page_layout.chains.lay_out_some(SLICE_S):
+            self._rest.stop()
+
     def repaint_all(self) -> None:
         """Paint everything anew."""
+        self._rest.start()
+        self.notes.refresh()
         self._layer.invalidate_all()
         self.viewport().update()
         self.layout_changed.emit()
@@ -163,6 +177,14 @@ class PageView(QAbstractScrollArea):
         if self.sprite is not None:
             self.viewport().update(self.sprite.view_rect(self.camera))
 
+    def move_sprite(self, x: float, y: float) -> None:
+        """Carry the blocks to another place of the page."""
+        if self.sprite is not None:
+            before = self.sprite.view_rect(self.camera)
+            self.sprite.x, self.sprite.y = x, y
+            # One rectangle: a region of two is clipped piece by piece, which costs more.
+            self.viewport().update(before.united(self.sprite.view_rect(self.camera)))
+
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the layers: what rests, what is over it, what is carried."""
         if self._layer.is_sharp(self.camera) or not self.sharpen.isActive():
@@ -179,7 +201,7 @@ class PageView(QAbstractScrollArea):
         for overlay in self.overlays:
             overlay.paint(painter, self)
         if self.sprite is not None:
-            self.sprite.paint(painter)
+            self.sprite.paint(painter, self.camera, self.devicePixelRatioF())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Take the picture in the new size."""
@@ -194,10 +216,12 @@ class PageView(QAbstractScrollArea):
 
     def _on_changes(self, changes: Changes) -> None:
         self.repaint_page(self.page_layout.change(changes))
+        self.repaint_page(self.notes.change(changes))
         self.selection.keep(i for i in self.selection.ids if i in self.editor.project.blocks)
         self.layout_changed.emit()
 
     def _paint_page(self, painter: QPainter, rect: Rect, camera: Camera) -> None:
         paint_background(painter, rect, camera, self.theme)
+        self.notes.paint_resting(painter, rect, camera.scale)
         boxes = self.page_layout.boxes(rect.grown(8 * self.measures.unit))
         self.block_painter.paint(painter, boxes, camera.scale)

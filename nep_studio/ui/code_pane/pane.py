@@ -52,7 +52,8 @@ class CodePane(QWidget):
         self.apply_button.setProperty("kind", "primary")
         gap = self.fontMetrics().height() // 3
         self.buttons = QHBoxLayout()
-        self.buttons.setContentsMargins(gap, gap, gap, gap)
+        self.buttons.setContentsMargins(2 * gap, gap, gap, gap)
+        self.buttons.setSpacing(gap)
         self.title = QLabel()
         self.title.setProperty("role", "hint")
         self.buttons.addWidget(self.title, 1)
@@ -65,7 +66,7 @@ class CodePane(QWidget):
         box.addLayout(self.buttons)
         box.addWidget(self.note)
         box.addWidget(self.text, 1)
-        self.text.setFrameShape(QFrame.Shape.NoFrame)
+        self.text.setStyleSheet("QPlainTextEdit { border: none; border-radius: 0; }")
 
     def _connect(self) -> None:
         self.live.made.connect(self._on_code_made)
@@ -199,11 +200,13 @@ class CodePane(QWidget):
         assert box is not None
         while (item := box.takeAt(0)) is not None:
             item.widget().deleteLater()
-        words = Message("error", tr(error.title), tr(error.sentence), tuple(map(tr, error.checklist)))
+        words = Message(
+            "error", tr(error.title), tr(error.sentence), tuple(map(tr, error.checklist))
+        )
         box.addWidget(MessageText(words))
         for answer in answers:
             button = QPushButton(answer.words)
-            button.clicked.connect(lambda: answer.do())
+            button.clicked.connect(answer.do)
             box.addWidget(button)
         self.note.setProperty("kind", "error")
         self.note.style().unpolish(self.note)

@@ -36,6 +36,7 @@ class CodeText(QPlainTextEdit):
         self._pressed = QPoint()
         self.numbers = _LineNumbers(self)
         self.highlighter = PythonHighlighter(self.document(), look.theme)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # Python is, in every language
         self.setReadOnly(True)
         self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.setTextInteractionFlags(
@@ -122,7 +123,9 @@ class CodeText(QPlainTextEdit):
         while block.isValid() and top <= exposed.bottom():
             height = self.blockBoundingRect(block).height()
             number = block.blockNumber() + 1
-            name = "error" if number in self._wrong else "text" if number in self._marked else "muted"
+            name = (
+                "error" if number in self._wrong else "text" if number in self._marked else "muted"
+            )
             painter.setPen(theme.colour(name))
             place = QRect(0, int(top), width - gap, int(height))
             painter.drawText(place, Qt.AlignmentFlag.AlignRight, str(number))
@@ -147,8 +150,7 @@ class CodeText(QPlainTextEdit):
         width = self.numbers_width()
         self.setViewportMargins(width, 0, 0, 0)
         inner = self.contentsRect()
-        left = inner.left() if self.isLeftToRight() else inner.right() - width + 1
-        self.numbers.setGeometry(left, inner.top(), width, inner.height())
+        self.numbers.setGeometry(inner.left(), inner.top(), width, inner.height())
 
     def _show_marks(self) -> None:
         theme = self._look.theme

@@ -24,6 +24,7 @@ class ProblemBubble(QFrame):
     def __init__(self, problems: list[Problem], parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setAttribute(Qt.WidgetAttribute.WA_TranslucentBackground)
         self.setProperty("kind", problems[0].severity)
         self.setAccessibleName(" ".join(tr(problem.sentence) for problem in problems))
         self.setFixedWidth(self.fontMetrics().averageCharWidth() * WIDTH_LETTERS)
@@ -31,7 +32,9 @@ class ProblemBubble(QFrame):
         box = QVBoxLayout(self)
         for problem in problems:
             checklist = tuple(map(tr, problem.checklist))
-            box.addWidget(MessageText(Message(problem.severity, tr(problem.sentence), "", checklist)))
+            box.addWidget(
+                MessageText(Message(problem.severity, tr(problem.sentence), "", checklist))
+            )
             self._add_fix(problem, box)
 
     def show_at(self, badge: QRect) -> None:

@@ -62,9 +62,9 @@ def lock(robot: VirtualRobot, part: str, *, on: bool) -> Task:
 
 
 def wake_up(robot: VirtualRobot) -> Task:
-    """Lock all joints; get up from the ground."""
+    """Lock all joints; stand up."""
     robot.released = frozenset()
-    if robot.family in ("resting", "crouching"):
+    if robot.family != "standing":
         return (yield from take_posture(robot, "Stand"))
     yield
     return ""

@@ -84,18 +84,22 @@ class ChoicePopup(FieldPopup):
 
     def ask(self, question: Question | None) -> None:
         """Show a question instead of the list, or the list again."""
-        if self.question is not None:
-            self.question.deleteLater()
-        self.question = question
-        for widget in (self.search, self.list):
-            widget.setVisible(question is None)
-        self.reason.tell("")
+        old, self.question = self.question, question
         if question is not None:
             self.column.insertWidget(0, question)
             question.show()
-        self.adjustSize()
-        self.follow()
+        else:
+            self.search.show()
+        # the keyboard leaves a widget before it is hidden, or Qt would send it to the next field
         (question.first() if question else self.search).setFocus(Qt.FocusReason.OtherFocusReason)
+        self.search.setVisible(question is None)
+        self.list.setVisible(question is None)
+        if old is not None:
+            old.hide()
+            old.deleteLater()
+        self.reason.tell("")
+        self.column.activate()
+        self.follow()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """In the search box, the arrows move in the list and Enter chooses."""
@@ -112,6 +116,7 @@ class ChoicePopup(FieldPopup):
     def _add(self, option: Option) -> None:
         item = QListWidgetItem(option.label)
         item.setData(_OPTION, option)
+        item.setSizeHint(QSize(self._wide(option.label), self._row))
         is_now = not option.action and option.value == self.edit.value
         name = "check" if is_now else option.icon
         if name:
@@ -120,6 +125,14 @@ class ChoicePopup(FieldPopup):
         item.setData(Qt.ItemDataRole.AccessibleTextRole, spoken)
         self.list.addItem(item)
 
+    @property
+    def _row(self) -> int:
+        """The height of a row."""
+        return round(1.6 * self.line)
+
+    def _wide(self, words: str) -> int:
+        return self.list.fontMetrics().horizontalAdvance(words) + 3 * self.line
+
     def _add_heading(self, words: str) -> None:
         item = QListWidgetItem(words)
         item.setFlags(Qt.ItemFlag.NoItemFlags)
@@ -127,6 +140,7 @@ class ChoicePopup(FieldPopup):
         font.setBold(True)
         font.setPointSizeF(font.pointSizeF() * 0.9)
         item.setFont(font)
+        item.setSizeHint(QSize(self._wide(words), self._row))
         self.list.addItem(item)
 
     def _point(self, typed: str) -> None:
@@ -140,10 +154,8 @@ class ChoicePopup(FieldPopup):
             self.list.scrollToItem(self.list.currentItem())
 
     def _fit(self) -> None:
-        height = sum(self.list.sizeHintForRow(row) for row in range(min(self.list.count(), 200)))
-        row = max(self.list.sizeHintForRow(0), self.line)
-        frame = 2 * self.list.frameWidth() + 2
-        self.list.setFixedHeight(max(min(height, _MOST_ROWS * row), row) + frame)
+        rows = min(max(self.list.count(), 1), _MOST_ROWS)
+        self.list.setFixedHeight(rows * self._row + 2 * self.list.frameWidth() + self.line // 3)
         wide = self.list.sizeHintForColumn(0) + 2 * self.line
         self.list.setMinimumWidth(max(13 * self.line, min(wide, 26 * self.line)))
         self.adjustSize()

@@ -5,7 +5,8 @@ from __future__ import annotations
 from datetime import date
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QDate
+from PySide6.QtCore import QDate, Qt
+from PySide6.QtGui import QTextCharFormat
 from PySide6.QtWidgets import QCalendarWidget, QLineEdit, QWidget
 
 from .field_edit import Editing
@@ -29,6 +30,11 @@ class DatePopup(FieldPopup):
         headers = QCalendarWidget.VerticalHeaderFormat
         self.calendar.setVerticalHeaderFormat(headers.NoVerticalHeader)
         self.calendar.setAccessibleName(title)
+        self.calendar.setMinimumSize(15 * self.line, 13 * self.line)
+        plain = QTextCharFormat()
+        plain.setForeground(editors.canvas.theme.colour("text"))
+        for day in (Qt.DayOfWeek.Saturday, Qt.DayOfWeek.Sunday):
+            self.calendar.setWeekdayTextFormat(day, plain)
         self._show()
         self.calendar.clicked.connect(self._on_day)
         self.calendar.activated.connect(self._on_day)

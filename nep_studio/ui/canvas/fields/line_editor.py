@@ -81,7 +81,7 @@ class LineEditor(QLineEdit):
         self.setFont(editor_font(canvas))
         self.setStyleSheet(line_style(canvas, outline, is_wrong=bool(self.reason.text)))
         unit = canvas.measures.unit * editor_scale(canvas)
-        text = self.fontMetrics().horizontalAdvance(self.text()) + 24 * unit
+        text = self.fontMetrics().horizontalAdvance(self.text()) + 17 * unit
         room = canvas.viewport().rect()
         width = round(min(max(rect.width(), text, 40 * unit), room.width()))
         height = round(canvas.measures.field_height * editor_scale(canvas))

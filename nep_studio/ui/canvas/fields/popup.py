@@ -63,6 +63,8 @@ class FieldPopup(QFrame):
         field = QRect(rect.toAlignedRect())
         field.moveTopLeft(canvas.viewport().mapToGlobal(field.topLeft()))
         screen = canvas.screen() or QGuiApplication.primaryScreen()
+        self.ensurePolished()
+        self.column.activate()
         self.adjustSize()
         mirrored = canvas.measures.is_mirrored
         room = screen.availableGeometry()

@@ -25,8 +25,12 @@ class Question(QWidget):
     ) -> None:
         super().__init__()
         self._answered, self._refused = answered, refused
+        self.words = words
         label = QLabel(words, self)
         label.setWordWrap(True)
+        width = 15 * self.fontMetrics().height()
+        label.setFixedWidth(width)
+        label.setFixedHeight(label.heightForWidth(width))
         self.name = QLineEdit(name or "", self)
         self.name.setAccessibleName(words)
         self.name.setVisible(name is not None)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF, Qt
 
 from ..index import Rect
+from ..note_editing import note_gesture
 from ..overlay import badge_rect
 from ..page import Hit
 from .gesture import Gesture, Pointer
@@ -24,6 +25,8 @@ def choose(canvas: Canvas, pointer: Pointer, hit: Hit | None) -> Gesture | None:
         return Pan(canvas, pointer)
     if not is_left:
         return None
+    if hit is None and (gesture := note_gesture(canvas, pointer)) is not None:
+        return gesture
     return Press(canvas, pointer, hit, problem=problem_at(canvas, pointer.page))
 
 

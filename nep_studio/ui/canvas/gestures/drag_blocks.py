@@ -51,11 +51,7 @@ class DragBlocks:
         """Bring the blocks along, and show where they would go."""
         self._last = pointer
         dx, dy = self._way(pointer)
-        sprite = canvas.sprite
-        assert sprite is not None
-        canvas.update_sprite()
-        sprite.x, sprite.y = self._corner[0] + dx, self._corner[1] + dy
-        canvas.update_sprite()
+        canvas.move_sprite(self._corner[0] + dx, self._corner[1] + dy)
         place = canvas.viewport().mapToGlobal(pointer.view.toPoint())
         self._show_delete_area(canvas, canvas.delete_area(place))
         snap = Snap() if self.is_over_delete_area else self._search(canvas, dx, dy)

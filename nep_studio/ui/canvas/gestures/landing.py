@@ -90,8 +90,7 @@ def _lies_on_blocks(canvas: Canvas, chain: Chain, dx: float, dy: float) -> bool:
     x = chain.x - box.width if chain.is_mirrored else chain.x
     head = Rect(x + dx, chain.y + dy, box.width, box.height)
     return any(
-        placed.rect.touches(head) and placed.box.block
-        for placed in canvas.page_layout.boxes(head)
+        placed.rect.touches(head) and placed.box.block for placed in canvas.page_layout.boxes(head)
     )
 
 

@@ -8,6 +8,7 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent, QTouchEvent
 
 from ..keyboard.carrying import KeyboardCarry
+from ..note_editing import NotePress
 from .choose import choose, problem_at
 from .gesture import Pointer
 from .pinch_zoom import PinchZoom
@@ -43,7 +44,7 @@ class Pointing:
     def double_click(self, event: QMouseEvent) -> None:
         """A second press soon after the first: a click of it opens the block."""
         self.press(event)
-        if isinstance(self._canvas.gesture, Press):
+        if isinstance(self._canvas.gesture, Press | NotePress):
             self._canvas.gesture.is_double = True
 
     def move(self, event: QMouseEvent) -> None:

@@ -64,7 +64,7 @@ class KeyboardCarry:
         canvas.set_preview(self._cargo.hidden, None)
         self._overlay.show(canvas, None)
         bounds = self._cargo.bounds
-        self._put_sprite(canvas, bounds.x + self._dx, bounds.y + self._dy)
+        canvas.move_sprite(bounds.x + self._dx, bounds.y + self._dy)
         canvas.announced.emit(tr("by itself on the page"))
 
     def drop(self, canvas: Canvas) -> None:
@@ -141,15 +141,8 @@ class KeyboardCarry:
         canvas.show_rect(Rect(target.x, target.y, min(rect.width, 300.0), 80.0))
         unit = canvas.measures.unit
         left = target.x - rect.width if canvas.measures.is_mirrored else target.x
-        self._put_sprite(canvas, left + 12 * unit, target.y + 4 * unit)
+        canvas.move_sprite(left + 12 * unit, target.y + 4 * unit)
         canvas.announced.emit(self._told(canvas, target))
-
-    def _put_sprite(self, canvas: Canvas, x: float, y: float) -> None:
-        sprite = canvas.sprite
-        if sprite is not None:
-            canvas.update_sprite()
-            sprite.x, sprite.y = x, y
-            canvas.update_sprite()
 
     def _told(self, canvas: Canvas, target: Target | None) -> str:
         """A place in words: after which block, inside which one, in which slot."""

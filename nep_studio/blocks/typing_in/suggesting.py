@@ -1,0 +1,283 @@
+"""Suggestions for what a person types: "say hello", "repeat 10", "set score to 5", "x + 1"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ..definitions import Definition
+from ..from_python.made import Made
+from ..language import Language
+from ..operations.finding import folded
+from ..program import Project
+from ..sentence import Slot
+from .filling import Filler, Filling, is_quoted, number_in
+from .labels import label_of, spans_in
+from .vocabulary import Entry, Vocabulary, vocabulary
+
+MOST_SUGGESTIONS = 12
+_TOKEN = re.compile(r"\"[^\"]*\"|“[^”]*”|'[^']*'(?!\w)|\S+")
+_UNIMPORTANT = frozenset(
+    ("a", "an", "the", "to", "of", "is", "by", "with", "and", "in", "at", "please")
+)
+_TIMES = re.compile(
+    r"^(?P<what>.+?)\s+(?:(?P<word>twice|thrice)|(?P<number>[0-9]{1,6})\s+times)$", re.I
+)
+REPEAT, REPEAT_SLOT, REPEAT_BODY = "control.repeat", "times", "do"
+
+Fits = Callable[[Definition], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Suggestion:
+    """A block that the typed words may mean, with the values that they fill in.
+
+    ``label`` is its sentence, ``spans`` the parts of it (from, to) that were typed;
+    ``new_variables`` are names by the ids that stand for them in ``made``.
+    """
+
+    block_type: str
+    fields: Mapping[str, object]
+    label: str
+    spans: tuple[tuple[int, int], ...]
+    score: float
+    made: Made = field(repr=False)
+    new_variables: Mapping[str, str] = field(default_factory=dict)
+
+
+def suggestions(
+    text: str,
+    language: Language,
+    project: Project,
+    fits: Fits | None = None,
+    *,
+    recents: Sequence[str] = (),
+    limit: int = MOST_SUGGESTIONS,
+) -> list[Suggestion]:
+    """What a person may mean, the best first; ``recents`` are block types, the latest first.
+
+    ``fits`` says which blocks can be where the new one is to go.
+    """
+    typed = text.strip()
+    if not typed:
+        return _recent(language, project, fits, recents)[:limit]
+    filler = Filler(language, project)
+    found = [*_sentences(typed, filler, fits, recents), *_values(typed, filler, fits)]
+    found += _repeated(typed, filler, fits, recents)
+    found.sort(key=lambda suggestion: (-suggestion.score, len(suggestion.label)))
+    return found[:limit]
+
+
+@dataclass(slots=True)
+class _Try:
+    """One definition tried for the typed words."""
+
+    entry: Entry
+    score: float = 0.0
+    used: set[int] = field(default_factory=set)
+    matched: list[str] = field(default_factory=list)
+    fillings: dict[str, Filling] = field(default_factory=dict)
+
+
+def _sentences(
+    typed: str, filler: Filler, fits: Fits | None, recents: Sequence[str]
+) -> list[Suggestion]:
+    words = vocabulary(filler.language)
+    tokens = _TOKEN.findall(typed)
+    plain = [folded(token).strip(".,:;?!") or token for token in tokens]
+    likes = [
+        {} if is_quoted(token) else words.words_like(word)
+        for token, word in zip(tokens, plain, strict=True)
+    ]
+    found = []
+    for number in _candidates(words, plain, likes):
+        entry = words.entries[number]
+        if fits is not None and not fits(entry.definition):
+            continue
+        attempt = _attempt(entry, tokens, plain, likes, filler)
+        if attempt is not None:
+            found.append(_suggestion(attempt, filler, recents))
+    return found
+
+
+def _candidates(
+    words: Vocabulary, plain: Sequence[str], likes: Sequence[Mapping[str, float]]
+) -> list[int]:
+    numbers: set[int] = set()
+    for typed, like in zip(plain, likes, strict=True):
+        for word in like:
+            numbers |= words.by_word[word]
+        for word, entries in words.by_choice.items():
+            if word.startswith(typed):
+                numbers |= entries
+    return sorted(numbers)
+
+
+def _attempt(
+    entry: Entry,
+    tokens: Sequence[str],
+    plain: Sequence[str],
+    likes: Sequence[Mapping[str, float]],
+    filler: Filler,
+) -> _Try | None:
+    """Give each typed word a word of the sentence, or a slot; None when one has no place."""
+    attempt = _Try(entry)
+    runs: list[tuple[int, list[str]]] = []
+    after, last = -1, -1
+    is_in_run = False
+    for token, word, like in zip(tokens, plain, likes, strict=True):
+        index = _best_word(entry, like, attempt.used, last)
+        if index is None:
+            if not is_in_run:
+                runs.append((after, []))
+            runs[-1][1].append(token)
+            is_in_run = True
+            continue
+        attempt.used.add(index)
+        attempt.matched.append(entry.words[index][0][: len(word)])
+        attempt.score += like[entry.words[index][0]] + (1.0 if index == last + 1 else 0.0)
+        last, after, is_in_run = index, entry.words[index][1], False
+    for after, run in runs:
+        if not _place_run(attempt, run, after, filler):
+            return None
+    attempt.score -= 0.5 * (len(entry.words) - len(attempt.used)) + 0.1 * len(
+        entry.definition.slots
+    )
+    return attempt
+
+
+def _best_word(entry: Entry, like: Mapping[str, float], used: set[int], last: int) -> int | None:
+    """The word of a sentence that a typed word is, the next one by preference."""
+    best, quality = None, 0.0
+    for index, (word, _) in enumerate(entry.words):
+        if index in used or word not in like:
+            continue
+        better = like[word] + (0.5 if index > last else 0.0)
+        if better > quality:
+            best, quality = index, better
+    return best
+
+
+def _place_run(attempt: _Try, run: list[str], after: int, filler: Filler) -> bool:
+    """Put typed words that are none of the sentence into a slot together, else each into one."""
+    if _fill(attempt, " ".join(run), after, filler):
+        return True
+    kept = [token for token in run if folded(token) not in _UNIMPORTANT]
+    if len(kept) < len(run) and kept and _fill(attempt, " ".join(kept), after, filler):
+        return True
+    return all(_fill(attempt, token, after, filler) for token in kept)
+
+
+def _fill(attempt: _Try, text: str, after: int, filler: Filler) -> bool:
+    best: tuple[float, Slot, Filling] | None = None
+    for place, part in enumerate(attempt.entry.definition.parts):
+        if not isinstance(part, Slot) or part.name in attempt.fillings:
+            continue
+        filling = filler.fill(attempt.entry, part, text)
+        if filling is None:
+            continue
+        quality = filling.quality + (1.5 if place == after + 1 else 0.5 if place > after else 0.0)
+        if best is None or quality > best[0]:
+            best = (quality, part, filling)
+    if best is None:
+        return False
+    attempt.fillings[best[1].name] = best[2]
+    attempt.score += best[0]
+    if not isinstance(best[2].value, Made):
+        attempt.matched.append(text.strip("\"'“”"))
+    return True
+
+
+def _suggestion(attempt: _Try, filler: Filler, recents: Sequence[str]) -> Suggestion:
+    definition = attempt.entry.definition
+    made = Made(definition.id)
+    new_variables = {}
+    for slot, filling in attempt.fillings.items():
+        if filling.new_variable:
+            made.fields[slot] = f"new_{slot}"
+            new_variables[f"new_{slot}"] = filling.new_variable
+        elif isinstance(filling.value, Made):
+            made.inputs[slot] = filling.value
+        else:
+            made.fields[slot] = filling.value
+    return _told(
+        made,
+        filler,
+        attempt.score + _recency(definition.id, recents),
+        attempt.matched,
+        new_variables,
+    )
+
+
+def _told(
+    made: Made,
+    filler: Filler,
+    score: float,
+    matched: Sequence[str] = (),
+    new_variables: Mapping[str, str] | None = None,
+) -> Suggestion:
+    new = dict(new_variables or {})
+    label = label_of(made, filler.language, filler.project, new)
+    spans = spans_in(label, matched)
+    return Suggestion(made.type, dict(made.fields), label, spans, score, made, new)
+
+
+def _values(typed: str, filler: Filler, fits: Fits | None) -> list[Suggestion]:
+    """Numbers, texts in quotes, and expressions as value blocks."""
+    made: list[tuple[Made, float]] = []
+    definitions = filler.language.definitions
+    number = number_in(typed)
+    if number is not None and "math.number" in definitions:
+        made.append((Made("math.number", {"number": number}), 9.0))
+    elif is_quoted(typed) and "text.text" in definitions:
+        made.append((Made("text.text", {"text": typed[1:-1]}), 9.0))
+    elif (found := filler.expression(typed)) is not None:
+        made.append((found[0], 14.0))
+    elif folded(typed) in filler.variables and "variable.get" in definitions:
+        made.append((Made("variable.get", {"variable": filler.variables[folded(typed)]}), 9.0))
+    return [
+        _told(one, filler, score, [typed])
+        for one, score in made
+        if fits is None or fits(definitions[one.type])
+    ]
+
+
+def _repeated(
+    typed: str, filler: Filler, fits: Fits | None, recents: Sequence[str]
+) -> list[Suggestion]:
+    """ "say hello twice": what is said, inside a repeat."""
+    match = _TIMES.match(typed)
+    repeat = filler.language.definitions.get(REPEAT)
+    if match is None or repeat is None or (fits is not None and not fits(repeat)):
+        return []
+    word = (match["word"] or "").lower()
+    times = {"twice": 2, "thrice": 3}.get(word) or int(match["number"])
+    found = []
+    for inner in _sentences(match["what"], filler, _is_statement, recents):
+        made = Made(REPEAT, {REPEAT_SLOT: times}, bodies={REPEAT_BODY: [inner.made]})
+        label = f"{label_of(made, filler.language, filler.project, {})}: {inner.label}"
+        spans = spans_in(label, [str(times), *(inner.label[a:b] for a, b in inner.spans)])
+        new = inner.new_variables
+        found.append(Suggestion(REPEAT, made.fields, label, spans, inner.score + 8.0, made, new))
+    return found
+
+
+def _is_statement(definition: Definition) -> bool:
+    return definition.shape in ("statement", "c") and not definition.is_last
+
+
+def _recent(
+    language: Language, project: Project, fits: Fits | None, recents: Sequence[str]
+) -> list[Suggestion]:
+    known = [language.definitions[name] for name in recents if name in language.definitions]
+    filler = Filler(language, project)
+    return [
+        _told(Made(definition.id), filler, _recency(definition.id, recents))
+        for definition in known
+        if fits is None or fits(definition)
+    ]
+
+
+def _recency(block_type: str, recents: Sequence[str]) -> float:
+    return 2.0 / (1 + recents.index(block_type)) if block_type in recents else 0.0

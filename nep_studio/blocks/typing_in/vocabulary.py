@@ -1,0 +1,154 @@
+"""The words of a language's blocks, found by what a person types: exactly, begun, or nearly so."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ..definitions import Definition
+from ..language import Language
+from ..operations.finding import folded
+from ..sentence import Group, Part, Slot
+
+EXACT, BEGUN, ALIKE, NEAR = 10.0, 7.0, 6.0, 3.0
+"""How much a typed word counts that is a word, begins one, means one, or is nearly one."""
+
+_SYNONYMS = {
+    "say": "speak talk tell speech voice",
+    "says": "speak talk tell speech voice",
+    "wait": "pause sleep delay",
+    "repeat": "loop for times",
+    "forever": "always endless loop",
+    "walks": "go move step",
+    "turns": "rotate spin",
+    "plays": "perform do animation move dance",
+    "takes": "go posture pose",
+    "stop": "end halt quit exit",
+    "stops": "end halt cancel",
+    "set": "let assign make put",
+    "change": "increase add count",
+    "random": "dice chance",
+    "lights": "led colour color eyes",
+    "together": "parallel same",
+    "if": "when condition",
+    "join": "combine concatenate",
+    "looks": "head gaze see",
+    "human": "person",
+    "else": "otherwise",
+    "ask": "question",
+}
+"""Other words that people type for words of the English sentences."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A definition with its words, each with its place among the parts of the sentence."""
+
+    definition: Definition
+    number: int
+    words: tuple[tuple[str, int], ...]
+    choices: Mapping[str, tuple[tuple[str, str], ...]]
+    """By slot, the values that can be chosen: the label without case and accents, and the value."""
+
+
+@dataclass(slots=True)
+class Vocabulary:
+    """The entries of a language, and which have a word or a choice that begins with ..."""
+
+    entries: list[Entry] = field(default_factory=list)
+    by_word: dict[str, set[int]] = field(default_factory=lambda: defaultdict(set))
+    by_choice: dict[str, set[int]] = field(default_factory=lambda: defaultdict(set))
+    meanings: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+
+    def words_like(self, typed: str) -> dict[str, float]:
+        """The words that a typed word may stand for, each with how well it does."""
+        found = {word: ALIKE for word in self.meanings.get(typed, ())}
+        for word in self.by_word:
+            if word == typed:
+                found[word] = EXACT
+            elif word.startswith(typed):
+                found[word] = max(found.get(word, 0), BEGUN + 2 * len(typed) / len(word))
+        if not found and len(typed) >= 4:
+            found = {word: NEAR for word in self.by_word if is_near(typed, word)}
+        return found
+
+
+def vocabulary(language: Language) -> Vocabulary:
+    """The vocabulary of a language, made once for what it defines."""
+    key = (id(language.definitions), len(language.definitions), id(language.choices))
+    known = _KNOWN.get(key)
+    definitions = tuple(language.definitions.values())
+    if known is None or known[0] != definitions:
+        if len(_KNOWN) > 8:
+            _KNOWN.clear()
+        known = _KNOWN[key] = (definitions, _made(language))
+    return known[1]
+
+
+_KNOWN: dict[tuple[int, ...], tuple[tuple[Definition, ...], Vocabulary]] = {}
+
+
+def is_near(typed: str, word: str) -> bool:
+    """Whether a word becomes another one by one letter more, less, other, or by two exchanged."""
+    if abs(len(typed) - len(word)) > 1 or typed[0] != word[0]:
+        return False
+    start = next((i for i, (a, b) in enumerate(zip(typed, word, strict=False)) if a != b), -1)
+    if start < 0:
+        return True
+    rest, other = typed[start:], word[start:]
+    exchanged = rest[:2] == other[1::-1] and rest[2:] == other[2:]
+    return exchanged or rest[1:] == other[1:] or rest[1:] == other or rest == other[1:]
+
+
+def _made(language: Language) -> Vocabulary:
+    found = Vocabulary()
+    for number, definition in enumerate(language.definitions.values()):
+        entry = Entry(definition, number, tuple(_words(definition)), _choices(definition, language))
+        found.entries.append(entry)
+        for word, _ in entry.words:
+            found.by_word[word].add(number)
+            for other in _SYNONYMS.get(word, "").split():
+                found.meanings[other].add(word)
+        for labels in entry.choices.values():
+            for label, _ in labels:
+                for word in label.split():
+                    found.by_choice[word].add(number)
+    return found
+
+
+def _words(definition: Definition) -> list[tuple[str, int]]:
+    """The words of a sentence that are there when the block is new, with the part of each."""
+    words: list[tuple[str, int]] = []
+    for place, part in enumerate(definition.parts):
+        for text in _texts(part, definition):
+            words += [(word, place) for word in split_words(text)]
+    return words
+
+
+def split_words(text: str) -> list[str]:
+    """The words of a text without case, accents, and signs around them."""
+    return [word for word in (w.strip("“”\"'.,:;()?!") for w in folded(text).split()) if word]
+
+
+def _texts(part: Part, definition: Definition) -> list[str]:
+    if isinstance(part, str):
+        return [part]
+    if isinstance(part, Group) and definition.minimum.get(part.name, 0):
+        return [inner for inner in part.parts if isinstance(inner, str)]
+    return []
+
+
+def _choices(definition: Definition, language: Language) -> dict[str, tuple[tuple[str, str], ...]]:
+    tables = {}
+    for slot in definition.slots.values():
+        if slot.kind.name in ("choice", "gesture") and not slot.group and not slot.master:
+            tables[slot.name] = _labels(slot, language)
+    return tables
+
+
+def _labels(slot: Slot, language: Language) -> tuple[tuple[str, str], ...]:
+    offered = language.choices_of(slot)
+    return tuple(
+        (folded(f"{label} {value}".replace("_", " ")), value) for value, label in offered.items()
+    )

@@ -1,0 +1,83 @@
+"""The window's actions: each has a name, words, perhaps an icon and keys, and is made once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QWidget
+
+from nep_studio.ui.theme import Look, icon
+
+Keys = QKeySequence.StandardKey | str
+
+
+class Actions(QObject):
+    """The actions of one window by name; they work wherever the focus is in it."""
+
+    def __init__(self, window: QWidget, look: Look) -> None:
+        super().__init__(window)
+        self._window, self._look = window, look
+        self._icons: dict[str, str] = {}
+        self.by_name: dict[str, QAction] = {}
+        look.theme_changed.connect(self._on_theme_changed)
+
+    def __getitem__(self, name: str) -> QAction:
+        return self.by_name[name]
+
+    def add(
+        self,
+        name: str,
+        words: str,
+        do: Callable[[], object],
+        *,
+        icon_name: str = "",
+        keys: Keys | tuple[Keys, ...] = (),
+        tip: str = "",
+    ) -> QAction:
+        """Make an action; ``words`` with an ellipsis where a question follows."""
+        action = QAction(words, self)
+        action.setObjectName(name)
+        action.setShortcuts(sequences(keys))
+        action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
+        action.triggered.connect(lambda: do())
+        action.setIconText(words.removesuffix("…"))
+        action.setToolTip(_tip(tip or words.removesuffix("…"), action))
+        self._window.addAction(action)
+        self.by_name[name] = action
+        if icon_name:
+            self._icons[name] = icon_name
+            action.setIcon(icon(icon_name, self._look.theme))
+        return action
+
+    def enable(self, is_enabled: bool, *names: str) -> None:
+        """Let these actions be used, or not."""
+        for name in names:
+            self.by_name[name].setEnabled(is_enabled)
+
+    def retire(self) -> None:
+        """Take the actions away from the window."""
+        for action in self.by_name.values():
+            self._window.removeAction(action)
+        self.deleteLater()
+
+    def _on_theme_changed(self) -> None:
+        for name, icon_name in self._icons.items():
+            self.by_name[name].setIcon(icon(icon_name, self._look.theme))
+
+
+def sequences(keys: Keys | tuple[Keys, ...]) -> list[QKeySequence]:
+    """The key sequences of keys; a standard key may have several on this system."""
+    found: list[QKeySequence] = []
+    for key in keys if isinstance(keys, tuple) else (keys,):
+        if isinstance(key, str):
+            found.append(QKeySequence(key))
+        else:
+            found.extend(QKeySequence.keyBindings(key))
+    return found
+
+
+def _tip(words: str, action: QAction) -> str:
+    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+    return f"{words} ({keys})" if keys else words

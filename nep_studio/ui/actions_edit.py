@@ -1,0 +1,119 @@
+"""The Edit menu, and which of its actions can be used now."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtGui import QGuiApplication, QKeySequence
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit
+
+from nep_studio.ui.canvas.commands import Commands
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.ui.main_window import MainWindow
+
+Key = QKeySequence.StandardKey
+NEEDS_SELECTION = ("cut", "copy", "duplicate", "delete", "disable", "collapse")
+
+
+def add_edit_menu(window: MainWindow) -> QMenu:
+    """Make the Edit menu."""
+    menu, actions = window.menuBar().addMenu(tr("&Edit")), window.actions_by_name
+    commands = window.workbench.canvas.commands
+    add = actions.add
+    menu.addActions(
+        [
+            add("undo", tr("Undo"), commands.undo, icon_name="undo-2", keys=Key.Undo),
+            add("redo", tr("Redo"), commands.redo, icon_name="redo-2", keys=(Key.Redo, "Ctrl+Y")),
+        ]
+    )
+    menu.addSeparator()
+    cut, copy, paste = _in_texts_too(commands)
+    menu.addActions(
+        [
+            add("cut", tr("Cut"), cut, icon_name="scissors", keys=Key.Cut),
+            add("copy", tr("Copy"), copy, icon_name="copy", keys=Key.Copy),
+            add("paste", tr("Paste"), paste, icon_name="clipboard-paste", keys=Key.Paste),
+            add(
+                "duplicate",
+                tr("Duplicate"),
+                commands.duplicate,
+                icon_name="copy-plus",
+                keys="Ctrl+D",
+            ),
+            add("delete", tr("Delete"), commands.delete, icon_name="trash-2", keys=Key.Delete),
+        ]
+    )
+    menu.addSeparator()
+    menu.addActions(_about_blocks(window, commands))
+    menu.addSeparator()
+    settings = add("settings", tr("Settings…"), window.open_settings, icon_name="settings")
+    settings.setMenuRole(settings.MenuRole.PreferencesRole)
+    settings.setShortcuts(QKeySequence.keyBindings(Key.Preferences))
+    menu.addAction(settings)
+    QGuiApplication.clipboard().dataChanged.connect(window.update_actions)
+    return menu
+
+
+def _about_blocks(window: MainWindow, commands: Commands) -> list:  # type: ignore[type-arg]
+    add = window.actions_by_name.add
+    return [
+        add("select_all", tr("Select all"), commands.select_all, keys=Key.SelectAll),
+        add(
+            "disable",
+            tr("Switch off or on"),
+            lambda: commands.toggle("disabled"),
+            icon_name="eye-off",
+        ),
+        add(
+            "collapse",
+            tr("Fold or unfold"),
+            lambda: commands.toggle("collapsed"),
+            icon_name="fold-vertical",
+        ),
+        add(
+            "tidy",
+            tr("Tidy up"),
+            commands.tidy,
+            icon_name="brush",
+            tip=tr("Push stacks apart that overlap"),
+        ),
+        add("add_page", tr("Add a page"), window.workbench.pages_bar.add_page, icon_name="plus"),
+    ]
+
+
+def _in_texts_too(commands: Commands) -> tuple[Callable[[], object], ...]:
+    """Cut, copy and paste: in a text that has the focus, else the blocks."""
+
+    def do(name: str) -> object:
+        focus = QApplication.focusWidget()
+        if isinstance(focus, QLineEdit | QPlainTextEdit):
+            return getattr(focus, name)()
+        return getattr(commands, name)()
+
+    return tuple(lambda name=name: do(name) for name in ("cut", "copy", "paste"))  # type: ignore[misc]
+
+
+def update_edit_actions(window: MainWindow) -> None:
+    """Enable what can be done, and say what undo and redo would do."""
+    actions, workbench = window.actions_by_name, window.workbench
+    is_open = window.files.document is not None
+    history = workbench.canvas.editor.history
+    selected = len(workbench.canvas.selection) if is_open else 0
+    data = QGuiApplication.clipboard().mimeData()
+    actions.enable(bool(selected), *NEEDS_SELECTION)
+    actions.enable(is_open and data is not None and bool(data.formats()), "paste")
+    actions.enable(is_open, "select_all", "tidy", "add_page")
+    _label(window, "undo", history.undo_label if is_open else "", tr("Undo"), "Undo “{step}”")
+    _label(window, "redo", history.redo_label if is_open else "", tr("Redo"), "Redo “{step}”")
+
+
+def _label(window: MainWindow, name: str, step: str, plain: str, with_step: str) -> None:
+    action = window.actions_by_name[name]
+    words = tr(with_step, step=tr(step)) if step else plain
+    action.setEnabled(bool(step))
+    action.setText(words)
+    action.setIconText(plain)
+    action.setToolTip(words)

@@ -1,0 +1,17 @@
+"""Icons as large as the text beside them, which Qt leaves at one size."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QAbstractButton, QTabBar, QTabWidget, QWidget
+
+ICON_LINES = 1.0
+"""How high an icon is, in lines of text."""
+
+
+def fit_icons(root: QWidget) -> None:
+    """Give the icons of all buttons and tabs inside a widget the size of their text."""
+    for kind in (QAbstractButton, QTabBar, QTabWidget):
+        for widget in root.findChildren(kind):
+            side = round(widget.fontMetrics().height() * ICON_LINES)
+            widget.setIconSize(QSize(side, side))

@@ -1,0 +1,148 @@
+"""The areas around the canvas, and the panels in them that a person shows and hides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QVBoxLayout, QWidget
+
+from nep_studio.settings import Settings
+from nep_studio.ui.theme import Look, icon
+from nep_studio.ui.words import tr
+
+AreaName = Literal["left", "right", "bottom"]
+
+
+@dataclass
+class Panel:
+    """A widget beside the canvas, and the action that shows and hides it."""
+
+    widget: QWidget
+    title: str
+    icon_name: str
+    area: Area
+    action: QAction
+
+    @property
+    def name(self) -> str:
+        """What it is called in the settings."""
+        return type(self.widget).__name__
+
+
+class Area(QTabWidget):
+    """Panels on top of each other; an area without a shown panel takes no room."""
+
+    close_asked = Signal(QWidget)
+
+    def __init__(self, name: AreaName, look: Look) -> None:
+        super().__init__()
+        self._look = look
+        self.setDocumentMode(True)
+        self.setUsesScrollButtons(True)
+        self.setTabBarAutoHide(name == "left")
+        self.close_button = QToolButton()
+        self.close_button.setToolTip(tr("Hide this panel"))
+        self.close_button.setAccessibleName(tr("Hide this panel"))
+        self.close_button.clicked.connect(lambda: self.close_asked.emit(self.currentWidget()))
+        if name != "left":
+            self.setCornerWidget(self.close_button, Qt.Corner.TopRightCorner)
+        self.hide()
+
+    def show_panel(self, widget: QWidget, is_shown: bool) -> None:
+        """Show or hide a panel, and with the last one the area."""
+        index = self.indexOf(widget)
+        self.setTabVisible(index, is_shown)
+        if is_shown:
+            self.setCurrentIndex(index)
+        self.setVisible(any(self.isTabVisible(i) for i in range(self.count())))
+
+
+class Panels(QObject):
+    """All panels of one window, around ``middle``."""
+
+    def __init__(self, middle: QWidget, look: Look, settings: Settings, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._look, self._settings = look, settings
+        self.all: list[Panel] = []
+        self.areas: dict[AreaName, Area] = {
+            "left": Area("left", look),
+            "right": Area("right", look),
+            "bottom": Area("bottom", look),
+        }
+        self.column = QSplitter(Qt.Orientation.Vertical)
+        self.row = QSplitter(Qt.Orientation.Horizontal)
+        for widget in (middle, self.areas["bottom"]):
+            self.column.addWidget(widget)
+        for widget in (self.areas["left"], self.column, self.areas["right"]):
+            self.row.addWidget(widget)
+        for splitter, stretched in ((self.column, 0), (self.row, 1)):
+            splitter.setChildrenCollapsible(False)
+            splitter.setStretchFactor(stretched, 1)
+        for area in self.areas.values():
+            area.close_asked.connect(self._on_close_asked)
+        box = QVBoxLayout(parent)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addWidget(self.row)
+        look.theme_changed.connect(self._on_theme_changed)
+
+    def add(
+        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
+    ) -> Panel:
+        """Add a panel; whether it is shown is as the person left it, else as it is said."""
+        place = self.areas[area]
+        index = place.addTab(widget, title)
+        action = QAction(title, self, checkable=True)
+        panel = Panel(widget, title, icon_name, place, action)
+        self.all.append(panel)
+        action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
+        place.show_panel(widget, action.isChecked())
+        place.setCurrentIndex(0)
+        place.setTabToolTip(index, title)
+        action.toggled.connect(lambda is_on: self._on_toggled(panel, is_on))
+        self._dress(panel)
+        return panel
+
+    def show(self, widget: QWidget) -> None:
+        """Show a panel, on top of the others of its area."""
+        for panel in self.all:
+            if panel.widget is widget:
+                panel.action.setChecked(True)
+                panel.area.setCurrentWidget(widget)
+
+    def restore(self, line: int) -> None:
+        """Give the areas the sizes that they had, or good ones; ``line`` is a line of text."""
+        if not self.row.restoreState(self._settings.state("row")):
+            width = self.row.width()
+            left = min(self.areas["left"].sizeHint().width(), width * 3 // 10)
+            right = min(line * 20, width // 4)
+            self.row.setSizes([left, width - left - right, right])
+        if not self.column.restoreState(self._settings.state("column")):
+            height = max(self.column.height(), line * 30)
+            self.column.setSizes([height - line * 9, line * 9])
+
+    def remember(self) -> None:
+        """Note the sizes in the settings."""
+        self._settings.set_state("row", self.row.saveState())
+        self._settings.set_state("column", self.column.saveState())
+
+    def _on_toggled(self, panel: Panel, is_on: bool) -> None:
+        panel.area.show_panel(panel.widget, is_on)
+        self._settings.set_shown(panel.name, is_on)
+
+    def _on_close_asked(self, widget: QWidget) -> None:
+        for panel in self.all:
+            if panel.widget is widget:
+                panel.action.setChecked(False)
+
+    def _on_theme_changed(self) -> None:
+        for panel in self.all:
+            self._dress(panel)
+
+    def _dress(self, panel: Panel) -> None:
+        theme = self._look.theme
+        panel.action.setIcon(icon(panel.icon_name, theme))
+        panel.area.setTabIcon(panel.area.indexOf(panel.widget), icon(panel.icon_name, theme))
+        panel.area.close_button.setIcon(icon("x", theme))

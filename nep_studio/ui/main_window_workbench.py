@@ -1,0 +1,211 @@
+"""The workbench: the canvas with its pages, the code, the problems, all of one project."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QRect, Signal
+from PySide6.QtGui import QFont, QFontInfo
+from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
+
+from nep_studio.blocks.checks import Problem
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.operations.fixes import apply_fix
+from nep_studio.blocks.program import Project
+from nep_studio.ui.app import Studio
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.overlay import badge_rect
+from nep_studio.ui.code_pane.pane import CodePane
+from nep_studio.ui.documents import Document
+from nep_studio.ui.main_window_panels import AreaName, Panel, Panels
+from nep_studio.ui.messages import Messages, announce
+from nep_studio.ui.outline.view import Outline
+from nep_studio.ui.pages_bar import PagesBar
+from nep_studio.ui.palette.palette import Palette
+from nep_studio.ui.problems.bubble import ProblemBubble
+from nep_studio.ui.problems.live_checks import LiveChecks
+from nep_studio.ui.problems.panel import ProblemsPanel
+from nep_studio.ui.theme import text_font
+from nep_studio.ui.words import is_right_to_left, tr
+
+BLOCK_FONT_PIXELS = 14
+WIDEST = 16777215  # Qt's own
+
+MARGIN = 28.0
+"""How far from the view's corner the blocks begin, in pixels."""
+
+
+class Workbench(QWidget):
+    """Where a project is worked on. ``problems_found`` gives what is not right yet."""
+
+    problems_found = Signal(list)
+
+    def __init__(self, studio: Studio, messages: Messages, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._studio, self._messages = studio, messages
+        editor = Editor(Project(), studio.language)
+        self.canvas = Canvas(
+            editor, studio.look.theme, font=block_font(studio), is_mirrored=is_right_to_left()
+        )
+        self.pages_bar = PagesBar(editor, studio.look, self.canvas.attempt)
+        self.code = CodePane(editor, studio.look)
+        self.outline = Outline(self.canvas)
+        self.problems = ProblemsPanel(studio.look)
+        self.checks = LiveChecks(self)
+        self.bubble: ProblemBubble | None = None
+        self._usual_scale = usual_scale(studio)
+        self.panels = Panels(self._middle(), studio.look, studio.settings, self)
+        self.palette_panel = Palette(self.canvas, studio.settings)
+        self.add_side_panel(self.palette_panel, tr("Blocks"), "blocks", "left")
+        self.add_side_panel(self.code, tr("Code"), "code", "right")
+        self.add_side_panel(self.outline, tr("Outline"), "list-tree", "right")
+        self.add_side_panel(self.problems, tr("Problems"), "circle-check", "bottom", is_shown=False)
+        self._connect()
+
+    def _middle(self) -> QWidget:
+        middle = QFrame()
+        box = QVBoxLayout(middle)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(0)
+        box.addWidget(self.pages_bar)
+        box.addWidget(self.canvas, 1)
+        return middle
+
+    def _connect(self) -> None:
+        canvas = self.canvas
+        self.pages_bar.page_chosen.connect(canvas.show_page)
+        canvas.page_changed.connect(self.pages_bar.show_page)
+        canvas.page_changed.connect(self.code.show_page)
+        canvas.selection.changed.connect(self._on_selection_changed)
+        canvas.refused.connect(self._messages.refuse)
+        canvas.announced.connect(self._on_announced)
+        canvas.problem_opened.connect(self.open_bubble)
+        canvas.layout_changed.connect(self._messages.clear_passing)
+        self.code.block_asked.connect(self.show_block)
+        self.checks.found.connect(self._on_problems_found)
+        self.problems.opened.connect(self._on_problem_opened)
+        self.problems.fix_asked.connect(self.fix)
+        self.palette_panel.narrowed.connect(self._on_palette_narrowed)
+        self._studio.look.theme_changed.connect(self._on_theme_changed)
+
+    def add_side_panel(
+        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
+    ) -> Panel:
+        """Add a panel beside the canvas: left, right or at the bottom."""
+        return self.panels.add(widget, title, icon_name, area, is_shown=is_shown)
+
+    def show_document(self, document: Document | None) -> None:
+        """Work on another project; on none, the canvas is empty."""
+        editor = self._no_editor() if document is None else document.editor
+        folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
+        self._set_editor(editor)
+        self.checks.follow(None if document is None else editor, folder)
+
+    def retire(self) -> None:
+        """Let go of the project, before this workbench is thrown away."""
+        self.show_document(None)
+        self.checks.cancel()
+
+    def _no_editor(self) -> Editor:
+        return Editor(Project(), self._studio.language)
+
+    def _set_editor(self, editor: Editor) -> None:
+        self.canvas.set_editor(editor)
+        self.pages_bar.set_editor(editor)
+        self.code.set_editor(editor)
+        self.outline.refresh()
+        self.palette_panel.refresh()
+        self._show_corner()
+
+    def zoom_usual(self) -> None:
+        """Show the blocks with words as large as those of the window."""
+        self.canvas.zoom(usual_scale(self._studio))
+
+    def _show_corner(self) -> None:
+        """Look at the corner of the page where reading begins, at the usual size."""
+        canvas = self.canvas
+        self.zoom_usual()
+        bounds = canvas.page_layout.bounds()
+        x, y = (bounds.x, bounds.y) if bounds is not None else (0.0, 0.0)
+        if bounds is not None and canvas.measures.is_mirrored:
+            x = bounds.right - (canvas.viewport().width() - 2 * MARGIN) / canvas.camera.scale
+        canvas.move_camera(x, y, margin=MARGIN)
+
+    # Blocks and problems
+
+    def show_block(self, block: str) -> None:
+        """Show a block and select it."""
+        self.canvas.show_block(block)
+        if block in self.canvas.editor.project.blocks:
+            self.canvas.selection.set([block])
+
+    def fix(self, problem: Problem) -> None:
+        """Put a problem right as far as the program can, and show what it did."""
+        changed: list[str] = []
+        try:
+            changed.append(apply_fix(self.canvas.editor, problem))
+        except EditRefused as refusal:
+            self._messages.refuse(refusal.sentence, refusal.checklist)
+            return
+        self.show_block(changed[0])
+        self.checks.start()
+
+    def open_bubble(self, block: str) -> None:
+        """Show what is not right at a block, beside its badge."""
+        there = [problem for problem in self.checks.problems if problem.block == block]
+        placed = self.canvas.page_layout.placed(block)
+        if not there or placed is None:
+            return
+        rect = badge_rect(placed, self.canvas)
+        camera, viewport = self.canvas.camera, self.canvas.viewport()
+        corner = camera.to_view(rect.x(), rect.y()).toPoint()
+        size = (rect.size() * camera.scale).toSize()
+        bubble = self.bubble = ProblemBubble(there, self)
+        bubble.fix_asked.connect(self.fix)
+        bubble.show_at(QRect(viewport.mapToGlobal(corner), size))
+
+    def _on_problems_found(self, problems: list[Problem]) -> None:
+        self.problems.show_problems(problems)
+        self.canvas.problems.show(problems)
+        self.canvas.viewport().update()
+        self.problems_found.emit(problems)
+
+    def _on_problem_opened(self, problem: Problem) -> None:
+        if problem.block:
+            self.show_block(problem.block)
+        elif problem.page in self.canvas.editor.project.pages:
+            self.canvas.show_page(problem.page)
+
+    def _on_selection_changed(self) -> None:
+        self.code.mark_blocks(self.canvas.selection.ids)
+
+    def _on_announced(self, words: str) -> None:
+        announce(self.canvas, words)
+
+    def _on_theme_changed(self) -> None:
+        self.canvas.set_look(
+            self._studio.look.theme, block_font(self._studio), is_mirrored=is_right_to_left()
+        )
+        scale = usual_scale(self._studio)
+        if scale != self._usual_scale:
+            self.canvas.zoom(self.canvas.camera.scale * scale / self._usual_scale)
+            self._usual_scale = scale
+        self.outline.refresh()
+        self.palette_panel.refresh()
+
+    def _on_palette_narrowed(self, is_narrow: bool) -> None:
+        width = self.palette_panel.maximumWidth() if is_narrow else WIDEST
+        self.panels.areas["left"].setMaximumWidth(width)
+
+
+def block_font(studio: Studio) -> QFont:
+    """The font of the blocks, the same for everybody: places on a page are in its units."""
+    dots_per_inch = studio.app.primaryScreen().logicalDotsPerInchY()
+    return text_font(BLOCK_FONT_PIXELS * 72 / dots_per_inch, QFont.Weight.Medium)
+
+
+def usual_scale(studio: Studio) -> float:
+    """The zoom at which the words on blocks are as large as those of the window."""
+    return QFontInfo(studio.app.font()).pixelSize() / BLOCK_FONT_PIXELS

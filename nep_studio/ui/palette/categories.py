@@ -1,0 +1,94 @@
+"""The column of categories: each with its sign, its name and the colour of its blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtWidgets import QButtonGroup, QScrollArea, QToolButton, QVBoxLayout, QWidget
+
+from nep_studio.ui.theme import Theme
+from nep_studio.ui.words import tr
+
+from .entries import Drawer
+from .shelf_painter import paint_badge
+
+
+class CategoryColumn(QScrollArea):
+    """One button for each drawer; ``opened`` brings the id of the one that was pressed."""
+
+    opened = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.buttons: dict[str, QToolButton] = {}
+        self._is_narrow = False
+        self._group = QButtonGroup(self)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+
+    def show_drawers(self, drawers: Sequence[Drawer], theme: Theme) -> None:
+        """Show a button for each of these."""
+        self.setAccessibleName(tr("Categories of blocks"))
+        inner = QWidget()
+        column = QVBoxLayout(inner)
+        column.setContentsMargins(2, 2, 2, 2)
+        column.setSpacing(0)
+        self.buttons = {drawer.id: self._button(drawer, theme, inner) for drawer in drawers}
+        for button in self.buttons.values():
+            column.addWidget(button)
+        column.addStretch(1)
+        self.setWidget(inner)
+        self._fit()
+
+    def set_narrow(self, is_narrow: bool) -> None:
+        """Show the signs without the names."""
+        self._is_narrow = is_narrow
+        for button in self.buttons.values():
+            button.setToolButtonStyle(self._style())
+        self._fit()
+
+    def mark(self, drawer: str) -> None:
+        """Show which drawer is in view."""
+        button = self.buttons.get(drawer)
+        if button is not None and not button.isChecked():
+            button.setChecked(True)
+            self.ensureWidgetVisible(button, 0, 4)
+
+    def _button(self, drawer: Drawer, theme: Theme, parent: QWidget) -> QToolButton:
+        button = QToolButton(parent)
+        button.setText(drawer.title)
+        button.setToolTip(drawer.title)
+        button.setAccessibleName(drawer.title)
+        button.setCheckable(True)
+        button.setAutoRaise(True)
+        side = round(self.fontMetrics().height() * 1.35)
+        button.setIcon(_badge(drawer, theme, side, self.devicePixelRatioF()))
+        button.setIconSize(QSize(side, side))
+        button.setToolButtonStyle(self._style())
+        button.clicked.connect(lambda: self.opened.emit(drawer.id))
+        self._group.addButton(button)
+        return button
+
+    def _style(self) -> Qt.ToolButtonStyle:
+        styles = Qt.ToolButtonStyle
+        return styles.ToolButtonIconOnly if self._is_narrow else styles.ToolButtonTextBesideIcon
+
+    def _fit(self) -> None:
+        widest = max((b.sizeHint().width() for b in self.buttons.values()), default=40)
+        for button in self.buttons.values():
+            button.setMinimumWidth(widest)
+        self.setFixedWidth(widest + self.verticalScrollBar().sizeHint().width() + 4)
+
+
+def _badge(drawer: Drawer, theme: Theme, side: int, ratio: float) -> QIcon:
+    pixmap = QPixmap(round(side * ratio), round(side * ratio))
+    pixmap.setDevicePixelRatio(ratio)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    with QPainter(pixmap) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        paint_badge(painter, QRectF(1, 1, side - 2, side - 2), drawer, theme)
+    return QIcon(pixmap)

@@ -1,0 +1,245 @@
+"""The palette: a search box, a column of categories, and the list of blocks beside it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QAction, QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+
+from nep_studio.blocks.edits import CreateBlocks, Edit
+from nep_studio.blocks.history import History
+from nep_studio.blocks.program import Changes
+from nep_studio.settings import Settings
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.insert_bar_places import insert_clip
+from nep_studio.ui.snippets import Snippets
+from nep_studio.ui.theme import icon
+from nep_studio.ui.words import tr
+
+from . import entries
+from .categories import CategoryColumn
+from .delete_area import add_delete_area, is_deleting
+from .entries import Drawer, Entry
+from .making import Making
+from .recent import recent_types, remember_types
+from .searching import found_samples
+from .shelf import Shelf
+from .snippet_menu import SnippetMenu
+from .stock import Stock
+
+
+class Palette(QWidget):
+    """All blocks that belong on the page of a canvas.
+
+    ``narrowed`` says that it became a narrow column of signs, or wide again.
+    """
+
+    narrowed = Signal(bool)
+
+    def __init__(
+        self,
+        canvas: Canvas,
+        settings: Settings,
+        snippets: Snippets | None = None,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.canvas = canvas
+        self.settings = settings
+        self.snippets = snippets or Snippets(settings.folder / "snippets")
+        self.search = QLineEdit(self)
+        self.fold = QToolButton(self)
+        self.categories = CategoryColumn(self)
+        self.shelf = Shelf(canvas, self)
+        self.making = Making(self)
+        self.snippet_menu = SnippetMenu(self)
+        self.is_narrow = False
+        self._drawers: list[Drawer] = []
+        self._history: History | None = None
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._arrange()
+        self._connect()
+        add_delete_area(canvas, self)
+        self.refresh()
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Take the theme, the words, the direction and the project of the canvas."""
+        self.setAccessibleName(tr("Palette"))
+        self.search.setPlaceholderText(tr("Search blocks"))
+        self.search.setAccessibleName(tr("Search blocks"))
+        for action in self.search.actions():
+            self.search.removeAction(action)
+        sign = QAction(icon("search", self.canvas.theme), "", self.search)
+        self.search.addAction(sign, QLineEdit.ActionPosition.LeadingPosition)
+        self._show_fold()
+        self._listen()
+        self.shelf.refresh()
+        self.fill()
+
+    def fill(self, *, to_top: bool = False) -> None:
+        """Show the blocks for the page, or those that are searched for."""
+        editor = self.canvas.editor
+        kind = editor.project.kind_of_page(self.canvas.page)
+        recent = recent_types(self.settings, editor.language, kind)
+        stock = Stock(editor)
+        self._drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
+        self.categories.show_drawers(self._drawers, self.canvas.theme)
+        self.categories.set_narrow(self.is_narrow)
+        typed = self.search.text().strip()
+        if typed:
+            samples = [s for drawer in self._drawers for s in stock.offered(drawer.id)]
+            shown = entries.found_entries(stock, found_samples(stock, samples, typed), typed)
+        else:
+            kept = self.snippets.all(editor.language)
+            shown = entries.entries_of(stock, self._drawers, recent, kept)
+        self.shelf.show_entries(stock, shown, to_top=to_top or bool(typed))
+
+    def open_drawer(self, drawer: str) -> None:
+        """Show a category; a narrow palette becomes wide."""
+        self.set_narrow(False)
+        if self.search.text():
+            self.search.clear()
+            self.fill()
+        self.shelf.show_drawer(drawer)
+        self.categories.mark(drawer)
+
+    def set_narrow(self, is_narrow: bool) -> None:
+        """Become a narrow column of signs, or wide again."""
+        if is_narrow == self.is_narrow:
+            return
+        self.is_narrow = is_narrow
+        self.search.setVisible(not is_narrow)
+        self.shelf.setVisible(not is_narrow)
+        self.categories.set_narrow(is_narrow)
+        self.setMaximumWidth(self.categories.width() + 4 if is_narrow else 16777215)
+        self._show_fold()
+        self.narrowed.emit(is_narrow)
+
+    def sizeHint(self) -> QSize:
+        """Room for the categories and most blocks."""
+        line = self.fontMetrics().height()
+        wide = 0 if self.is_narrow else 20 * line
+        return QSize(self.categories.width() + wide, 30 * line)
+
+    # What it does
+
+    def use(self, entry: Entry) -> None:
+        """Insert the blocks of an entry, or do what a button says."""
+        if entry.kind == "button":
+            self._press(entry.action)
+            return
+        clip = self.shelf.clip_of(entry)
+        if clip is not None:
+            insert_clip(self.canvas, clip)
+
+    def start_search(self, letter: str = "") -> None:
+        """Give the search box the keyboard, and a first letter."""
+        self.set_narrow(False)
+        self.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
+        if letter:
+            self.search.setText(letter)
+            self.fill()
+        else:
+            self.search.selectAll()
+
+    def _press(self, action: str) -> None:
+        if action == entries.MAKE_BLOCK:
+            self.making.ask_for_block()
+        elif action == entries.NEW_VARIABLE:
+            self.making.ask_for_variable()
+        elif action == entries.KEEP_SNIPPET:
+            self.snippet_menu.ask_to_keep()
+        else:
+            self.snippet_menu.ask_to_import()
+
+    # Put together
+
+    def _arrange(self) -> None:
+        self.fold.setAutoRaise(True)
+        self.search.setClearButtonEnabled(True)
+        top = QHBoxLayout()
+        top.setContentsMargins(4, 4, 4, 2)
+        top.addWidget(self.fold)
+        top.addWidget(self.search, 1)
+        below = QHBoxLayout()
+        below.setSpacing(0)
+        below.addWidget(self.categories)
+        below.addWidget(self.shelf, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(top)
+        column.addLayout(below, 1)
+
+    def _connect(self) -> None:
+        canvas = self.canvas
+        self.search.textEdited.connect(lambda: self.fill(to_top=True))
+        self.search.textChanged.connect(lambda text: text or self.fill(to_top=True))
+        self.search.installEventFilter(self)
+        self.fold.clicked.connect(lambda: self.set_narrow(not self.is_narrow))
+        self.categories.opened.connect(self.open_drawer)
+        self.shelf.chosen.connect(self.use)
+        self.shelf.typed.connect(self.start_search)
+        self.shelf.left_upwards.connect(self.search.setFocus)
+        self.shelf.drawer_shown.connect(lambda drawer: self.categories.mark(drawer.id))
+        self.shelf.menu_asked.connect(self.snippet_menu.open)
+        canvas.page_changed.connect(self._on_page_changed)
+        canvas.delete_area_entered.connect(self._on_delete_area_entered)
+        self._later.timeout.connect(self.fill)
+
+    def _show_fold(self) -> None:
+        is_wide = not self.is_narrow
+        self.fold.setIcon(icon("panel-left", self.canvas.theme))
+        words = tr("Make the palette narrow") if is_wide else tr("Show the blocks")
+        self.fold.setToolTip(words)
+        self.fold.setAccessibleName(words)
+
+    def _listen(self) -> None:
+        """Hear of the changes of the project that the canvas shows now."""
+        history = self.canvas.editor.history
+        if history is self._history:
+            return
+        if self._history is not None:
+            self._history.unlisten(self._on_changes)
+            self._history.unrecord(self._on_edits)
+        self._history = history
+        history.listen(self._on_changes)
+        history.record(self._on_edits)
+
+    def _on_changes(self, changes: Changes) -> None:
+        if changes.whole:
+            self._later.start()
+
+    def _on_edits(self, edits: tuple[Edit, ...]) -> None:
+        """Remember what was used: the first block of what was made."""
+        made = [edit for edit in edits if isinstance(edit, CreateBlocks)]
+        types = [b.type for edit in made for b in edit.blocks if b.id == edit.roots[0]]
+        if types and remember_types(self.settings, types):
+            self._later.start()
+
+    def _on_page_changed(self, page: str) -> None:
+        self._listen()
+        self.fill(to_top=True)
+
+    def _on_delete_area_entered(self, is_over: bool) -> None:
+        self.shelf.set_delete(is_over and is_deleting(self.canvas))
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """In the search box, Down goes to the list, Enter inserts the first, Esc clears."""
+        if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
+            return super().eventFilter(watched, event)
+        key = event.key()
+        if key == Qt.Key.Key_Down:
+            self.shelf.setFocus(Qt.FocusReason.OtherFocusReason)
+            self.shelf.choose_first()
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.search.text():
+            self.shelf.choose_first()
+            if self.shelf.current is not None:
+                self.use(self.shelf.current)
+        elif key == Qt.Key.Key_Escape and self.search.text():
+            self.search.clear()
+        else:
+            return super().eventFilter(watched, event)
+        return True

@@ -1,0 +1,55 @@
+"""What a block of the palette does, in a few lines: its sentence, its help, its Python."""
+
+from __future__ import annotations
+
+from html import escape
+
+from nep_studio import paths
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.operations.to_python import python_of
+from nep_studio.ui.words import language_code, tr
+
+from .stock import Stock
+
+LONGEST_CODE = 400
+
+
+def tip(stock: Stock, sample: str) -> str:
+    """The tool tip of a sample, as rich text."""
+    parts = [f"<b>{escape(stock.words(sample))}</b>"]
+    parts += [f"<p>{escape(text)}</p>" for text in _does(stock, sample) if text]
+    code = python(stock, sample)
+    if code:
+        parts.append(f"<p>{escape(tr('In Python:'))}</p><pre>{escape(code)}</pre>")
+    return "".join(parts)
+
+
+def python(stock: Stock, sample: str) -> str:
+    """The Python of a sample; empty when it makes none by itself."""
+    try:
+        code = python_of(stock.project, stock.language, [sample]).strip()
+    except BlocksError:
+        return ""
+    return code if len(code) <= LONGEST_CODE else code[:LONGEST_CODE].rstrip() + " …"
+
+
+def _does(stock: Stock, sample: str) -> list[str]:
+    definition = stock.definition(sample)
+    told = [first_paragraph(definition.help)]
+    if "takes_time" in definition.flags:
+        told.append(tr("The program waits here until it is done."))
+    if "needs_real_robot" in definition.flags:
+        told.append(tr("Needs a real robot: the one on the screen cannot do it."))
+    return told
+
+
+def first_paragraph(page: str) -> str:
+    """The first words of a help page, in the person's language or else in English."""
+    folder = paths.resources() / "help"
+    for path in (folder / language_code() / f"{page}.md", folder / "en" / f"{page}.md",
+                 folder / f"{page}.md"):
+        if page and path.is_file():
+            lines = path.read_text(encoding="utf-8").split("\n\n")
+            plain = (part.strip().replace("\n", " ") for part in lines)
+            return next((part for part in plain if part and not part.startswith("#")), "")
+    return ""

@@ -1,0 +1,93 @@
+"""Block sentences in other languages: slots move, nothing is lost, wrong entries stay English."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+
+from nep_studio import paths
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.sentence import Group, SentenceError, Slot
+from nep_studio.blocks.text import sentence
+from nep_studio.blocks.translation import faults, translated, translated_parts
+from nep_studio.studio_language import studio_language
+from tests.blocks.block_building import B, build
+
+TABLES = sorted((paths.resources() / "translations").glob("*.toml"))
+
+
+@pytest.fixture(scope="module")
+def english() -> Language:
+    return studio_language()
+
+
+def names(parts) -> list[str]:
+    return [p.name for p in parts if isinstance(p, Slot | Group)]
+
+
+def test_slots_may_stand_elsewhere_in_a_translated_sentence(english: Language) -> None:
+    say = english.definitions["robot.say"]
+
+    parts = translated_parts(say, "{text} は {gesture} と {robot} が言う")
+
+    assert names(parts) == ["text", "gesture", "robot"]
+    assert parts[0] is say.slots["text"]
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "{robot} dice {text}",
+        "{robot} {robot} dice {text} con {gesture}",
+        "{robot} dice {text} con {gesture} {more}",
+        "{robot} dice {text} con {gesture",
+        "{robot} dice {text} con [more: {gesture}]",
+        "{robot} dice {text} con {gesture} ]",
+    ],
+)
+def test_a_sentence_with_other_slots_is_refused(english: Language, wrong: str) -> None:
+    with pytest.raises(SentenceError):
+        translated_parts(english.definitions["robot.say"], wrong)
+
+
+def test_groups_keep_their_names_and_what_is_in_them(english: Language) -> None:
+    definition = english.definitions["control.if"]
+
+    parts = translated_parts(
+        definition,
+        "si {condition} {do} [also: si no, si {also_condition} {also_do}]"
+        " [otherwise: si no {otherwise_do}]",
+    )
+
+    assert names(parts) == names(definition.parts)
+    with pytest.raises(SentenceError):
+        translated_parts(
+            definition,
+            "si {condition} {do} [also: {also_condition}] [otherwise: {otherwise_do} {also_do}]",
+        )
+
+
+def test_a_program_reads_in_the_other_language_and_makes_the_same_code(english) -> None:
+    spanish = translated(
+        english,
+        {
+            "blocks": {"robot.say": "con {gesture} {robot} dice {text}", "control.wait": "{broken"},
+            "choices": {"say_gestures": {"greet": "un saludo"}},
+        },
+    )
+    blocks = [B("event.started"), B("robot.say", {"gesture": "greet"}), B("control.wait")]
+    editor = build(english, blocks)
+    _, say, wait = editor.project.pages["behaviour"][0].body
+
+    assert sentence(editor.project, spanish, say) == "con un saludo NAO dice Hello"
+    assert sentence(editor.project, spanish, wait) == "wait 1 seconds"
+    assert generate_program(editor.project, spanish) == generate_program(editor.project, english)
+
+
+@pytest.mark.parametrize("table", TABLES, ids=lambda path: path.stem)
+def test_every_table_translates_every_block_category_and_choice(english, table) -> None:
+    data = tomllib.loads(table.read_text(encoding="utf-8"))
+
+    assert [str(fault) for fault in faults(english, data)] == []
