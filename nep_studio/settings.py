@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import tempfile
 from collections.abc import Iterable
@@ -83,7 +84,7 @@ class Settings:
             scale = float(self._text("look/text_scale", "1"))
         except ValueError:
             return 1.0
-        return min(max(scale, SMALLEST_TEXT), LARGEST_TEXT)  # also for a value that is no number
+        return min(max(scale, SMALLEST_TEXT), LARGEST_TEXT) if math.isfinite(scale) else 1.0
 
     @text_scale.setter
     def text_scale(self, scale: float) -> None:

@@ -117,7 +117,7 @@ class _Reader:
         if depth > DEEPEST_ARITHMETIC:
             raise ArithmeticRefused("There are too many parentheses in each other.")
         match node:
-            case ast.Constant(value=value) if type(value) in (int, float):
+            case ast.Constant(value=int(value) | float(value)) if not isinstance(value, bool):
                 return _small(value), ast.Constant(value)
             case ast.Name(id=name) if name in _CONSTANTS:
                 return _CONSTANTS[name], self._of_math(name)
@@ -166,7 +166,7 @@ def _power(a: Number, b: Number) -> Number:
     value = a**b
     if isinstance(value, complex):
         raise ArithmeticRefused("A root of a negative number is no number on the number line.")
-    return value  # type: ignore[no-any-return]
+    return value
 
 
 def _small(value: Number) -> Number:

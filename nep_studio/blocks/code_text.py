@@ -68,11 +68,17 @@ def read_value(text: str) -> CodeText:
     tree = _parse(plain, "eval")
     if ast.dump(_parse(f"({plain})", "eval")) != ast.dump(tree):
         raise CodeTextRefused("This is not one value.")
-    if any(isinstance(node, ast.NamedExpr | ast.Await) for node in ast.walk(tree)):
-        raise CodeTextRefused("“:=” and “await” cannot be in a value.")
+    refused = (ast.NamedExpr, ast.Await, ast.Yield, ast.YieldFrom)
+    if any(isinstance(node, refused) for node in ast.walk(tree)):
+        raise CodeTextRefused("“:=”, “yield” and “await” cannot be in a value.")
     compile_quietly(f"lambda: ({plain})")
     read, made = _names(tree)
-    closed = isinstance(tree.body, ast.Name | ast.Attribute | ast.Call | ast.Subscript | ast.List)
+    value = tree.body
+    if isinstance(value, ast.Tuple):
+        plain = f"({plain})"
+    closed = isinstance(
+        value, ast.Name | ast.Attribute | ast.Call | ast.Subscript | ast.List | ast.Tuple
+    )
     return CodeText((plain,), frozenset(), read, made, is_closed=closed)
 
 

@@ -156,6 +156,9 @@ def _check_shape(definition: Definition) -> None:
     has_body = any(slot.kind.name == "body" for slot in definition.slots.values())
     if has_body != (definition.shape == "c"):
         raise SentenceError("a block with a body, and only that, has the shape c")
+    for slot in definition.slots.values():
+        if (slot.kind.name == "variable") != (slot.name == "variable"):
+            raise SentenceError("a slot for a variable, and only that, is called “variable”")
     if "posture" in definition.flags and "posture" not in definition.slots:
         raise SentenceError("a block with the flag posture needs a slot “posture”")
 

@@ -68,7 +68,7 @@ def field_text(
     if slot.kind.name == "parameter":
         return slot.label
     if isinstance(value, bool):
-        return "on" if value else "off"
+        return language.word("on") if value else language.word("off")
     if slot.kind.name == "robot" and value == ALL_ROBOTS:
         return language.word("all robots")
     if value is None or value == "":

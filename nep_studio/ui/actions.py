@@ -75,7 +75,7 @@ def sequences(keys: Keys | tuple[Keys, ...]) -> list[QKeySequence]:
             found.append(QKeySequence(key))
         else:
             found.extend(QKeySequence.keyBindings(key))
-    return found
+    return list(dict.fromkeys(found))  # one that is there twice would be ambiguous
 
 
 def _tip(words: str, action: QAction) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtGui import QGuiApplication, QKeySequence
+from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit
 
 from nep_studio.ui.canvas.commands import Commands
@@ -16,6 +16,18 @@ if TYPE_CHECKING:
 
 Key = QKeySequence.StandardKey
 NEEDS_SELECTION = ("cut", "copy", "duplicate", "delete", "disable", "collapse")
+
+NEEDS_PROJECT = (
+    "select_all",
+    "tidy",
+    "add_page",
+    "find",
+    "find_next",
+    "find_previous",
+    "insert",
+    "minimap",
+    "picture",
+)
 
 
 def add_edit_menu(window: MainWindow) -> QMenu:
@@ -49,6 +61,8 @@ def add_edit_menu(window: MainWindow) -> QMenu:
     menu.addSeparator()
     menu.addActions(_about_blocks(window, commands))
     menu.addSeparator()
+    menu.addActions(_finding(window))
+    menu.addSeparator()
     settings = add("settings", tr("Settings…"), window.open_settings, icon_name="settings")
     settings.setMenuRole(settings.MenuRole.PreferencesRole)
     settings.setShortcuts(QKeySequence.keyBindings(Key.Preferences))
@@ -57,7 +71,7 @@ def add_edit_menu(window: MainWindow) -> QMenu:
     return menu
 
 
-def _about_blocks(window: MainWindow, commands: Commands) -> list:  # type: ignore[type-arg]
+def _about_blocks(window: MainWindow, commands: Commands) -> list[QAction]:
     add = window.actions_by_name.add
     return [
         add("select_all", tr("Select all"), commands.select_all, keys=Key.SelectAll),
@@ -84,6 +98,19 @@ def _about_blocks(window: MainWindow, commands: Commands) -> list:  # type: igno
     ]
 
 
+def _finding(window: MainWindow) -> list[QAction]:
+    add, helpers = window.actions_by_name.add, window.workbench.helpers
+    find, insert = helpers.find_bar, helpers.insert_bar
+    return [
+        add("find", tr("Find…"), find.open, icon_name="search", keys=Key.Find),
+        add("find_next", tr("Find next"), find.find_next, keys=Key.FindNext),
+        add("find_previous", tr("Find previous"), find.find_previous, keys=Key.FindPrevious),
+        add(
+            "insert", tr("Insert by typing…"), insert.open, icon_name="keyboard", keys="Ctrl+Space"
+        ),
+    ]
+
+
 def _in_texts_too(commands: Commands) -> tuple[Callable[[], object], ...]:
     """Cut, copy and paste: in a text that has the focus, else the blocks."""
 
@@ -105,7 +132,7 @@ def update_edit_actions(window: MainWindow) -> None:
     data = QGuiApplication.clipboard().mimeData()
     actions.enable(bool(selected), *NEEDS_SELECTION)
     actions.enable(is_open and data is not None and bool(data.formats()), "paste")
-    actions.enable(is_open, "select_all", "tidy", "add_page")
+    actions.enable(is_open, *NEEDS_PROJECT)
     _label(window, "undo", history.undo_label if is_open else "", tr("Undo"), "Undo “{step}”")
     _label(window, "redo", history.redo_label if is_open else "", tr("Redo"), "Redo “{step}”")
 

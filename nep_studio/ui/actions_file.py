@@ -40,6 +40,10 @@ def add_file_menu(window: MainWindow) -> QMenu:
         keys=(Key.SaveAs, "Ctrl+Shift+S"),
     )
     menu.addActions([save, save_as])
+    picture = actions.add(
+        "picture", tr("Export picture…"), window.export_picture, icon_name="image"
+    )
+    menu.addAction(picture)
     menu.addSeparator()
     menu.addAction(actions.add("close", tr("Close the project"), files.close, keys=Key.Close))
     leave = actions.add(

@@ -63,6 +63,12 @@ def add_view_menu(window: MainWindow) -> QMenu:
     menu.addSeparator()
     panels = menu.addMenu(icon("panel-right", theme), tr("Panels"))
     panels.addActions([panel.action for panel in window.workbench.panels.all])
+    helpers = window.workbench.helpers
+    minimap = add("minimap", tr("Minimap"), lambda: None, icon_name="map")
+    minimap.setCheckable(True)
+    minimap.setChecked(helpers.is_minimap_shown)
+    minimap.toggled.connect(helpers.show_minimap)
+    menu.addAction(minimap)
     check = add("check", tr("Check"), window.show_problems, icon_name="circle-check", keys="F8")
     check.setToolTip(tr("Show what is not right yet"))
     menu.addAction(check)

@@ -42,6 +42,7 @@ class Document(QObject):
         super().__init__(parent)
         self.editor = editor
         self.path = path
+        self._is_open = True
         self._saved_position = -1 if is_unsaved else editor.history.position
         self._stamp = _stamp(path)
         self._journal = _journal(editor, path, is_unsaved)
@@ -98,6 +99,9 @@ class Document(QObject):
 
     def close(self, *, keep: bool = False) -> None:
         """End; the journal goes, unless it is to be kept for the next start."""
+        if not self._is_open:
+            return
+        self._is_open = False
         self._flush.stop()
         self.editor.history.unlisten(self._on_changes)
         if self._journal is not None:

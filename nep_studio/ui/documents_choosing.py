@@ -31,6 +31,9 @@ class SystemFileChooser:
     def choose_to_open(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
         """Ask which project to open."""
         dialog = _dialog(parent, tr("Open a project"), folder)
+        dialog.setNameFilters(
+            [tr("Projects, and pictures with one (*.nep *.png *.svg)"), tr("All files (*)")]
+        )
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
         dialog.open()

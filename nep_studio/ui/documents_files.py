@@ -16,7 +16,7 @@ from nep_studio.journal import Recoverable
 from nep_studio.settings import Settings
 from nep_studio.ui.documents import SUFFIX, Document, new_document
 from nep_studio.ui.documents_choosing import FileChooser
-from nep_studio.ui.documents_opening import Opening
+from nep_studio.ui.documents_opening import PICTURES, Opening
 from nep_studio.ui.messages import Answer, Message, Messages
 from nep_studio.ui.words import tr
 
@@ -59,8 +59,9 @@ class Files(QObject):
         self._chooser.choose_to_open(self._window, self._settings.last_folder, self.open)
 
     def open(self, path: Path) -> None:
-        """Open a project."""
-        self.guard(lambda: self._read(path.absolute(), self._on_opened))
+        """Open a project; one inside a picture opens as a copy."""
+        on_opened = self._on_example_opened if path.suffix in PICTURES else self._on_opened
+        self.guard(lambda: self._read(path.absolute(), on_opened))
 
     def open_example(self, path: Path) -> None:
         """Open a copy of an example: it has no file until it is saved."""

@@ -8,15 +8,19 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.blocks.files import load
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
+from nep_studio.blocks.reading import from_bytes
+from nep_studio.ui.picture.reading import project_bytes_from
 
 log = logging.getLogger(__name__)
 
 LARGE_BYTES = 400_000
 """What is smaller is read in less than a tenth of a second."""
+
+PICTURES = (".png", ".svg")
 
 SLOW_MS = 500
 """After this time the person is shown that the file is being read, and can stop it."""
@@ -75,9 +79,22 @@ class Opening(QObject):
 
 def _result(path: Path, language: Language) -> Project | BlocksError:
     try:
-        return load(path, language)
+        return (
+            _project_in_picture(path, language) if path.suffix in PICTURES else load(path, language)
+        )
     except BlocksError as error:
         return error
+
+
+def _project_in_picture(path: Path, language: Language) -> Project:
+    """The project inside a picture that this program has made; raises ProjectFileError."""
+    data = project_bytes_from(path)
+    if data is None:
+        raise ProjectFileError(
+            f"There is no project in the picture {path.name}.",
+            checklist=("Choose a picture that was exported with the program inside.",),
+        )
+    return from_bytes(data, path.name, language)
 
 
 def _is_large(path: Path) -> bool:

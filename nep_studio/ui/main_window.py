@@ -20,7 +20,7 @@ from nep_studio.ui.app import Studio
 from nep_studio.ui.documents import SUFFIX, Document
 from nep_studio.ui.documents_choosing import FileChooser, SystemFileChooser
 from nep_studio.ui.documents_files import Files
-from nep_studio.ui.documents_opening import Opening
+from nep_studio.ui.documents_opening import PICTURES, Opening
 from nep_studio.ui.main_window_help import (
     AboutDialog,
     ShortcutsDialog,
@@ -31,6 +31,7 @@ from nep_studio.ui.main_window_panels import AreaName, Panel
 from nep_studio.ui.main_window_workbench import Workbench
 from nep_studio.ui.messages import Answer, Message, Messages
 from nep_studio.ui.messages_area import MessageArea
+from nep_studio.ui.picture.dialog import PictureDialog
 from nep_studio.ui.problems.looks import summary
 from nep_studio.ui.recovery import RecoveryDialog
 from nep_studio.ui.settings_dialog import SettingsDialog
@@ -132,6 +133,13 @@ class MainWindow(QMainWindow):
         """Put the panels back to where they were at first."""
         self.settings.forget_window()
         self._rebuild()
+
+    def export_picture(self) -> None:
+        """Ask for a picture of the blocks."""
+        document = self.files.document
+        if document is not None:
+            folder = document.path.parent if document.path else self.settings.last_folder
+            PictureDialog(self.workbench.canvas, folder, document.title, self).open()
 
     def show_problems(self) -> None:
         """Check now, and show the problems."""
@@ -268,4 +276,4 @@ class MainWindow(QMainWindow):
 def _project_in(event: QDropEvent) -> Path | None:
     """The project among what is dragged."""
     files = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
-    return next((file for file in files if file.suffix == SUFFIX), None)
+    return next((file for file in files if file.suffix in (SUFFIX, *PICTURES)), None)

@@ -19,11 +19,11 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.overlay import badge_rect
 from nep_studio.ui.code_pane.pane import CodePane
 from nep_studio.ui.documents import Document
+from nep_studio.ui.main_window_helpers import CanvasHelpers
 from nep_studio.ui.main_window_panels import AreaName, Panel, Panels
 from nep_studio.ui.messages import Messages, announce
 from nep_studio.ui.outline.view import Outline
 from nep_studio.ui.pages_bar import PagesBar
-from nep_studio.ui.palette.palette import Palette
 from nep_studio.ui.problems.bubble import ProblemBubble
 from nep_studio.ui.problems.live_checks import LiveChecks
 from nep_studio.ui.problems.panel import ProblemsPanel
@@ -54,11 +54,11 @@ class Workbench(QWidget):
         self.outline = Outline(self.canvas)
         self.problems = ProblemsPanel(studio.look)
         self.checks = LiveChecks(self)
+        self.helpers = CanvasHelpers(self.canvas, studio.settings)
         self.bubble: ProblemBubble | None = None
         self._usual_scale = usual_scale(studio)
         self.panels = Panels(self._middle(), studio.look, studio.settings, self)
-        self.palette_panel = Palette(self.canvas, studio.settings)
-        self.add_side_panel(self.palette_panel, tr("Blocks"), "blocks", "left")
+        self.add_side_panel(self.helpers.palette, tr("Blocks"), "blocks", "left")
         self.add_side_panel(self.code, tr("Code"), "code", "right")
         self.add_side_panel(self.outline, tr("Outline"), "list-tree", "right")
         self.add_side_panel(self.problems, tr("Problems"), "circle-check", "bottom", is_shown=False)
@@ -70,6 +70,7 @@ class Workbench(QWidget):
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(0)
         box.addWidget(self.pages_bar)
+        box.addWidget(self.helpers.find_bar)
         box.addWidget(self.canvas, 1)
         return middle
 
@@ -87,7 +88,7 @@ class Workbench(QWidget):
         self.checks.found.connect(self._on_problems_found)
         self.problems.opened.connect(self._on_problem_opened)
         self.problems.fix_asked.connect(self.fix)
-        self.palette_panel.narrowed.connect(self._on_palette_narrowed)
+        self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
         self._studio.look.theme_changed.connect(self._on_theme_changed)
 
     def add_side_panel(
@@ -116,7 +117,7 @@ class Workbench(QWidget):
         self.pages_bar.set_editor(editor)
         self.code.set_editor(editor)
         self.outline.refresh()
-        self.palette_panel.refresh()
+        self.helpers.refresh()
         self._show_corner()
 
     def zoom_usual(self) -> None:
@@ -193,10 +194,10 @@ class Workbench(QWidget):
             self.canvas.zoom(self.canvas.camera.scale * scale / self._usual_scale)
             self._usual_scale = scale
         self.outline.refresh()
-        self.palette_panel.refresh()
+        self.helpers.refresh()
 
     def _on_palette_narrowed(self, is_narrow: bool) -> None:
-        width = self.palette_panel.maximumWidth() if is_narrow else WIDEST
+        width = self.helpers.palette.maximumWidth() if is_narrow else WIDEST
         self.panels.areas["left"].setMaximumWidth(width)
 
 

@@ -30,8 +30,11 @@ class ChainUpdater:
                 self._numbers[block] = (first, number)
                 block = editor.project.parents[block].owner
 
-    def update_stack(self, first: str, wanted: Sequence[Made]) -> None:
-        """Change the stack that begins with a block; its hat stays when it is of the same type."""
+    def update_stack(self, first: str, wanted: Sequence[Made]) -> str:
+        """Change the stack that begins with a block; its hat stays when it is of the same type.
+
+        Gives the first block as it is then.
+        """
         project = self._editor.project
         stack = project.stack_of(first)
         hat = project.blocks[first]
@@ -47,6 +50,7 @@ class ChainUpdater:
         else:
             self._change(hat, wanted[0])
         self._update(stack.body[1:], wanted[1:], partial(_below_hat, stack.id))
+        return stack.body[0]
 
     def _update(
         self, old: Sequence[str], wanted: Sequence[Made], place: Callable[[int], Place]

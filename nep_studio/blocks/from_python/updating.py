@@ -6,13 +6,16 @@ import ast
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from ..editor import Editor
-from ..edits import DeleteBlocks
+from ..edits import DeleteBlocks, MoveBlocks
 from ..errors import CodeRefused, EditRefused
 from ..generate.program import generate_program
 from ..generate.source_map import Code
 from ..language import Language
+from ..places import NewStack
+from ..procedures import procedure_of
 from ..program import Project
 from .chains import ChainUpdater
 from .made import CodeUnread
@@ -86,24 +89,45 @@ def _update(editor: Editor, source: Source, as_code: set[str], anew: bool) -> No
     rules = read_rules(editor, source, as_code)
     left = {stack.stack: stack for stack in written}
     same = {id(rule): _take(left, lambda w, r=rule: w.text == r.text) for rule in rules}
+    firsts = []
     for rule in rules:
-        if same[id(rule)] is not None:
-            continue
-        known = _take(left, lambda w, r=rule: w.function == r.function.name)
-        if known is None and len(rules) == len(written):
-            known = _take(left, lambda w, r=rule: _is_nth(written, w, rules, r))
+        known = same[id(rule)]
         if known is None:
-            create_chain(editor, rule.chain)
-            continue
-        stack = editor.project.stacks[known.stack]
-        if anew:
-            editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
-            create_chain(editor, rule.chain, (stack.x, stack.y))
+            known = _take(left, lambda w, r=rule: w.function == r.function.name)
+            if known is None and len(rules) == len(written):
+                known = _take(left, lambda w, r=rule: _is_nth(written, w, rules, r))
+            firsts.append(_change(editor, code, rule, known, anew))
         else:
-            ChainUpdater(editor, code).update_stack(stack.body[0], rule.chain)
+            firsts.append(editor.project.stacks[known.stack].body[0])
     for gone in left.values():
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    _put_in_order(editor, firsts)
+
+
+def _change(editor: Editor, code: Code, rule: ReadRule, known: _Written | None, anew: bool) -> str:
+    """Make a stack what a rule says, or a new one; gives its first block."""
+    if known is None:
+        return create_chain(editor, rule.chain)
+    stack = editor.project.stacks[known.stack]
+    if not anew:
+        return ChainUpdater(editor, code).update_stack(stack.body[0], rule.chain)
+    editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    return create_chain(editor, rule.chain, (stack.x, stack.y))
+
+
+def _put_in_order(editor: Editor, firsts: Sequence[str]) -> None:
+    """Let stacks come on their page in the order of the text; they stay where they lie."""
+    project = editor.project
+    for above, first in pairwise(firsts):
+        upper, stack = project.stack_of(above), project.stack_of(first)
+        page = project.page_of(stack.id)
+        if page != project.page_of(upper.id) or procedure_of(project.blocks[first].type):
+            continue
+        position = project.pages[page].index(upper)
+        if project.pages[page].index(stack) < position:
+            place = NewStack(page, project.new_id("s"), stack.x, stack.y, position)
+            editor.apply(MoveBlocks(first, len(stack.body), place))
 
 
 def _take(left: dict[str, _Written], fits: object) -> _Written | None:

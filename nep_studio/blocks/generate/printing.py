@@ -35,7 +35,7 @@ _COMPARISON: dict[type[ast.cmpop], str] = {
 
 
 class Verbatim(ast.expr):
-    """Python that a person wrote, printed as it is; in parentheses unless it ``is_closed``."""
+    """Python that a person wrote, printed as it is; ``is_closed`` needs no parentheses."""
 
     def __init__(self, text: str, *, is_closed: bool) -> None:
         super().__init__()
@@ -132,7 +132,7 @@ def _slice(node: ast.Slice) -> tuple[str, int]:
 
 
 def _verbatim(node: Verbatim) -> tuple[str, int]:
-    return node.text, _TARGET if node.is_closed else _LAMBDA - 1
+    return node.text, _TARGET if node.is_closed else _LAMBDA
 
 
 _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {

@@ -11,15 +11,23 @@ from .selection import members, require_runs
 
 Flag = Literal["disabled", "collapsed"]
 
+LABELS: dict[tuple[Flag, bool], str] = {
+    ("disabled", True): "disable blocks",
+    ("disabled", False): "enable blocks",
+    ("collapsed", True): "collapse blocks",
+    ("collapsed", False): "expand blocks",
+}
+"""What the step is called, whole, so that it can be translated."""
+
 
 def set_disabled(editor: Editor, ids: Iterable[str], on: bool) -> None:
     """Disable selected blocks, or enable them again; those inside them go along."""
-    _set(editor, _outer(editor, ids), "disabled", on, "disable" if on else "enable")
+    _set(editor, _outer(editor, ids), "disabled", on)
 
 
 def set_collapsed(editor: Editor, ids: Iterable[str], on: bool) -> None:
     """Collapse selected blocks, or open them again."""
-    _set(editor, ids, "collapsed", on, "collapse" if on else "expand")
+    _set(editor, ids, "collapsed", on)
 
 
 def toggle(editor: Editor, ids: Iterable[str], flag: Flag) -> bool:
@@ -44,8 +52,8 @@ def _outer(editor: Editor, ids: Iterable[str]) -> list[str]:
     return [block for run in chosen for block in members(editor.project, run)]
 
 
-def _set(editor: Editor, ids: Iterable[str], flag: Flag, on: bool, label: str) -> None:
-    with editor.transaction(f"{label} blocks"):
+def _set(editor: Editor, ids: Iterable[str], flag: Flag, on: bool) -> None:
+    with editor.transaction(LABELS[flag, on]):
         for block in ids:
             there = editor.project.blocks.get(block)
             if there is not None and getattr(there, flag) != on:

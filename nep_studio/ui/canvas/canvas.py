@@ -87,6 +87,7 @@ class Canvas(DropTarget):
         self.commands = Commands(self)
         self.keyboard = Keyboard(self)
         self.bubble = Bubble(self.viewport())
+        self.bubble.dress(theme)
         self.floating = FloatingPicture(self)
         self.drop_overlay = DropOverlay()
         self.overlays.append(self.drop_overlay)
@@ -96,6 +97,7 @@ class Canvas(DropTarget):
         self.menu_requested.connect(self._on_menu_requested)
         self.page_changed.connect(self.cancel_gesture)
         self.viewport().setAttribute(Qt.WidgetAttribute.WA_AcceptTouchEvents)
+        self.viewport().ungrabGesture(Qt.GestureType.PanGesture)  # two fingers are ours
 
     # Changes
 
@@ -128,6 +130,8 @@ class Canvas(DropTarget):
         """Show the blocks with this theme, this font, and from this side."""
         self.cancel_gesture()
         super().set_look(theme, font, is_mirrored=is_mirrored)
+        if hasattr(self, "bubble"):  # not while the view itself is being made
+            self.bubble.dress(theme)
 
     def _on_changes(self, changes: Changes) -> None:
         self.cancel_gesture()  # what is carried may not be there any more

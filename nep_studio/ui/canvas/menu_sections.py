@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF
 
 from nep_studio.blocks.operations.deleting import delete
+from nep_studio.blocks.operations.enclosing import why_not_enclose
 from nep_studio.blocks.operations.moving import set_aside
-from nep_studio.blocks.operations.selection import Run, members, run_from
+from nep_studio.blocks.operations.selection import Run, members, run_from, runs
 from nep_studio.blocks.operations.subjects import definition_of, subjects_of
 from nep_studio.blocks.operations.wrapping import unwrap, why_not_wrap, wrap
 from nep_studio.blocks.program import Block
@@ -193,11 +194,18 @@ def _can_wrap(canvas: Canvas) -> bool:
 
 
 def _wraps(canvas: Canvas) -> tuple[MenuEntry, ...]:
-    """The C blocks that can go around the selection."""
-    language, kind = canvas.editor.language, canvas.editor.project.kind_of_page(canvas.page)
+    """The C blocks of the page; those that nothing may follow only where nothing does."""
+    editor, ids = canvas.editor, canvas.selection.ids
+    chosen = runs(editor.project, ids)
+    kind = editor.project.kind_of_page(canvas.page)
     return tuple(
-        MenuEntry(f"wrap.{each.id}", _said(each.parts), partial(_wrap, canvas, each.id))
-        for each in language.definitions.values()
+        MenuEntry(
+            f"wrap.{each.id}",
+            _said(each.parts),
+            partial(_wrap, canvas, each.id),
+            is_enabled=len(chosen) == 1 and not why_not_enclose(editor, each.id, chosen[0]),
+        )
+        for each in editor.language.definitions.values()
         if each.shape == "c" and each.page == kind
     )
 

@@ -196,5 +196,3 @@ class NoteEditor(NoteText):
         note = self._canvas.editor.project.notes.get(self._note)
         if note is not None:
             self._canvas.repaint_page([self._canvas.notes.rect_of(note)])
-
-

@@ -177,7 +177,10 @@ class Notes:
         for inset in (5.0, 10.0):
             bottom = rect.bottom - 4
             if is_mirrored:
-                start, end = QPointF(rect.x + 4 + inset, bottom), QPointF(rect.x + 4, bottom - inset)
+                start, end = (
+                    QPointF(rect.x + 4 + inset, bottom),
+                    QPointF(rect.x + 4, bottom - inset),
+                )
             else:
                 right = rect.right - 4
                 start, end = QPointF(right - inset, bottom), QPointF(right, bottom - inset)

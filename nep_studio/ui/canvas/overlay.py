@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from .view import PageView
 
 
+FEW = 4
+"""Up to so many blocks it is faster to look for each than through all that can be seen."""
+
+
 class Overlay(Protocol):
     """Something drawn over the page each time the view is painted, in canvas units."""
 
@@ -29,13 +33,22 @@ class SelectionOverlay:
     def paint(self, painter: QPainter, view: PageView) -> None:
         """Draw the lines, for the blocks in view."""
         pixel = 1.0 / view.camera.scale
-        for block_id in view.selection.ids:
+        for block_id in _selected_in_view(view):
             ring(painter, view, block_id, view.theme.colour("focus"), 2.5 * pixel)
         cursor = view.selection.cursor
         if cursor and view.hasFocus():
             placed = view.page_layout.placed(cursor)
             if placed is not None:
                 _frame(painter, placed, view.theme.colour("focus"), pixel)
+
+
+def _selected_in_view(view: PageView) -> Iterable[str]:
+    """The selected blocks to draw a line around: of many only those that can be seen."""
+    selected, layout = view.selection, view.page_layout
+    if len(selected) <= FEW:
+        return [block for block in selected.ids if block not in layout.layout.hidden]
+    seen = layout.boxes(view.visible_page_rect())
+    return [placed.box.block for placed in seen if placed.box.block in selected]
 
 
 class MarkOverlay:

@@ -117,9 +117,7 @@ class PiecePainter:
             painter.setPen(colours.text)
             self._centred(painter, piece, piece.x, piece.width)
 
-    def _marks(
-        self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours
-    ) -> None:
+    def _marks(self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours) -> None:
         """The little drawings in a field: arrow, tick, dial, file, bar."""
         rect = QRectF(piece.x, piece.y, piece.width, piece.height)
         unit, is_mirrored = self._measures.unit, self._measures.is_mirrored
@@ -169,5 +167,3 @@ class PiecePainter:
         faint = QColor(colour)
         faint.setAlphaF(0.66)
         return faint
-
-

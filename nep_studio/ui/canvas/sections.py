@@ -113,8 +113,10 @@ class SectionWriter:
         text, width = self._pieces.cut(said, self._measures.widest * 0.6)
         inside = sum(1 for _ in self._project.within([block.id])) - 1
         words = Piece("words", 0, 0, width, self._measures.line, text)
-        label = count_words(inside, "1 block", "{n} blocks") if inside else ""
-        return [self._button("expand", "", inside, label), *self._comment(block), words]
+        items: list[Item] = [self._button("expand", "", inside), *self._comment(block), words]
+        if inside:
+            items += self._said("· " + count_words(inside, "1 block", "{n} blocks"))
+        return items
 
     def _unknown(self, block: Block, boxes: Mapping[str, Box]) -> list[Section]:
         """A block of an unknown type: its type, what is plugged in, and its bodies."""

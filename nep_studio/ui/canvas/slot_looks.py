@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 from typing import cast
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, number_of
@@ -16,9 +17,7 @@ from nep_studio.ui.words import tr
 
 from .boxes import Outline
 
-OPENS = frozenset(
-    {"choice", "gesture", "robot", "variable", "state", "date", "colour", "settings"}
-)
+OPENS = frozenset({"choice", "gesture", "robot", "variable", "state", "date", "colour", "settings"})
 """The kinds of field that open something to choose from, and show an arrow."""
 
 LEADS = frozenset({"angle", "file"})
@@ -80,7 +79,7 @@ def block_outline(definition: Definition | None, *, is_value: bool) -> Outline:
 def _said_units(parts: tuple[Part, ...]) -> frozenset[tuple[str, str]]:
     """The slots of a sentence with the word that follows each."""
     flat = [p for part in parts for p in (part.parts if isinstance(part, Group) else (part,))]
-    pairs = zip(flat, flat[1:], strict=False)
+    pairs = pairwise(flat)
     return frozenset(
         (slot.name, words.split()[0])
         for slot, words in pairs

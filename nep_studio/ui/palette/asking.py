@@ -35,7 +35,7 @@ class Asking(QFrame):
         )
         self._answer = answer
         self.question = Question(
-            words, yes, answered=self._on_answered, refused=self.close, name=name
+            words, yes, answered=self._on_answered, refused=self._on_refused, name=name
         )
         self.reason = ReasonBubble(theme, self)
         column = QVBoxLayout(self)
@@ -52,6 +52,9 @@ class Asking(QFrame):
         self.move(x, y)
         self.show()
         self.question.first().setFocus(Qt.FocusReason.PopupFocusReason)
+
+    def _on_refused(self) -> None:
+        self.close()
 
     def _on_answered(self, name: str) -> None:
         try:

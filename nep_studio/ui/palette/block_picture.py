@@ -38,9 +38,7 @@ class BlockPicture(QWidget):
             language = canvas.editor.language.of(clip.project)
             layout = Layout(clip.project, language, canvas.measures)
             self._chain = layout.chain(clip.roots[0])
-            self._painter = BlockPainter(
-                canvas.theme, language, canvas.measures, canvas.block_font
-            )
+            self._painter = BlockPainter(canvas.theme, language, canvas.measures, canvas.block_font)
         self.update()
 
     def show_call(self, procedure: Procedure | None) -> None:

@@ -78,6 +78,9 @@ class CategoryColumn(QScrollArea):
         return styles.ToolButtonIconOnly if self._is_narrow else styles.ToolButtonTextBesideIcon
 
     def _fit(self) -> None:
+        for button in self.buttons.values():
+            button.ensurePolished()  # before that the style sheet does not count
+            button.setMinimumWidth(0)
         widest = max((b.sizeHint().width() for b in self.buttons.values()), default=40)
         for button in self.buttons.values():
             button.setMinimumWidth(widest)

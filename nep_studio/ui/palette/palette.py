@@ -18,7 +18,7 @@ from nep_studio.ui.words import tr
 
 from . import entries
 from .categories import CategoryColumn
-from .delete_area import add_delete_area, is_deleting
+from .delete_area import add_delete_area, is_taking
 from .entries import Drawer, Entry
 from .making import Making
 from .recent import recent_types, remember_types
@@ -90,7 +90,9 @@ class Palette(QWidget):
         typed = self.search.text().strip()
         if typed:
             samples = [s for drawer in self._drawers for s in stock.offered(drawer.id)]
-            shown = entries.found_entries(stock, found_samples(stock, samples, typed), typed)
+            shown = entries.found_entries(
+                stock, found_samples(stock, samples, typed, editor.project), typed
+            )
         else:
             kept = self.snippets.all(editor.language)
             shown = entries.entries_of(stock, self._drawers, recent, kept)
@@ -101,7 +103,6 @@ class Palette(QWidget):
         self.set_narrow(False)
         if self.search.text():
             self.search.clear()
-            self.fill()
         self.shelf.show_drawer(drawer)
         self.categories.mark(drawer)
 
@@ -140,7 +141,6 @@ class Palette(QWidget):
         self.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
         if letter:
             self.search.setText(letter)
-            self.fill()
         else:
             self.search.selectAll()
 
@@ -175,8 +175,7 @@ class Palette(QWidget):
 
     def _connect(self) -> None:
         canvas = self.canvas
-        self.search.textEdited.connect(lambda: self.fill(to_top=True))
-        self.search.textChanged.connect(lambda text: text or self.fill(to_top=True))
+        self.search.textChanged.connect(self._on_search_changed)
         self.search.installEventFilter(self)
         self.fold.clicked.connect(lambda: self.set_narrow(not self.is_narrow))
         self.categories.opened.connect(self.open_drawer)
@@ -189,9 +188,14 @@ class Palette(QWidget):
         canvas.delete_area_entered.connect(self._on_delete_area_entered)
         self._later.timeout.connect(self.fill)
 
+    def _on_search_changed(self, text: str) -> None:
+        self.fill(to_top=True)
+
     def _show_fold(self) -> None:
         is_wide = not self.is_narrow
+        side = self.fontMetrics().height()
         self.fold.setIcon(icon("panel-left", self.canvas.theme))
+        self.fold.setIconSize(QSize(side, side))
         words = tr("Make the palette narrow") if is_wide else tr("Show the blocks")
         self.fold.setToolTip(words)
         self.fold.setAccessibleName(words)
@@ -224,7 +228,7 @@ class Palette(QWidget):
         self.fill(to_top=True)
 
     def _on_delete_area_entered(self, is_over: bool) -> None:
-        self.shelf.set_delete(is_over and is_deleting(self.canvas))
+        self.shelf.set_delete(is_over and is_taking(self.canvas, self))
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """In the search box, Down goes to the list, Enter inserts the first, Esc clears."""

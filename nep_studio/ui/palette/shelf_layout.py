@@ -23,7 +23,7 @@ SCALE = 0.9
 
 NARROWEST = 160.0
 HIGHEST_SNIPPET = 200.0
-"""How much of a snippet is shown, in canvas units."""
+"""How much of a snippet is shown, in units of the measures."""
 
 
 @dataclass(slots=True)
@@ -60,10 +60,10 @@ class ShelfLayout:
         self.measures = Measures(like.line, like.text_width, is_mirrored=like.is_mirrored)
         room = (width - 2 * self.margin) / SCALE
         self.measures.widest = max(NARROWEST, room - 2 * self.measures.pad)
+        self.highest_snippet = HIGHEST_SNIPPET * self.measures.unit
         self.spots: list[Spot] = []
         self.height = 0.0
         self._canvas = canvas
-        self._painters: dict[int, BlockPainter] = {}
         self._tops: list[float] = []
 
     def fill(self, stock: Stock, entries: Sequence[Entry]) -> None:
@@ -148,7 +148,7 @@ class ShelfLayout:
         scale = SCALE
         if chain.width * scale > self.width - 2 * self.margin:
             scale = max(0.3, (self.width - 2 * self.margin) / chain.width)
-        height = chain.height if entry.kind == "block" else min(chain.height, HIGHEST_SNIPPET)
+        height = chain.height if entry.kind == "block" else min(chain.height, self.highest_snippet)
         tab = self.measures.notch_depth
         x = self.width - self.margin if self.is_mirrored else self.margin
         spot = Spot(entry, y, (height + tab) * scale, x, chains, scale=scale)

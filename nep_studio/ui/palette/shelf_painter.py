@@ -13,9 +13,7 @@ from nep_studio.ui.theme import Theme, paint_icon
 from nep_studio.ui.words import tr
 
 from .entries import Drawer, Entry
-from .shelf_layout import HIGHEST_SNIPPET, ShelfLayout, Spot
-
-_ICONS = {"button": "plus", "snippet": "star"}
+from .shelf_layout import ShelfLayout, Spot
 
 
 class ShelfPainter:
@@ -109,13 +107,13 @@ class ShelfPainter:
                 self._layout.margin, top, self._layout.width - 2 * self._layout.margin, line * 1.2
             )
             place = self._at_start(row, line)
-            paint_icon(painter, place, _ICONS["snippet"], self._theme.colour("text"))
+            paint_icon(painter, place, spot.entry.drawer.icon, self._theme.colour("text"))
             painter.setFont(self._font)
             painter.setPen(self._theme.colour("text"))
             self._text(painter, self._beside(row, place), spot.entry.text)
             top += 1.4 * line
         painter.save()
-        highest = HIGHEST_SNIPPET if spot.entry.kind == "snippet" else 1e6
+        highest = self._layout.highest_snippet if spot.entry.kind == "snippet" else 1e6
         painter.translate(spot.x, top)
         painter.scale(spot.scale, spot.scale)
         if spot.entry.kind == "snippet":
@@ -167,5 +165,3 @@ def _side(is_mirrored: bool) -> Qt.AlignmentFlag:
     """Where text begins; absolute, so that the direction of the application does not count."""
     side = Qt.AlignmentFlag.AlignRight if is_mirrored else Qt.AlignmentFlag.AlignLeft
     return side | Qt.AlignmentFlag.AlignAbsolute
-
-

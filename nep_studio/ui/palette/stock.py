@@ -50,9 +50,9 @@ class Stock:
                 yield self.sample(READ_VARIABLE, variable=variable.id)
         for definition in self.language.definitions.values():
             is_own = definition.id.startswith("my.") and definition.id.count(".") > 1
-            if definition.category.id == category and not is_own:
-                if definition.id != READ_VARIABLE:
-                    yield self.sample(definition.id)
+            is_here = definition.category.id == category and not is_own
+            if is_here and definition.id != READ_VARIABLE:
+                yield self.sample(definition.id)
 
     def clip(self, sample: str) -> Clip:
         """A sample as blocks to be put into a program."""

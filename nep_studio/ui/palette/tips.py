@@ -46,8 +46,11 @@ def _does(stock: Stock, sample: str) -> list[str]:
 def first_paragraph(page: str) -> str:
     """The first words of a help page, in the person's language or else in English."""
     folder = paths.resources() / "help"
-    for path in (folder / language_code() / f"{page}.md", folder / "en" / f"{page}.md",
-                 folder / f"{page}.md"):
+    for path in (
+        folder / language_code() / f"{page}.md",
+        folder / "en" / f"{page}.md",
+        folder / f"{page}.md",
+    ):
         if page and path.is_file():
             lines = path.read_text(encoding="utf-8").split("\n\n")
             plain = (part.strip().replace("\n", " ") for part in lines)

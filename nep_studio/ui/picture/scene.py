@@ -93,9 +93,7 @@ def paint_scene(painter: QPainter, scene: Scene, canvas: Canvas, scale: float) -
         y += part.bounds.height + scene.margin
 
 
-def _paint_title(
-    painter: QPainter, title: str, at: QPointF, scene: Scene, canvas: Canvas
-) -> None:
+def _paint_title(painter: QPainter, title: str, at: QPointF, scene: Scene, canvas: Canvas) -> None:
     font = QFont(canvas.block_font)
     font.setPointSizeF(font.pointSizeF() * 1.3)
     font.setBold(True)

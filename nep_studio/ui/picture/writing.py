@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -18,6 +19,7 @@ from nep_studio.ui.words import tr
 
 from . import png_chunk, svg_metadata
 from .scene import MARGIN, Scene, What, paint_scene, scene_of
+from .svg_text import fitted
 
 Format = Literal["png", "svg", "pdf"]
 
@@ -86,7 +88,7 @@ def svg_of(canvas: Canvas, options: PictureOptions) -> bytes:
     generator.setViewBox(QRectF(0, 0, scene.width, scene.height))
     with QPainter(generator) as painter:
         _paint(painter, scene, canvas, options, 1.0)
-    svg = bytes(buffer.data().data())
+    svg = fitted(bytes(buffer.data().data()), canvas)
     if not options.has_program:
         return svg
     return svg_metadata.with_program(svg, program_of(canvas, options))
@@ -102,7 +104,9 @@ def pdf_of(canvas: Canvas, options: PictureOptions) -> bytes:
     writer.setTitle(canvas.editor.project.name)
     points = 0.75  # of a canvas unit, which is a pixel of 96 an inch
     size = QSizeF(scene.width * points, scene.height * points)
-    writer.setPageSize(QPageSize(size, QPageSize.Unit.Point, "", QPageSize.SizeMatchPolicy.ExactMatch))
+    writer.setPageSize(
+        QPageSize(size, QPageSize.Unit.Point, "", QPageSize.SizeMatchPolicy.ExactMatch)
+    )
     writer.setPageMargins(QMarginsF(0, 0, 0, 0))
     with QPainter(writer) as painter:
         scale = writer.resolution() / POINTS_AN_INCH * points
@@ -130,7 +134,7 @@ def image_of(canvas: Canvas, options: PictureOptions) -> QImage:
 def fitting_scale(scene: Scene, wanted: float) -> float:
     """The scale that is wanted, or the largest one that makes no giant picture."""
     side = LARGEST_SIDE / max(scene.width, scene.height)
-    area = (LARGEST_PIXELS / (scene.width * scene.height)) ** 0.5
+    area = math.sqrt(LARGEST_PIXELS / (scene.width * scene.height))
     return min(wanted, side, area)
 
 

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
 
 _MOST_ROWS = 11
 _OPTION = Qt.ItemDataRole.UserRole
-_MOVES = frozenset(
-    {Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown}
-)
+_MOVES = frozenset({Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown})
 
 
 class ChoicePopup(FieldPopup):
@@ -59,7 +57,7 @@ class ChoicePopup(FieldPopup):
         editor = self._editors.canvas.editor
         return options_of(editor.project, editor.language, self.edit)
 
-    def actions(self) -> list[Option]:
+    def more_rows(self) -> list[Option]:
         """Rows at the end that do something else."""
         return []
 
@@ -77,7 +75,7 @@ class ChoicePopup(FieldPopup):
             self._add(option)
         if not found and not self.is_free:
             self._add_heading(tr("Nothing is called “{typed}”.", typed=typed))
-        for option in self.actions():
+        for option in self.more_rows():
             self._add(option)
         self._point(typed)
         self._fit()

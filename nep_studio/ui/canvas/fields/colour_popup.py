@@ -198,7 +198,7 @@ class ColourPopup(FieldPopup):
     def _show(self) -> None:
         now = str(self.edit.value or "")
         self.palette_grid.show_colour(now)
-        self.name.setText(_NAMES.get(now) and name_of_colour(now) or "")
+        self.name.setText((_NAMES.get(now) and name_of_colour(now)) or "")
 
 
 def _paint_tick(painter: QPainter, rect: QRectF, colour: QColor) -> None:

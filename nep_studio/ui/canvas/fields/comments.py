@@ -35,13 +35,6 @@ class Comments(QObject):
         self.bubble.show_bubble()
         self._canvas.viewport().update()
 
-    def toggle(self, block: str) -> None:
-        """Open the comment of a block, or close it when it is open."""
-        is_open = self.bubble is not None and self.bubble.block == block
-        self.close()
-        if not is_open:
-            self.open(block)
-
     def close(self) -> None:
         """Keep what was written, and take the bubble away."""
         closing, self.bubble = self.bubble, None

@@ -25,6 +25,7 @@ from .naming_popups import RobotPopup, VariablePopup
 from .number_popups import DurationPopup, SliderPopup
 from .order import Place, field_after
 from .places import page_rect_of
+from .ring import FieldRing
 from .settings_popup import SettingsPopup
 from .titles import hint_of, title_of
 
@@ -80,6 +81,9 @@ class FieldEditors(QObject):
         self.recent_colours: list[str] = []
         self.comments = Comments(canvas)
         self._open: OpenEditor | None = None
+        self._left_comment = ""
+        """The block whose comment the press has closed: its button does not open it again."""
+        canvas.overlays.append(FieldRing(canvas))
         canvas.view_changed.connect(self._follow)
         canvas.layout_changed.connect(self._follow)
         canvas.page_changed.connect(self.close)
@@ -109,6 +113,7 @@ class FieldEditors(QObject):
         self.canvas.show_rect(rect)
         self._open = self._new(edit)
         self._open.show_editor()
+        self.canvas.update_page(rect.grown(4.0))
         return True
 
     def edit_of(self, block: str, key: str) -> Editing | None:
@@ -134,8 +139,8 @@ class FieldEditors(QObject):
             buttons.remove(self.canvas, block, group, number)
         elif action == "expand":
             buttons.expand(self.canvas, block)
-        elif action == "comment":
-            self.comments.toggle(block)
+        elif action == "comment" and self._left_comment != block:
+            self.comments.open(block)
 
     def close(self) -> None:
         """Keep what was typed, and take the editor away."""
@@ -178,6 +183,8 @@ class FieldEditors(QObject):
         """A press on the canvas keeps what was typed; resting over a field tells what it takes."""
         if event.type() == QEvent.Type.MouseButtonPress:
             self.close()
+            bubble = self.comments.bubble
+            self._left_comment = bubble.block if bubble is not None else ""
             self.comments.close()
         elif event.type() == QEvent.Type.ToolTip:
             return self._tell_tip(cast(QHelpEvent, event))
@@ -209,6 +216,9 @@ class FieldEditors(QObject):
         if not restore and closing.edit.slot.kind.name == "colour":
             self._remember(str(closing.edit.value))
         closing.dispose()
+        rect = page_rect_of(self.canvas, closing.edit.block, closing.edit.key)
+        if rect is not None:
+            self.canvas.update_page(rect.grown(4.0))
         self.canvas.setFocus()
 
     def _remember(self, colour: str) -> None:
@@ -244,4 +254,3 @@ _BUTTON_TIPS = {
     "expand": "Show what is folded",
     "comment": "Show the comment",
 }
-

@@ -49,7 +49,11 @@ class FilePopup(FieldPopup):
 
     def _on_browse(self) -> None:
         """Ask for the file once the popup is away: it would cover the dialog."""
-        editors, place, title = self._editors, (self.edit.block, self.edit.key), self.accessibleName()
+        editors, place, title = (
+            self._editors,
+            (self.edit.block, self.edit.key),
+            self.accessibleName(),
+        )
         editors.close()
         QTimer.singleShot(0, editors, lambda: browse(editors, *place, title))
 

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QLabel, QLineEdit
 from nep_studio.blocks.values import FieldValue
 from nep_studio.ui.words import tr
 
-from ..boxes import Outline
 from .field_edit import Editing
 from .looks import line_style, note_style
 from .numbers import is_number, number_text, result_text, stepped, typed_number
@@ -59,6 +58,7 @@ class LineEditor(QLineEdit):
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
         super().__init__(editors.canvas.viewport())
         self.edit, self._editors = edit, editors
+        self._look: tuple[float, bool] | None = None
         self._reading = reading_of(edit.slot.kind.name)
         self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
         self.result = QLabel(editors.canvas.viewport())
@@ -77,9 +77,7 @@ class LineEditor(QLineEdit):
         if rect is None:
             return
         canvas = self._editors.canvas
-        outline: Outline | str = self.edit.slot.kind.shape
-        self.setFont(editor_font(canvas))
-        self.setStyleSheet(line_style(canvas, outline, is_wrong=bool(self.reason.text)))
+        self._dress()
         unit = canvas.measures.unit * editor_scale(canvas)
         text = self.fontMetrics().horizontalAdvance(self.text()) + 17 * unit
         room = canvas.viewport().rect()
@@ -89,6 +87,15 @@ class LineEditor(QLineEdit):
         left = max(0.0, min(left, room.width() - width))
         self.setGeometry(round(left), round(rect.center().y() - height / 2), width, height)
         self._place_notes()
+
+    def _dress(self) -> None:
+        """Take the look for the zoom and the reason; a style sheet costs more than a key may."""
+        canvas = self._editors.canvas
+        look = (editor_scale(canvas), bool(self.reason.text))
+        if look != self._look:
+            self._look = look
+            self.setFont(editor_font(canvas))
+            self.setStyleSheet(line_style(canvas, self.edit.slot.kind.shape, is_wrong=look[1]))
 
     def show_editor(self) -> None:
         """Begin to edit."""

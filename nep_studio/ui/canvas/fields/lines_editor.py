@@ -26,6 +26,7 @@ class LinesEditor(QPlainTextEdit):
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
         super().__init__(editors.canvas.viewport())
         self.edit, self._editors = edit, editors
+        self._look: tuple[float, bool] | None = None
         self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
         self.setAccessibleName(title)
         self.setPlainText(str(edit.value or ""))
@@ -40,8 +41,11 @@ class LinesEditor(QPlainTextEdit):
         rect = view_rect_of(canvas, self.edit.block, self.edit.key)
         if rect is None:
             return
-        self.setFont(editor_font(canvas))
-        self.setStyleSheet(line_style(canvas, "square", is_wrong=bool(self.reason.text)))
+        look = (editor_scale(canvas), bool(self.reason.text))
+        if look != self._look:  # a style sheet costs more than a key may
+            self._look = look
+            self.setFont(editor_font(canvas))
+            self.setStyleSheet(line_style(canvas, "square", is_wrong=look[1]))
         line = self.fontMetrics().lineSpacing()
         unit = canvas.measures.unit * editor_scale(canvas)
         room = canvas.viewport().rect()

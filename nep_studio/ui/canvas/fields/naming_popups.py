@@ -18,7 +18,7 @@ from .question import Question
 class VariablePopup(ChoicePopup):
     """A variable: choose one, make one, rename or delete the one that is chosen."""
 
-    def actions(self) -> list[Option]:
+    def more_rows(self) -> list[Option]:
         """Make, rename, delete."""
         rows = [Option(tr("new variable…"), icon="plus", action="new")]
         if self._name:
@@ -36,9 +36,7 @@ class VariablePopup(ChoicePopup):
         answered = self._on_made if action == "new" else self._on_renamed
         yes = tr("Make") if action == "new" else tr("Rename")
         name = self.search.text() if action == "new" else self._name
-        self.ask(
-            Question(words, yes, answered=answered, refused=lambda: self.ask(None), name=name)
-        )
+        self.ask(Question(words, yes, answered=answered, refused=lambda: self.ask(None), name=name))
 
     @property
     def _name(self) -> str:
@@ -89,7 +87,7 @@ class VariablePopup(ChoicePopup):
 class RobotPopup(ChoicePopup):
     """A robot of the Robots page, all of them, or a new one."""
 
-    def actions(self) -> list[Option]:
+    def more_rows(self) -> list[Option]:
         """A new robot goes on the Robots page."""
         return [Option(tr("new robot…"), icon="plus", action="new")]
 

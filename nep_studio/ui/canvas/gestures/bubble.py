@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QPalette
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QLabel, QWidget
 
 from nep_studio.ui.theme import Theme
@@ -18,7 +18,8 @@ class Bubble(QLabel):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.setAutoFillBackground(True)
+        self.setForegroundRole(QPalette.ColorRole.WindowText)
+        self._fill = QColor()
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setWordWrap(True)
         self.hide()
@@ -26,7 +27,7 @@ class Bubble(QLabel):
     def dress(self, theme: Theme) -> None:
         """Take the colours of a theme."""
         palette = self.palette()
-        palette.setColor(QPalette.ColorRole.Window, theme.colour("tooltip"))
+        self._fill = theme.colour("tooltip")
         palette.setColor(QPalette.ColorRole.WindowText, theme.colour("tooltip_text"))
         self.setPalette(palette)
         margin = self.fontMetrics().height() // 3
@@ -49,6 +50,16 @@ class Bubble(QLabel):
         self.move(max(0, place.x()), max(0, place.y()))
         self.show()
         self.raise_()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the sentence on a rounded ground."""
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(self._fill)
+            radius = self.fontMetrics().height() / 3
+            painter.drawRoundedRect(self.rect(), radius, radius)
+        super().paintEvent(event)
 
     def _take_size(self) -> None:
         margins = self.contentsMargins()

@@ -58,6 +58,7 @@ class DragBlocks:
         if snap != self.snap:
             self._show(canvas, snap)
         canvas.bubble.say(self._words(), pointer.view.toPoint())
+        canvas.floating.follow(canvas, pointer.view)
         self._scroll.follow(pointer.view, is_resting=self.is_over_delete_area)
 
     def release(self, canvas: Canvas, pointer: Pointer) -> None:
@@ -66,8 +67,9 @@ class DragBlocks:
             self.move(canvas, pointer)
         dx, dy = self._way(pointer)
         self._end(canvas)
-        if self.is_over_delete_area:
-            canvas.throw_away(self.cargo)
+        is_inside = canvas.viewport().rect().contains(pointer.view.toPoint())
+        if self.is_over_delete_area or not (is_inside or self.cargo.hidden):
+            canvas.throw_away(self.cargo)  # new blocks that never came in are let go too
         elif self._page_reason and self.snap.target is None:
             canvas.refused.emit(self._page_reason)
         else:
@@ -139,6 +141,7 @@ class DragBlocks:
     def _end(self, canvas: Canvas) -> None:
         self._scroll.end()
         canvas.bubble.hide()
+        canvas.floating.hide()
         canvas.drop_overlay.show(canvas, None)
         canvas.set_sprite(None)
         canvas.set_preview(frozenset(), None)

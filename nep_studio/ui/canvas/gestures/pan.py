@@ -17,14 +17,13 @@ class Pan:
 
     def __init__(self, canvas: Canvas, pointer: Pointer) -> None:
         self._start = canvas.camera.x, canvas.camera.y
-        self._last = pointer.view
+        self._pressed = pointer.view
         canvas.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
 
     def move(self, canvas: Canvas, pointer: Pointer) -> None:
         """Bring the page along."""
-        way = self._last - pointer.view
-        self._last = pointer.view
-        canvas.pan(way.x(), way.y())
+        way = (self._pressed - pointer.view) / canvas.camera.scale
+        canvas.move_camera(self._start[0] + way.x(), self._start[1] + way.y())
 
     def release(self, canvas: Canvas, pointer: Pointer) -> None:
         """Leave the page where it is."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from PySide6.QtWidgets import QApplication
-
 from field_desk import Desk
+from PySide6.QtWidgets import QApplication
 
 
 @pytest.fixture

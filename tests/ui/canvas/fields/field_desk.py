@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kinds_language import kinds_language
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
@@ -12,8 +13,6 @@ from nep_studio.blocks.values import FieldValue
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.places import view_rect_of
 from nep_studio.ui.theme import load_theme, text_font
-
-from kinds_language import kinds_language
 
 
 class Desk:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from field_desk import Desk
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHelpEvent
 from PySide6.QtTest import QTest
@@ -10,8 +11,6 @@ from PySide6.QtWidgets import QApplication, QToolTip
 
 from nep_studio.blocks.places import InStack
 from nep_studio.ui.canvas.fields.line_editor import LineEditor
-
-from field_desk import Desk
 
 
 def retype(desk: Desk, text: str) -> None:

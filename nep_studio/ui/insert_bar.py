@@ -1,0 +1,217 @@
+"""Insert blocks by typing what they say: a line with suggestions, over the canvas."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt
+from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QApplication, QFrame, QLabel, QLineEdit, QScrollArea, QVBoxLayout
+
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.places import Place
+from nep_studio.blocks.typing_in.creating import clip_of_suggestion, fitting
+from nep_studio.blocks.typing_in.suggesting import suggestions
+from nep_studio.settings import Settings
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.words import tr
+
+from .insert_bar_list import SuggestionList
+from .insert_bar_places import insert_clip
+
+MOST_SHOWN = 8
+OPENER = "/"
+
+
+class InsertBar(QFrame):
+    """Opens where the block is to go; Enter inserts, Esc goes back to the canvas.
+
+    While it is there, double clicks on the empty page and letters typed on the canvas open it.
+    """
+
+    def __init__(self, canvas: Canvas, settings: Settings | None = None) -> None:
+        super().__init__(canvas)
+        self.setObjectName("insert_bar")
+        self.canvas = canvas
+        self._settings = settings
+        self._at: QPointF | None = None
+        self._place: Place | None = None
+        self.line = QLineEdit(self)
+        self.line.textChanged.connect(self._on_typed)
+        self.line.installEventFilter(self)
+        self.list = SuggestionList(canvas, self)
+        self.list.chosen.connect(self._on_chosen)
+        self.area = QScrollArea(self)
+        self.area.setWidget(self.list)
+        self.area.setWidgetResizable(True)
+        self.area.setFrameShape(QFrame.Shape.NoFrame)
+        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.hint = QLabel(self)
+        self.hint.setProperty("role", "hint")
+        self.hint.setWordWrap(True)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 8, 8, 8)
+        for widget in (self.line, self.area, self.hint):
+            column.addWidget(widget)
+        canvas.keyboard.type_letter = self._on_letter
+        canvas.viewport().installEventFilter(self)
+        canvas.page_changed.connect(self.hide)
+        self.refresh()
+        self.hide()
+
+    def refresh(self) -> None:
+        """Take the theme and the words."""
+        theme, words = self.canvas.theme, tr("What should happen? For example: say hello twice")
+        self.setStyleSheet(
+            f"#insert_bar {{ background: {theme.colour('menu').name()};"
+            f" border: 2px solid {theme.colour('focus').name()}; border-radius: 8px; }}"
+            f"#insert_bar QScrollArea, #insert_bar QScrollArea > QWidget > QWidget"
+            f" {{ background: {theme.colour('menu').name()}; border: none; }}"
+        )
+        self.line.setPlaceholderText(words)
+        self.line.setAccessibleName(tr("Insert a block by typing"))
+        self.hide()
+
+    def open(
+        self, at: QPointF | None = None, text: str = "", *, place: Place | None = None
+    ) -> None:
+        """Ask for a block: for a place, loose for a point of the page, or for after the cursor."""
+        self._at, self._place = at, place
+        self.canvas.cancel_gesture()
+        self.line.setText(text)
+        self._on_typed(text)
+        self.show()
+        self.raise_()
+        self._move()
+        self.line.setFocus(Qt.FocusReason.PopupFocusReason)
+
+    def insert(self, number: int, *, stays: bool = False) -> bool:
+        """Put a suggestion into the program; the bar stays open when it is asked to."""
+        if not 0 <= number < len(self.list.rows):
+            return False
+        clip = self.list.rows[number].clip
+        if not insert_clip(self.canvas, clip, at=self._at, place=self._place):
+            return False
+        self._at = self._place = None
+        if stays:
+            self.line.clear()
+            self._on_typed("")
+            self._move()
+        else:
+            self._leave()
+        return True
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Take the keys of the line, and double clicks on the empty page."""
+        if watched is self.line and isinstance(event, QKeyEvent):
+            return event.type() == QEvent.Type.KeyPress and self._press(event)
+        is_left = watched is self.line and event.type() == QEvent.Type.FocusOut
+        if is_left and not self._holds_focus():
+            self.hide()
+        if event.type() == QEvent.Type.MouseButtonDblClick and isinstance(event, QMouseEvent):
+            return watched is self.canvas.viewport() and self._double_click(event)
+        return super().eventFilter(watched, event)
+
+    def _double_click(self, event: QMouseEvent) -> bool:
+        is_left = event.button() == Qt.MouseButton.LeftButton
+        if not is_left or event.modifiers() or self.canvas.hit(event.position()) is not None:
+            return False
+        self.open(self.canvas.to_page(event.position()))
+        return True
+
+    def _press(self, event: QKeyEvent) -> bool:
+        key = event.key()
+        if key in (Qt.Key.Key_Down, Qt.Key.Key_Up):
+            self.list.go(1 if key == Qt.Key.Key_Down else -1)
+            row = self.list.rows[self.list.current] if self.list.rows else None
+            if row is not None:
+                self.area.ensureVisible(0, round(row.y + row.height / 2), 0, round(row.height))
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            stays = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+            self.insert(self.list.current, stays=stays)
+        elif key in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
+            self._complete()
+        elif key == Qt.Key.Key_Escape:
+            self._leave()
+        else:
+            return False
+        return True
+
+    def _complete(self) -> None:
+        """Write the suggestion out, so that its values can be changed."""
+        if self.list.rows:
+            label = self.list.rows[self.list.current].label
+            self.line.setText(label.replace("…", "").strip())
+
+    def _on_letter(self, letter: str) -> None:
+        self.open(None, "" if letter == OPENER else letter)
+
+    def _on_chosen(self, number: int) -> None:
+        self.insert(number)
+
+    def _on_typed(self, text: str) -> None:
+        editor = self.canvas.editor
+        recent = self._settings.recent_blocks if self._settings is not None else []
+        fits = fitting(editor, self._place) if self._place is not None else self._is_of_page
+        found = suggestions(
+            text, editor.language, editor.project, fits, recents=recent, limit=MOST_SHOWN
+        )
+        clips = [(clip_of_suggestion(editor, one), one.label) for one in found]
+        self.list.show_clips(clips)
+        self.hint.setText(self._words(text, len(found)))
+        if self.isVisible():
+            self._move()
+
+    def _is_of_page(self, definition: Definition) -> bool:
+        kind = self.canvas.editor.project.kind_of_page(self.canvas.page)
+        return definition.page == kind and not definition.id.startswith("my.define.")
+
+    def _words(self, text: str, count: int) -> str:
+        if text.strip() and not count:
+            return tr("No block says that. Try other words, such as “wait 2” or “repeat”.")
+        if not count:
+            return tr("Type what should happen.")
+        return tr("Enter inserts, Ctrl+Enter inserts and goes on, Tab completes, Esc closes.")
+
+    def _move(self) -> None:
+        """Be where the block is to go, inside the view."""
+        view = self.canvas.viewport()
+        line = self.fontMetrics().height()
+        wide = min(max(self.list.sizeHint().width() + 40, 24 * line), view.width() - 16)
+        rows = min(self.list.sizeHint().height() + 4, max(view.height() // 2, 6 * line))
+        self.area.setFixedHeight(rows if self.list.rows else 0)
+        self.setFixedWidth(wide)
+        self.adjustSize()
+        corner = view.geometry().topLeft() + self._target()
+        if self.canvas.measures.is_mirrored:
+            corner.setX(corner.x() - wide)
+        x = min(max(corner.x(), 8), max(8, view.width() - wide - 8))
+        y = min(max(corner.y(), 8), max(8, view.height() - self.height() - 8))
+        self.move(x, y)
+
+    def _target(self) -> QPoint:
+        camera, view = self.canvas.camera, self.canvas.viewport()
+        if self._at is not None:
+            return camera.to_view(self._at.x(), self._at.y()).toPoint()
+        cursor = self.canvas.selection.cursor
+        rect = self.canvas.view_rect_of(cursor) if cursor else None
+        if rect is None or not rect.intersects(view.rect()):
+            return QPoint(view.width() // 3, view.height() // 3)
+        corner = rect.bottomRight() if self.canvas.measures.is_mirrored else rect.bottomLeft()
+        return corner.toPoint() + QPoint(0, 6)
+
+    def _holds_focus(self) -> bool:
+        focused = QApplication.focusWidget()
+        return focused is not None and (focused is self or self.isAncestorOf(focused))
+
+    def _leave(self) -> None:
+        self.hide()
+        self.canvas.setFocus(Qt.FocusReason.OtherFocusReason)
+
+
+def open_insert_bar(
+    canvas: Canvas, at: QPointF | None = None, text: str = "", *, place: Place | None = None
+) -> InsertBar:
+    """Open the insert bar of a canvas, which is made when it has none yet."""
+    bars = [child for child in canvas.children() if isinstance(child, InsertBar)]
+    bar = bars[0] if bars else InsertBar(canvas)
+    bar.open(at, text, place=place)
+    return bar

@@ -1,0 +1,44 @@
+"""What helps on the canvas: finding, inserting by typing, the minimap, the trash."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject
+
+from nep_studio.settings import Settings
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.find_bar import FindBar
+from nep_studio.ui.insert_bar import InsertBar
+from nep_studio.ui.minimap import Minimap
+from nep_studio.ui.palette.palette import Palette
+from nep_studio.ui.trash_panel import TrashButton
+
+
+class CanvasHelpers(QObject):
+    """The helpers of one canvas; they follow what it shows when they are refreshed."""
+
+    def __init__(self, canvas: Canvas, settings: Settings) -> None:
+        super().__init__(canvas)
+        self._settings = settings
+        self.palette = Palette(canvas, settings)
+        self.find_bar = FindBar(canvas)
+        self.insert_bar = InsertBar(canvas, settings)
+        self.minimap = Minimap(canvas)
+        self.trash = TrashButton(canvas)
+        self.find_bar.hide()
+        self.minimap.setVisible(self.is_minimap_shown)
+
+    @property
+    def is_minimap_shown(self) -> bool:
+        """Whether the person left the minimap open."""
+        return self._settings.is_shown("Minimap", default=False)
+
+    def show_minimap(self, is_shown: bool) -> None:
+        """Show or hide the minimap."""
+        self._settings.set_shown("Minimap", is_shown)
+        self.minimap.setVisible(is_shown)
+        self.minimap.refresh()
+
+    def refresh(self) -> None:
+        """Take the theme, the words and the project that the canvas has now."""
+        for helper in (self.palette, self.find_bar, self.insert_bar, self.minimap, self.trash):
+            helper.refresh()

@@ -1,0 +1,204 @@
+"""A painted list of the palette's entries: one widget, however many blocks it has."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QRect, QRectF, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QAbstractScrollArea, QWidget
+
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.words import tr
+
+from .accessible_list import make_list_accessible, tell_current
+from .entries import Drawer, Entry
+from .shelf_layout import ShelfLayout, Spot
+from .shelf_painter import ShelfPainter
+from .stock import Stock
+
+WHEEL_LINES = 3
+
+
+class ShelfView(QAbstractScrollArea):
+    """Shows entries, and which one the keyboard and the mouse are at.
+
+    ``drawer_shown`` brings the drawer at the top of the view; ``left_upwards`` says that the
+    arrow keys go on to what is above.
+    """
+
+    drawer_shown = Signal(object)
+    left_upwards = Signal()
+
+    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._canvas = canvas
+        self._stock = Stock(canvas.editor)
+        self._entries: Sequence[Entry] = ()
+        self._hovered = self._current = -1
+        self._is_delete = False
+        self.accessible: object = None
+        self.setFrameShape(QAbstractScrollArea.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
+        self.verticalScrollBar().valueChanged.connect(self._on_scrolled)
+        make_list_accessible(self, self)
+        self._lay_out()
+
+    # What is shown
+
+    def show_entries(self, stock: Stock, entries: Sequence[Entry], *, to_top: bool = False) -> None:
+        """Show these; the place in the list stays, unless it is to begin at the top."""
+        kept = self._layout.drawer_and_way(self.verticalScrollBar().value())
+        current = self.current
+        self._stock, self._entries = stock, entries
+        self._hovered = -1
+        self._current = list(entries).index(current) if current and current in entries else -1
+        self._lay_out()
+        self.verticalScrollBar().setValue(0 if to_top else round(self._layout.place_of(*kept)))
+
+    def refresh(self) -> None:
+        """Take the theme, the words and the direction of the canvas."""
+        self.setAccessibleName(tr("Blocks to use"))
+        self._lay_out()
+
+    @property
+    def entries(self) -> Sequence[Entry]:
+        """What is listed."""
+        return self._entries
+
+    def show_drawer(self, drawer: str) -> None:
+        """Scroll to the beginning of a drawer."""
+        spot = self._layout.first_of(drawer)
+        if spot is not None:
+            self.verticalScrollBar().setValue(round(spot.y))
+
+    def shown_drawer(self) -> Drawer | None:
+        """The drawer at the top of the view."""
+        line = self._layout.line
+        return self._layout.drawer_at(self.verticalScrollBar().value() + line)
+
+    def set_delete(self, is_delete: bool) -> None:
+        """Show that blocks let go here are deleted."""
+        if is_delete != self._is_delete:
+            self._is_delete = is_delete
+            self.viewport().update()
+
+    def rect_of(self, number: int) -> QRect:
+        """Where an entry is in the viewport."""
+        rect = self._layout.block_rect(self._layout.spots[number])
+        return rect.translated(0, -self.verticalScrollBar().value()).toAlignedRect()
+
+    def choose_next(self, step: int) -> None:
+        """Go to the next entry that can be chosen, or the one before."""
+        count, number = len(self._entries), self._current + step
+        if self._current < 0:
+            number = self._first_in_view() if step > 0 else -1
+        while 0 <= number < count and not self._entries[number].is_choosable:
+            number += step
+        if 0 <= number < count:
+            self._go_to(number)
+        elif step < 0:
+            self.left_upwards.emit()
+
+    def choose_first(self) -> None:
+        """Go to the first entry that can be chosen."""
+        choosable = (n for n, entry in enumerate(self._entries) if entry.is_choosable)
+        self._go_to(next(choosable, -1))
+
+    @property
+    def current(self) -> Entry | None:
+        """The entry that the keyboard is at."""
+        return self._entries[self._current] if self._current >= 0 else None
+
+    def _lay_out(self) -> None:
+        width = max(self.viewport().width(), 120)
+        self._layout = ShelfLayout(self._canvas, float(width))
+        self._layout.fill(self._stock, self._entries)
+        self._painter = ShelfPainter(self._canvas, self._layout)
+        bar = self.verticalScrollBar()
+        bar.setRange(0, max(0, round(self._layout.height - self.viewport().height())))
+        bar.setPageStep(self.viewport().height())
+        bar.setSingleStep(round(self._layout.line * WHEEL_LINES))
+        self.viewport().update()
+        self._on_scrolled()
+
+    # Painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the entries in view."""
+        top = self.verticalScrollBar().value()
+        exposed = event.rect().translated(0, top)
+        with QPainter(self.viewport()) as painter:
+            painter.fillRect(event.rect(), self._canvas.theme.colour("panel"))
+            painter.translate(0, -top)
+            for number, spot in self._near(exposed.top() - 8, exposed.bottom() + 8):
+                is_current = number == self._current and self.hasFocus()
+                if is_current or (number == self._hovered and spot.entry.is_choosable):
+                    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+                    self._painter.paint_mark(painter, spot, is_current=is_current)
+                self._painter.paint(painter, spot)
+            painter.translate(0, top)
+            if self._is_delete:
+                self._painter.paint_delete(painter, QRectF(self.viewport().rect()))
+
+    def _near(self, top: float, bottom: float) -> list[tuple[int, Spot]]:
+        spots = self._layout.between(top, bottom)
+        if not spots:
+            return []
+        first = self._layout.spots.index(spots[0])
+        return list(enumerate(spots, start=first))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Let the blocks be as narrow as the palette."""
+        super().resizeEvent(event)
+        self._lay_out()
+
+    def scrollContentsBy(self, dx: int, dy: int) -> None:
+        """Move what is painted, and paint the rest."""
+        self.viewport().scroll(0, dy)
+
+    def _on_scrolled(self) -> None:
+        drawer = self.shown_drawer()
+        if drawer is not None:
+            self.drawer_shown.emit(drawer)
+
+    def _go_to(self, number: int) -> None:
+        self._current = number
+        if number >= 0:
+            spot = self._layout.spots[number]
+            bar = self.verticalScrollBar()
+            if spot.y < bar.value():
+                bar.setValue(round(spot.y - self._layout.line))
+            elif spot.bottom > bar.value() + self.viewport().height():
+                bar.setValue(round(spot.bottom + self._layout.line - self.viewport().height()))
+            tell_current(self)
+        self.viewport().update()
+
+    def _first_in_view(self) -> int:
+        top = self.verticalScrollBar().value()
+        return next((n for n, spot in enumerate(self._layout.spots) if spot.y >= top), 0)
+
+    # For screen readers
+
+    def item_count(self) -> int:
+        """How many entries there are."""
+        return len(self._entries)
+
+    def item_text(self, number: int) -> str:
+        """What an entry says."""
+        entry = self._entries[number]
+        if entry.kind == "heading":
+            return tr("Category {title}", title=entry.text)
+        if entry.kind == "snippet":
+            return tr("Snippet {title}", title=entry.text)
+        return entry.text
+
+    def item_rect(self, number: int) -> QRect:
+        """Where an entry is on the screen."""
+        rect = self.rect_of(number)
+        return QRect(self.viewport().mapToGlobal(rect.topLeft()), rect.size())
+
+    def current_item(self) -> int:
+        """The entry that the keyboard is at, or -1."""
+        return self._current

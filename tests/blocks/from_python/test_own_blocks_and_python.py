@@ -1,0 +1,141 @@
+"""Own blocks through the clipboard and through Python, and journals of them."""
+
+from __future__ import annotations
+
+from block_building import B, build
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import AddProcedure
+from nep_studio.blocks.from_python.updating import read_program
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.operations.copying import copy, from_text, to_text
+from nep_studio.blocks.operations.moving import create_and_drop
+from nep_studio.blocks.operations.parameters_out import reporter_of
+from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.operations.subjects import definition_of, subjects_of, uses_of
+from nep_studio.blocks.places import InInput
+from nep_studio.blocks.program import Parameter, Procedure, Project
+
+GREET = Procedure("greet", ("greet", Parameter("who", "person", "text")))
+
+
+def greeting(language) -> Editor:
+    """A rule that calls an own block which says its value."""
+    editor = Editor(Project("Own"), language)
+    editor.apply(AddProcedure(GREET, 0))
+    value = B("my.parameter.greet.who")
+    build(
+        language,
+        [B("my.define.greet"), B("robot.say", inputs={"text": value})],
+        [B("event.started"), B("my.call.greet", {"who": "Ada"})],
+        editor=editor,
+    )
+    return editor
+
+
+def test_a_call_pasted_elsewhere_brings_its_own_block_with_an_empty_header(language):
+    source = greeting(language)
+    rule = source.project.pages["behaviour"][1].body
+    text = to_text(copy(source.project, source.language, rule))
+    target = Editor(Project("Other"), language)
+
+    paste(target, from_text(text, language), "behaviour", 0, 0)
+
+    (procedure,) = target.project.procedures.values()
+    assert procedure.parts[0] == "greet"
+    types = sorted(block.type for block in target.project.blocks.values())
+    call, define = f"my.call.{procedure.id}", f"my.define.{procedure.id}"
+    assert types == sorted(["event.started", call, define])
+    target.history.undo()
+    assert not target.project.procedures and not target.project.blocks
+
+
+def test_a_pasted_call_uses_the_own_block_of_the_same_sentence(language):
+    editor = greeting(language)
+    call = editor.project.pages["behaviour"][1].body[1]
+    clip = copy(editor.project, editor.language, [call])
+
+    (new,) = paste(editor, clip, "behaviour", 0, 0)
+
+    assert editor.project.blocks[new].type == "my.call.greet"
+    assert list(editor.project.procedures) == ["greet"]
+
+
+def test_a_definition_pasted_again_becomes_an_own_block_with_another_name(language):
+    editor = greeting(language)
+    clip = copy(editor.project, editor.language, editor.project.pages["behaviour"][0].body)
+
+    (header,) = paste(editor, clip, "behaviour", 0, 0)
+
+    _, second = editor.project.procedures.values()
+    assert second.parts[0] == "greet 2"
+    body = editor.project.stack_of(header).body
+    types = [block.type for block in editor.project.within(body)]
+    assert types == [
+        f"my.define.{second.id}",
+        "robot.say",
+        f"my.parameter.{second.id}.who",
+    ]
+
+
+def test_a_parameter_is_dragged_out_of_the_header(language):
+    editor = greeting(language)
+    header, say = editor.project.pages["behaviour"][0].body
+
+    clip = reporter_of(editor.project, editor.language, header, "who")
+
+    assert clip is not None
+    (new,) = create_and_drop(editor, clip, InInput(say, "text"), beside=(5, 5))
+    assert editor.project.blocks[new].type == "my.parameter.greet.who"
+
+
+def test_uses_of_an_own_block_and_its_definition(language):
+    editor = greeting(language)
+    header, say = editor.project.pages["behaviour"][0].body
+    call = editor.project.pages["behaviour"][1].body[1]
+    value = editor.project.blocks[say].inputs["text"]
+
+    (subject,) = subjects_of(editor.project, editor.language, call)
+
+    assert definition_of(editor.project, editor.language, subject) == header
+    assert uses_of(editor.project, editor.language, subject) == (header, value, call)
+
+
+def test_own_blocks_are_read_back_from_python(language):
+    editor = greeting(language)
+    text = generate_program(editor.project, editor.language).text
+
+    read = read_program(text, language)
+    changed = read_program(text.replace("Ada", "Bo"), language, editor.project)
+
+    assert generate_program(read, language).text == text
+    assert list(changed.procedures) == ["greet"]
+    call = next(b for b in changed.blocks.values() if b.type == "my.call.greet")
+    assert call.fields["who"] == "Bo"
+    assert changed.blocks.keys() == editor.project.blocks.keys()
+
+
+def test_an_own_block_that_gives_a_value_is_read_back(language):
+    text = '''"""Sums. Made with NEP Studio."""
+from nep_core import Behavior, Robot
+
+nao = Robot("NAO")
+behavior = Behavior("Sums")
+
+
+def twice(number):
+    return number * 2
+
+
+@behavior.when_started
+def when_started():
+    nao.say(str(twice(4) + 1))
+
+
+behavior.run()
+'''
+
+    project = read_program(text, language)
+
+    assert generate_program(project, language).text == text
+    assert "code.value" not in {block.type for block in project.blocks.values()}

@@ -1,0 +1,57 @@
+"""What the tests of palette, insert bar, find bar, minimap and trash share: a real canvas."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+
+from nep_studio.settings import Settings
+from nep_studio.studio_language import studio_language
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.palette.palette import Palette
+from nep_studio.ui.theme import load_theme
+from tests.blocks.block_building import B, build, karate
+
+LANGUAGE = studio_language()
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    return Settings(tmp_path)
+
+
+@pytest.fixture
+def window(qtbot) -> QWidget:
+    window = QWidget()
+    QHBoxLayout(window).setContentsMargins(0, 0, 0, 0)
+    window.resize(1100, 700)
+    qtbot.addWidget(window)
+    return window
+
+
+@pytest.fixture
+def canvas(qtbot, window) -> Canvas:
+    canvas = Canvas(karate(LANGUAGE), load_theme("light"))
+    window.layout().addWidget(canvas, 1)
+    window.show()
+    qtbot.waitExposed(window)
+    window.activateWindow()
+    canvas.setFocus()
+    canvas.move_camera(0, 0)
+    return canvas
+
+
+@pytest.fixture
+def palette(qtbot, window, canvas, settings) -> Palette:
+    palette = Palette(canvas, settings)
+    palette.setFixedWidth(400)
+    window.layout().insertWidget(0, palette)
+    palette.show()
+    qtbot.waitUntil(lambda: canvas.x() > 300)
+    return palette
+
+
+def program_of(*stacks: list[B], **more):
+    return build(LANGUAGE, *stacks, **more)

@@ -1,0 +1,194 @@
+"""Every table of translations has every word of the window and of the steps that undo names."""
+
+from __future__ import annotations
+
+import ast
+import re
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from nep_studio import paths
+from nep_studio.blocks.slots import KINDS
+from nep_studio.studio_language import studio_language
+from nep_studio.ui.canvas.fields.titles import slot_name
+from nep_studio.ui.theme import load_theme, themes
+
+TABLES = sorted((paths.resources() / "translations").glob("*.toml"))
+STUDIO = Path(paths.__file__).parent
+SOURCES = sorted(STUDIO.rglob("*.py"))
+
+SHOWN = {
+    "tr": slice(0, 1),
+    "count_words": slice(1, 3),
+    "transaction": slice(0, 1),
+    "apply": slice(1, 2),
+    "_label": slice(4, 5),  # "Undo “{step}”" of ui/actions_edit.py
+    "Fix": slice(1, 2),
+}
+"""Functions whose words are shown in the language of the person: which arguments."""
+
+NAMED = {
+    "ui/canvas/slot_looks.py": "HINTS",
+    "ui/canvas/fields/colour_popup.py": "COLOURS",
+    "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
+    "blocks/operations/flags.py": "LABELS",
+}
+"""Data whose words are given to tr() one by one."""
+
+
+def trees() -> Iterator[tuple[Path, ast.Module]]:
+    for path in SOURCES:
+        yield path, ast.parse(path.read_text(encoding="utf-8"))
+
+
+def called(node: ast.AST) -> str:
+    if not isinstance(node, ast.Call):
+        return ""
+    function = node.func
+    if isinstance(function, ast.Name):
+        return function.id
+    return function.attr if isinstance(function, ast.Attribute) else ""
+
+
+def literals(node: ast.expr) -> Iterator[str]:
+    """The texts that an argument can be: one, or one of two."""
+    if isinstance(node, ast.IfExp):
+        yield from literals(node.body)
+        yield from literals(node.orelse)
+    elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+
+
+def words_in(data: object) -> Iterator[str]:
+    if isinstance(data, str):
+        if not data.startswith("#"):
+            yield data
+    elif isinstance(data, dict):
+        for value in data.values():
+            yield from words_in(value)
+    elif isinstance(data, list | tuple):
+        for value in data:
+            yield from words_in(value)
+
+
+def words_of_calls() -> Iterator[str]:
+    for _, tree in trees():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and (which := SHOWN.get(called(node))):
+                for argument in node.args[which]:
+                    yield from literals(argument)
+
+
+def words_of_edits() -> Iterator[str]:
+    for path, tree in trees():
+        for node in ast.walk(tree):
+            is_label = isinstance(node, ast.AnnAssign) and ast.unparse(node.target) == "label"
+            if path.parent.name == "edits" and is_label and node.value is not None:
+                yield from literals(node.value)
+
+
+def words_of_data() -> Iterator[str]:
+    for place, name in NAMED.items():
+        tree = ast.parse((STUDIO / place).read_text(encoding="utf-8"))
+        for node in tree.body:
+            if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                if [ast.unparse(target) for target in targets] == [name]:
+                    yield from words_in(ast.literal_eval(node.value))
+
+
+def words_of_slots() -> Iterator[str]:
+    for definition in studio_language().definitions.values():
+        yield from (slot_name(slot) for slot in definition.slots.values())
+    yield from (kind.noun for kind in KINDS.values())
+
+
+def window_words() -> set[str]:
+    titles = {load_theme(name).title for name in themes()}
+    found = {*words_of_calls(), *words_of_edits(), *words_of_data(), *words_of_slots(), *titles}
+    return {words for words in found if words.strip()}
+
+
+def block_words() -> set[str]:
+    """What the sentences of blocks take from ``Language.words``."""
+    found: set[str] = set()
+    for path, tree in trees():
+        if "blocks" in path.relative_to(STUDIO).parts:
+            for node in ast.walk(tree):
+                is_asked = isinstance(node, ast.Call) and (
+                    called(node) == "word" or ast.unparse(node.func) == "words.get"
+                )
+                if is_asked and node.args:
+                    found.update(literals(node.args[0]))
+    return found
+
+
+def places(words: str) -> list[str]:
+    return sorted(re.findall(r"\{[^{}]*\}", words))
+
+
+@pytest.fixture(params=TABLES, ids=lambda path: path.stem)
+def table(request: pytest.FixtureRequest) -> dict:
+    return tomllib.loads(request.param.read_text(encoding="utf-8"))
+
+
+def test_the_words_of_the_window_are_found() -> None:
+    found = window_words()
+
+    assert {"Undo", "1 block", "{n} blocks", "move a stack", "tidy up", "sky blue", "a number"} <= (
+        found
+    )
+    assert {"define", "all robots", "on"} <= block_words()
+
+
+def test_no_words_are_filled_in_before_they_are_translated() -> None:
+    filled = [
+        f"{path.relative_to(STUDIO)}:{node.lineno}"
+        for path, tree in trees()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and called(node) in ("tr", "count_words")
+        for argument in node.args[SHOWN[called(node)]]
+        if isinstance(argument, ast.JoinedStr)
+    ]
+
+    assert filled == []
+
+
+def test_a_table_has_all_words_of_the_window(table) -> None:
+    missing = window_words() - table.get("window", {}).keys()
+
+    assert sorted(missing) == []
+
+
+def test_a_table_has_no_words_that_nobody_shows(table) -> None:
+    unknown = table.get("window", {}).keys() - window_words()
+
+    assert sorted(unknown) == []
+
+
+def test_a_translation_has_the_places_of_the_english_words(table) -> None:
+    wrong = [w for w, told in table.get("window", {}).items() if places(w) != places(told)]
+
+    assert wrong == []
+
+
+def test_no_translation_is_empty_and_each_table_has_a_name(table) -> None:
+    empty = [words for words, told in table.get("window", {}).items() if not told.strip()]
+
+    assert empty == []
+    assert table["name"].strip()
+
+
+def test_a_table_has_exactly_the_words_that_sentences_of_blocks_take(table) -> None:
+    assert table.get("words", {}).keys() == block_words()
+
+
+def test_access_keys_of_menus_are_told_in_every_language(table) -> None:
+    """A menu that opens with Alt and a letter does so in every language."""
+    menus = {words for words in window_words() if re.search(r"&\w", words)}
+    told = {words: table.get("window", {}).get(words, "") for words in menus}
+
+    assert [words for words, said in told.items() if not re.search(r"&\w|\(&\w\)", said)] == []

@@ -1,0 +1,109 @@
+"""The tabs of the pages: show, add, rename, move and delete, each undone in one step."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from nep_studio.ui.main_window import MainWindow
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def bar(karate: MainWindow):
+    return karate.workbench.pages_bar
+
+
+def titles(bar) -> list[str]:
+    return [bar.tabs.tabText(index) for index in range(bar.tabs.count())]
+
+
+def test_a_project_has_three_pages(bar) -> None:
+    assert titles(bar) == ["Behaviour", "Robots", "Nodes"]
+
+
+def test_a_click_shows_a_page(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    qtbot.mouseClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(1).center())
+
+    assert karate.workbench.canvas.page == "robots"
+
+
+def test_plus_adds_a_page_for_behaviour_and_shows_it(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    qtbot.mouseClick(bar.add_button, LEFT)
+
+    assert titles(bar) == ["Behaviour", "Behaviour 2", "Robots", "Nodes"]
+    assert karate.workbench.canvas.page == list(karate.files.document.project.pages)[1]
+
+
+def test_undo_takes_an_added_page_away_and_shows_the_first(
+    karate: MainWindow, bar, qtbot: QtBot
+) -> None:
+    qtbot.mouseClick(bar.add_button, LEFT)
+
+    karate.actions_by_name["undo"].trigger()
+
+    assert titles(bar) == ["Behaviour", "Robots", "Nodes"]
+    assert karate.workbench.canvas.page == "behaviour"
+
+
+def test_a_double_click_renames_a_page(bar, qtbot: QtBot) -> None:
+    qtbot.mouseDClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(0).center())
+    qtbot.keyClicks(bar.tabs.title_edit, "Greeting")
+    qtbot.keyClick(bar.tabs.title_edit, Qt.Key.Key_Return)
+
+    assert titles(bar) == ["Greeting", "Robots", "Nodes"]
+
+
+def test_esc_leaves_the_title_as_it_was(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    qtbot.mouseDClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(0).center())
+    qtbot.keyClicks(bar.tabs.title_edit, "Greeting")
+    qtbot.keyClick(bar.tabs.title_edit, Qt.Key.Key_Escape)
+
+    assert titles(bar) == ["Behaviour", "Robots", "Nodes"]
+    assert not karate.files.document.is_modified
+
+
+def test_a_page_is_moved_and_stays_shown(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    right = next(a for a in bar.menu(0).actions() if a.text() == "Move right")
+
+    right.trigger()
+
+    assert titles(bar) == ["Robots", "Behaviour", "Nodes"]
+    assert bar.tabs.currentIndex() == 1
+    assert karate.workbench.canvas.page == "behaviour"
+
+
+def test_a_tab_is_dragged_to_another_place(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    start, end = bar.tabs.tabRect(0).center(), bar.tabs.tabRect(1).center()
+
+    qtbot.mousePress(bar.tabs, LEFT, pos=start)
+    for step in range(1, 11):
+        qtbot.mouseMove(bar.tabs, start + (end - start) * step / 10)
+    qtbot.mouseRelease(bar.tabs, LEFT, pos=end)
+
+    assert list(karate.files.document.project.pages) == ["robots", "behaviour", "nodes"]
+
+
+def test_deleting_a_page_takes_its_blocks_and_undo_brings_them_back(
+    karate: MainWindow, bar, qtbot: QtBot
+) -> None:
+    project, editor = karate.files.document.project, karate.files.document.editor
+    qtbot.mouseClick(bar.add_button, LEFT)
+    page = list(project.pages)[1]
+    editor.create("control.wait", editor.new_stack(page, 40, 40))
+
+    delete = next(a for a in bar.menu(1).actions() if a.text() == "Delete the page")
+    delete.trigger()
+    were = titles(bar)
+    karate.actions_by_name["undo"].trigger()
+
+    assert were == ["Behaviour", "Robots", "Nodes"]
+    assert len(project.pages[page]) == 1
+
+
+def test_the_three_pages_of_every_project_cannot_be_deleted(bar) -> None:
+    delete = next(a for a in bar.menu(0).actions() if a.text() == "Delete the page")
+
+    assert not delete.isEnabled()

@@ -1,0 +1,152 @@
+"""What is not right yet is found while a person works, shown at its block, and put right."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from nep_studio.blocks.edits import DeleteBlocks, RenameProject
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.problems.slices import Cancelled, RestingMapping, SlicedCall
+
+
+@pytest.fixture
+def robotless(karate: MainWindow, qtbot: QtBot) -> MainWindow:
+    """The karate example, whose robot has been deleted from its page."""
+    editor = karate.files.document.editor
+    qtbot.waitUntil(lambda: karate.workbench.checks._check is None)
+    for stack in list(editor.project.pages["robots"]):
+        editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    qtbot.waitUntil(lambda: bool(karate.workbench.checks.problems))
+    return karate
+
+
+def test_a_problem_is_found_without_asking(robotless: MainWindow) -> None:
+    [problem] = robotless.workbench.checks.problems
+
+    assert problem.kind == "robot_missing"
+    assert robotless.workbench.canvas.problems.problems[problem.block] == problem
+    assert robotless.actions_by_name["check"].iconText() == "1 problem"
+
+
+def test_check_lists_the_problems_with_sentence_and_checklist(
+    robotless: MainWindow, qtbot: QtBot
+) -> None:
+    button = robotless.toolbar.widgetForAction(robotless.actions_by_name["check"])
+
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+    qtbot.waitUntil(lambda: len(robotless.workbench.problems.rows) == 1)
+    assert robotless.workbench.problems.isVisible()
+    assert "NAO is not on the Robots page" in robotless.workbench.problems.rows[0].accessibleName()
+
+
+def test_a_click_on_a_problem_shows_its_block(robotless: MainWindow, qtbot: QtBot) -> None:
+    robotless.workbench.canvas.show_page("nodes")
+    robotless.show_problems()
+    [row] = robotless.workbench.problems.rows
+
+    qtbot.mouseClick(row, Qt.MouseButton.LeftButton)
+
+    assert robotless.workbench.canvas.page == "behaviour"
+    assert robotless.workbench.canvas.selection.ids == (row.problem.block,)
+
+
+def test_the_fix_button_puts_it_right_and_undo_takes_it_back(
+    robotless: MainWindow, qtbot: QtBot
+) -> None:
+    robotless.show_problems()
+    [row] = robotless.workbench.problems.rows
+
+    qtbot.mouseClick(row.fix_button, Qt.MouseButton.LeftButton)
+
+    qtbot.waitUntil(lambda: robotless.workbench.checks.problems == [])
+    assert robotless.actions_by_name["undo"].text() == "Undo “Add NAO”"
+    robotless.actions_by_name["undo"].trigger()
+    qtbot.waitUntil(lambda: len(robotless.workbench.checks.problems) == 1)
+
+
+def test_the_badge_opens_a_bubble_with_the_fix(robotless: MainWindow, qtbot: QtBot) -> None:
+    [problem] = robotless.workbench.checks.problems
+    robotless.workbench.canvas.problem_opened.emit(problem.block)
+    bubble = robotless.workbench.bubble
+
+    qtbot.mouseClick(bubble.buttons[0], Qt.MouseButton.LeftButton)
+
+    qtbot.waitUntil(lambda: robotless.workbench.checks.problems == [])
+
+
+def test_a_program_without_problems_says_so(karate: MainWindow, qtbot: QtBot) -> None:
+    karate.show_problems()
+
+    assert karate.workbench.problems.rows == []
+    assert karate.actions_by_name["check"].iconText() == "Check"
+
+
+def test_typing_does_not_wait_for_a_check(karate: MainWindow, qtbot: QtBot) -> None:
+    checks = karate.workbench.checks
+    qtbot.waitUntil(lambda: not checks._pause.isActive() and checks._check is None)
+
+    karate.files.document.editor.apply(RenameProject("Typed"))
+
+    assert checks._check is None
+    assert checks._pause.isActive()
+
+
+def test_a_long_work_rests_when_its_slice_is_over() -> None:
+    def work(rest):
+        known = RestingMapping({"a": 1}, rest)
+        until = time.perf_counter() + 0.05
+        looked = 0
+        while time.perf_counter() < until:
+            looked += known["a"]
+        return looked
+
+    call = SlicedCall(work)
+    slices = 0
+    while not call.run(0.005):
+        slices += 1
+
+    assert slices >= 3
+    assert call.result() > 0
+
+
+def test_a_cancelled_work_ends_where_it_rests() -> None:
+    ended = []
+
+    def work(rest):
+        try:
+            while True:
+                rest()
+        except Cancelled:
+            ended.append(True)
+            raise
+
+    call = SlicedCall(work)
+    call.run(0.001)
+
+    call.cancel()
+
+    assert ended == [True]
+
+
+def test_a_work_that_was_never_run_can_be_cancelled() -> None:
+    call = SlicedCall(lambda rest: 1)
+
+    call.cancel()
+
+    assert call.is_over
+
+
+def test_what_a_work_raises_comes_out_of_its_result() -> None:
+    def work(rest):
+        raise ValueError("no")
+
+    call = SlicedCall(work)
+    call.run(0.01)
+
+    with pytest.raises(ValueError, match="no"):
+        call.result()
