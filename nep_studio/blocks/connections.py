@@ -55,7 +55,7 @@ def why_not_plugged(
         return None
     if not value.is_value:
         return "Only a block that gives a value goes into a slot."
-    return why_not_fit(slot.kind, value.result, value.id)
+    return why_not_fit(slot.kind, value.result, value.told)
 
 
 def why_no_body(owner: Block, key: str, definitions: Mapping[str, Definition]) -> str | None:

@@ -78,6 +78,12 @@ class Definition:
         return self.category.page
 
     @property
+    def told(self) -> str:
+        """The block in words, for messages: its sentence with … for each slot."""
+        words = [part if isinstance(part, str) else "…" for part in self.parts]
+        return " ".join(word for word in words if word).replace(" ,", ",")
+
+    @property
     def is_value(self) -> bool:
         """Whether the block is plugged into inputs rather than put in chains."""
         return self.shape in ("reporter", "boolean")

@@ -30,6 +30,7 @@ class History:
 
     def __init__(self, project: Project) -> None:
         self._project = project
+        project.changes = Changes()  # of what was done before nobody has to be told
         self._undo: list[Step] = []
         self._redo: list[Step] = []
         self._open: Step | None = None

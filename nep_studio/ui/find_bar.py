@@ -35,6 +35,7 @@ class FindBar(QFrame):
         self._overlay = HitOverlay()
         canvas.overlays.append(self._overlay)
         canvas.page_changed.connect(self._listen)
+        canvas.uses_requested.connect(self.show_uses)
         self.title = QLabel(self)
         self.line = QLineEdit(self)
         self.count = QLabel(self)

@@ -241,7 +241,8 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask what is to become of work that is not saved; then remember the window's shape."""
-        if not self._may_close and self.files.document is not None:
+        document = self.files.document
+        if not self._may_close and document is not None and document.is_modified:
             event.ignore()
             self.files.guard(self._close_now)
             return

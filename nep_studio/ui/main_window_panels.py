@@ -115,12 +115,12 @@ class Panels(QObject):
     def restore(self, line: int) -> None:
         """Give the areas the sizes that they had, or good ones; ``line`` is a line of text."""
         if not self.row.restoreState(self._settings.state("row")):
-            width = self.row.width()
+            width = self.row.window().width()  # it may not have been shown yet
             left = min(self.areas["left"].sizeHint().width(), width * 3 // 10)
             right = min(line * 20, width // 4)
             self.row.setSizes([left, width - left - right, right])
         if not self.column.restoreState(self._settings.state("column")):
-            height = max(self.column.height(), line * 30)
+            height = self.row.window().height()
             self.column.setSizes([height - line * 9, line * 9])
 
     def remember(self) -> None:

@@ -156,7 +156,7 @@ def test_a_slot_says_which_value_it_needs(language):
     editor = build(language, [B("event.started"), B("robot.walk")])
     walk = editor.project.pages["behaviour"][0].body[1]
 
-    with pytest.raises(EditRefused, match=r"needs a number, and “text.join” gives a text"):
+    with pytest.raises(EditRefused, match=r"needs a number, and “join …” gives a text"):
         editor.create("text.join", InInput(walk, "forward"))
     with pytest.raises(EditRefused, match="chosen or typed"):
         editor.create("text.join", InInput(walk, "robot"))

@@ -84,7 +84,7 @@ class Layout:
         boxes = [self._boxes[block_id] for block_id in ids]
         gap = self.gap
         if gap is not None and owner and gap.owner == owner and gap.slot == slot:
-            boxes.insert(gap.index, _gap_box(gap))
+            boxes.insert(gap.index, _gap_box(gap, self.measures))
         ys, y, reach = [], 0.0, 0.0
         for box in boxes:
             ys.append(y)
@@ -236,5 +236,6 @@ def _mirror(box: Box) -> None:
         mouth.x = box.width - mouth.x
 
 
-def _gap_box(gap: Gap) -> Box:
-    return Box("", "", "gap", gap.width, gap.height, (gap.height,), reach=gap.width)
+def _gap_box(gap: Gap, measures: Measures) -> Box:
+    size = (gap.width, gap.height, (gap.height,))
+    return Box("", "", "gap", *size, is_mirrored=measures.is_mirrored, reach=gap.width)

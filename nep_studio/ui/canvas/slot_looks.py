@@ -90,7 +90,7 @@ def _said_units(parts: tuple[Part, ...]) -> frozenset[tuple[str, str]]:
 def says_unit(definition: Definition, slot_name: str, unit: str) -> bool:
     """Whether the words behind a slot begin with its unit: then the field does not repeat it."""
     said = (word for name, word in _said_units(definition.parts) if name == slot_name)
-    return any(word.startswith(unit.strip()) for word in said)
+    return any(word.casefold().startswith(unit.strip()) for word in said)
 
 
 def hint_word(kind: str) -> str:
@@ -142,8 +142,10 @@ def _text(
         return variable.name if variable is not None else ""
     if kind == "robot" and value == ALL_ROBOTS:
         return tr("all robots")
-    if kind in UNITS and not says_unit(language.definitions[block.type], slot.name, UNITS[kind]):
-        return f"{value}{UNITS[kind]}"
+    if kind in UNITS:
+        unit = tr(UNITS[kind])
+        is_said = says_unit(language.definitions[block.type], slot.name, unit)
+        return f"{value}" if is_said else f"{value}{unit}"
     if kind == "file":
         return str(value).replace("\\", "/").rpartition("/")[2]
     return language.choices_of(slot, block, key).get(str(value), str(value))

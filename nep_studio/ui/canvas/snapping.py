@@ -6,7 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from math import hypot
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from nep_studio.blocks.operations.selection import Run
 from nep_studio.blocks.places import InBody, InInput, InStack, Place
@@ -19,7 +19,10 @@ RADIUS_PX = 28.0
 """How near to a place blocks must be held to snap to it, in pixels of the view."""
 
 PREFERENCE_PX = 8.0
-"""How much nearer another place must be to take over from the one that is shown."""
+"""How much nearer another place must be to take over from the one that is shown.
+
+Zoomed out it shrinks with the blocks, which are hardly higher than this then.
+"""
 
 Point = tuple[float, float]
 Join = Literal["below", "above", "around", "input"]
@@ -77,7 +80,8 @@ class Snap:
     reason: str = ""
 
 
-class Joint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Joint:
     """A point between two blocks of a chain, or at one of its ends; ``below`` is what follows."""
 
     owner: str
@@ -143,14 +147,15 @@ def search(
     run: Run | None = None,
 ) -> Snap:
     """The nearest place that takes the carried blocks; ``run`` are selected blocks to go around."""
-    radius = RADIUS_PX / scale
-    found = []
-    for target, distance in targets(ground, ends, radius + PREFERENCE_PX / scale, run):
+    radius, preference = RADIUS_PX / scale, PREFERENCE_PX / max(scale, 1.0)
+    found: list[tuple[float, int, Target]] = []
+    for target, distance in targets(ground, ends, radius + preference, run):
         if target.is_same(current):
-            distance -= PREFERENCE_PX / scale
+            distance -= preference
         if distance <= radius:
             found.append((distance, len(found), target))
-    return _first_that_fits((target for *_, target in sorted(found, key=_order)), why_not)
+    found.sort(key=lambda each: each[:2])
+    return _first_that_fits((target for _, _, target in found), why_not)
 
 
 def targets(
@@ -233,10 +238,6 @@ def _first_that_fits(found: Iterable[Target], why_not: WhyNot) -> Snap:
             return Snap(target)
         first_reason = first_reason or reason
     return Snap(None, first_reason)
-
-
-def _order(found: tuple[float, int, Target]) -> tuple[float, int]:
-    return found[0], found[1]
 
 
 def _empty_mouth(chain: Chain) -> Point | None:

@@ -6,7 +6,15 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
@@ -56,6 +64,7 @@ class CodePane(QWidget):
         self.buttons.setSpacing(gap)
         self.title = QLabel()
         self.title.setProperty("role", "hint")
+        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.buttons.addWidget(self.title, 1)
         for button in (self.copy_button, self.edit_button, self.discard_button, self.apply_button):
             self.buttons.addWidget(button)

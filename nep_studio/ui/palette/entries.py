@@ -105,11 +105,13 @@ def _inside(
 
 def _snippets(drawer: Drawer, snippets: Sequence[Snippet]) -> Iterator[Entry]:
     if not snippets:
-        words = tr("Keep blocks here to use them in any project: select some, then press Keep.")
+        words = tr(
+            "Keep blocks here to use them in any project: select some, then press the button below."
+        )
         yield Entry("words", drawer, words)
     for snippet in snippets:
         yield Entry("snippet", drawer, snippet.name, snippet=snippet)
-    yield Entry("button", drawer, tr("Keep the selected blocks…"), action=KEEP_SNIPPET)
+    yield Entry("button", drawer, tr("Keep the selection…"), action=KEEP_SNIPPET)
     yield Entry("button", drawer, tr("Import a snippet…"), action=IMPORT_SNIPPET)
 
 

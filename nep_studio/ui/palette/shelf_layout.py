@@ -101,6 +101,14 @@ class ShelfLayout:
         number = max(0, bisect_right(self._tops, y) - 1)
         return self.spots[number].entry.drawer
 
+    def lowest_top(self, view: float) -> int:
+        """How far one can scroll: so far that the last drawer too can be at the top."""
+        if self.height <= view or not self.spots:
+            return 0
+        last = self.first_of(self.spots[-1].entry.drawer.id)
+        assert last is not None
+        return round(max(self.height - view, last.y))
+
     def drawer_and_way(self, y: float) -> tuple[str, float]:
         """A height as a drawer, and the way from its beginning."""
         drawer = self.drawer_at(y)

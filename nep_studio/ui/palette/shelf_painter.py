@@ -63,13 +63,12 @@ class ShelfPainter:
         painter.setPen(QPen(colour, line / 6, Qt.PenStyle.DashLine))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRoundedRect(rect.adjusted(line / 2, line / 2, -line / 2, -line / 2), 10, 10)
-        side = 2.4 * line
-        square = QRectF(rect.center().x() - side / 2, rect.center().y() - side, side, side)
+        side = 2.4 * line  # at the top, as what is carried hides what is in the middle
+        square = QRectF(rect.center().x() - side / 2, rect.top() + line, side, side)
         paint_icon(painter, square, "trash-2", colour)
         painter.setFont(self._bold)
-        below = rect.adjusted(line, rect.height() / 2 + line / 3, -line, 0)
-        flags = Qt.AlignmentFlag.AlignHCenter | Qt.TextFlag.TextWordWrap
-        painter.drawText(below, int(flags), tr("Delete"))
+        below = QRectF(rect.left(), square.bottom() + line / 3, rect.width(), 2 * line)
+        painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, tr("Delete"))
 
     def _heading(self, painter: QPainter, spot: Spot) -> None:
         line, rect = self._layout.line, self._layout.block_rect(spot)

@@ -117,7 +117,7 @@ class ShelfView(QAbstractScrollArea):
         self._layout.fill(self._stock, self._entries)
         self._painter = ShelfPainter(self._canvas, self._layout)
         bar = self.verticalScrollBar()
-        bar.setRange(0, max(0, round(self._layout.height - self.viewport().height())))
+        bar.setRange(0, self._layout.lowest_top(self.viewport().height()))
         bar.setPageStep(self.viewport().height())
         bar.setSingleStep(round(self._layout.line * WHEEL_LINES))
         self.viewport().update()

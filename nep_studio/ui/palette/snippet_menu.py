@@ -9,6 +9,8 @@ from PySide6.QtCore import QObject, QPoint
 from PySide6.QtWidgets import QFileDialog, QMenu
 
 from nep_studio.blocks.operations.copying import copy
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.context_menu import MenuEntry, MenuPlace
 from nep_studio.ui.snippets import ENDING, Snippet, file_stem, write_out
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
@@ -28,6 +30,7 @@ class SnippetMenu(QObject):
         self._palette = palette
         self.menu: QMenu | None = None
         self.asking: Asking | None = None
+        palette.canvas.menu_sections.append(self._section)
 
     def open(self, entry: Entry, place: QPoint) -> None:
         """Open the menu of an entry, when it is a snippet."""
@@ -48,6 +51,12 @@ class SnippetMenu(QObject):
         delete = self.menu.addAction(icon("trash-2", theme), tr("Delete…"))
         delete.triggered.connect(lambda: self.ask_to_delete(snippet))
         self.menu.popup(place)
+
+    def _section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+        """What the menu of a block offers besides."""
+        if place.hit is None:
+            return []
+        return [MenuEntry("keep", tr("Keep as a snippet…"), self.ask_to_keep, "star")]
 
     def ask_to_keep(self) -> None:
         """Ask for a name for the selected blocks."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -91,11 +90,24 @@ class LiveChecks(QObject):
         self.found.emit(problems)
 
 
+class _RestingLanguage(Language):
+    """The language of one project for one check; its definitions rest."""
+
+    __slots__ = ()
+
+    def of(self, project: Project) -> Language:
+        """This one: it was made for the project."""
+        return self
+
+
 def _sliced_check(project: Project, language: Language, folder: Path) -> Check:
     """All checks look up the definition of each block that they read: there they can rest."""
 
     def work(rest: Callable[[], None]) -> list[Problem]:
-        resting = replace(language, definitions=RestingMapping(language.definitions, rest))
+        definitions = RestingMapping(language.definitions, rest)
+        resting = _RestingLanguage(
+            definitions, language.categories, language.choices, language.profile
+        )
         return all_problems(project, resting, folder)
 
     return SlicedCall(work)

@@ -47,7 +47,7 @@ def test_a_c_block_of_the_same_stack_comes_out_and_goes_around(language):
 
 def test_a_c_block_that_holds_something_goes_around_nothing_more(language):
     editor = story(language)
-    hat, say, wait, repeat = editor.project.pages["behaviour"][0].body
+    _, say, wait, repeat = editor.project.pages["behaviour"][0].body
     enclose(editor, repeat, Run(wait, 1))
     before = to_bytes(editor.project)
 
@@ -59,7 +59,7 @@ def test_a_c_block_that_holds_something_goes_around_nothing_more(language):
 
 def test_what_nothing_may_follow_cannot_go_around_the_middle(language):
     editor = story(language)
-    hat, say, wait, repeat = editor.project.pages["behaviour"][0].body
+    _, say, wait, _ = editor.project.pages["behaviour"][0].body
 
     assert why_not_enclose(editor, "control.forever", Run(say, 1)) is not None
     assert why_not_enclose(editor, "control.forever", Run(wait, 2)) is None

@@ -13,6 +13,7 @@ from tests.blocks.block_building import B
 CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 PLAIN = Qt.KeyboardModifier.NoModifier
 SOMEWHERE = QPointF(400, 300)
+NONE = QPoint()
 
 
 @pytest.fixture
@@ -20,7 +21,7 @@ def shown(desk):
     return desk([B("event.started"), B("robot.say"), B("control.wait")])
 
 
-def wheel(desk, notches: float, held=PLAIN, at: QPointF = SOMEWHERE, pixels=QPoint()) -> None:
+def wheel(desk, notches: float, held=PLAIN, at: QPointF = SOMEWHERE, pixels=NONE) -> None:
     viewport = desk.canvas.viewport()
     place = QPointF(viewport.mapToGlobal(at.toPoint()))
     turned = QPoint(0, round(notches * 120))

@@ -1,4 +1,4 @@
-"""The palette: what it lists, and how blocks are found in it and come out of it."""
+"""The palette: what it lists, how blocks are found in it, and how they come out of it."""
 
 from __future__ import annotations
 
@@ -6,15 +6,10 @@ import time
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QAccessible, QPixmap
+from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
 
-from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.program import Project
-from nep_studio.blocks.writing import to_bytes
-from nep_studio.ui import words
-from nep_studio.ui.palette.entries import Entry
+from nep_studio.blocks.edits import RenameVariable
 from nep_studio.ui.palette.palette import Palette
 from nep_studio.ui.palette.shelf import Shelf
 from nep_studio.ui.palette.tips import tip
@@ -23,40 +18,356 @@ from nep_studio.ui.theme import load_theme
 LEFT = Qt.MouseButton.LeftButton
 
 
+def type_of(palette: Palette, number: int) -> str:
+    sample = palette.shelf.entries[number].sample
+    return palette.shelf._stock.project.blocks[sample].type if sample else ""
+
+
+def listed(palette: Palette) -> list[str]:
+    return [name for n in range(len(palette.shelf.entries)) if (name := type_of(palette, n))]
+
+
 def number_of(palette: Palette, block_type: str) -> int:
-    entries, stock = palette.shelf.entries, palette.shelf._stock
-    for number, entry in enumerate(entries):
-        if entry.sample and stock.project.blocks[entry.sample].type == block_type:
-            return number
-    raise AssertionError(f"no {block_type} in the palette")
-
-
-def entry_of(palette: Palette, block_type: str) -> Entry:
-    return palette.shelf.entries[number_of(palette, block_type)]
+    count = len(palette.shelf.entries)
+    return next(n for n in range(count) if type_of(palette, n) == block_type)
 
 
 def grip(shelf: Shelf, number: int) -> QPoint:
     """A place on the block of an entry, scrolled into view."""
     shelf._go_to(number)
     rect = shelf.rect_of(number)
-    return QPoint(rect.left() + 12, rect.top() + 12)
+    return QPoint(rect.center().x(), rect.top() + 12)
+
+
+def click(palette: Palette, block_type: str) -> None:
+    place = grip(palette.shelf, number_of(palette, block_type))
+    QTest.mouseClick(palette.shelf.viewport(), LEFT, pos=place)
+
+
+def press_and_drag(palette: Palette, block_type: str, to_canvas: QPoint) -> None:
+    """Press a block of the palette and bring it over the canvas; the button stays down."""
+    viewport = palette.shelf.viewport()
+    start = grip(palette.shelf, number_of(palette, block_type))
+    end = viewport.mapFromGlobal(palette.canvas.viewport().mapToGlobal(to_canvas))
+    QTest.mousePress(viewport, LEFT, pos=start)
+    for step in (0.2, 0.6, 1.0):
+        QTest.mouseMove(viewport, start + (end - start) * step)
+
+
+def drop(palette: Palette, at_canvas: QPoint) -> None:
+    viewport = palette.shelf.viewport()
+    place = viewport.mapFromGlobal(palette.canvas.viewport().mapToGlobal(at_canvas))
+    QTest.mouseRelease(viewport, LEFT, pos=place)
 
 
 def types(palette: Palette) -> list[str]:
     return [block.type for block in palette.canvas.editor.project.blocks.values()]
 
 
-def test_the_palette_lists_every_block_of_the_page_that_is_shown(palette):
-    language = palette.canvas.editor.language
-    wanted = {d.id for d in language.definitions.values() if d.page == "behaviour"}
+def test_the_palette_lists_every_block_of_the_page(palette):
+    definitions = palette.canvas.editor.language.definitions.values()
 
-    listed = {palette.shelf._stock.project.blocks[e.sample].type for e in palette.shelf.entries if e.sample}
+    wanted = {definition.id for definition in definitions if definition.page == "behaviour"}
 
-    assert listed == wanted
+    assert set(listed(palette)) == wanted
 
 
 def test_the_palette_follows_the_page(palette):
     palette.canvas.show_page("nodes")
 
-    assert entry_of(palette, "nodes.launch" if False else "node.launch" if False else first_type(palette, "nodes"))
-    assert "robot" not in palette.categories.buttons
+    assert listed(palette) == ["nodes.launch"]
+
+
+def test_the_palette_opens_in_less_than_a_tenth_of_a_second(palette):
+    start = time.thread_time()
+
+    palette.fill()
+    palette.shelf.viewport().repaint()
+
+    assert len(listed(palette)) > 140
+    assert time.thread_time() - start < 0.1
+
+
+def test_the_palette_has_no_widget_for_a_block(palette):
+    assert len(palette.shelf.viewport().findChildren(object)) == 0
+
+
+def test_a_press_on_a_category_scrolls_to_its_blocks(palette, qtbot):
+    qtbot.mouseClick(palette.categories.buttons["math"], LEFT)
+
+    top = palette.shelf._entry_at(palette.shelf.rect_of(number_of(palette, "math.number")).center())
+    assert palette.shelf.shown_drawer().id == "math"
+    assert type_of(palette, top) == "math.number"
+
+
+def test_the_last_category_too_comes_to_the_top(palette, qtbot):
+    qtbot.mouseClick(palette.categories.buttons["snippets"], LEFT)
+
+    assert palette.shelf.shown_drawer().id == "snippets"
+    assert palette.categories.buttons["snippets"].isChecked()
+
+
+def test_scrolling_marks_the_category_in_view(palette):
+    palette.shelf.show_drawer("text")
+
+    assert palette.categories.buttons["text"].isChecked()
+
+
+def test_a_variable_that_is_made_gets_a_block_of_its_own(palette, qtbot):
+    palette.canvas.editor.add_variable("score")
+
+    qtbot.waitUntil(lambda: "score" in [entry.text for entry in palette.shelf.entries])
+
+
+def test_a_renamed_variable_is_renamed_in_the_palette(palette, qtbot):
+    palette.canvas.editor.apply(RenameVariable("v1", "score"))
+
+    qtbot.waitUntil(lambda: "score" in [entry.text for entry in palette.shelf.entries])
+    assert "times" not in [entry.text for entry in palette.shelf.entries]
+
+
+def test_typing_in_the_search_box_filters_the_blocks(palette, qtbot):
+    qtbot.keyClicks(palette.search, "repeat")
+
+    assert listed(palette)[0] == "control.repeat"
+    assert len(listed(palette)) < 12
+
+
+@pytest.mark.parametrize(
+    ("typed", "found"),
+    [("speak", "robot.say"), ("pause", "control.wait"), ("repaet", "control.repeat")],
+)
+def test_the_search_knows_other_words_and_forgives_a_wrong_letter(palette, qtbot, typed, found):
+    qtbot.keyClicks(palette.search, typed)
+
+    assert found in listed(palette)[:6]
+
+
+def test_a_search_that_finds_nothing_says_so(palette, qtbot):
+    qtbot.keyClicks(palette.search, "xyzzyq")
+
+    assert "xyzzyq" in palette.shelf.entries[0].text
+
+
+def test_enter_in_the_search_box_inserts_the_first_block(palette, qtbot):
+    palette.canvas.selection.clear()
+    qtbot.keyClicks(palette.search, "wait 2")
+
+    qtbot.keyClick(palette.search, Qt.Key.Key_Return)
+
+    assert "control.wait" in types(palette)
+
+
+def test_escape_clears_the_search(palette, qtbot):
+    qtbot.keyClicks(palette.search, "repeat")
+
+    qtbot.keyClick(palette.search, Qt.Key.Key_Escape)
+
+    assert len(listed(palette)) > 140
+
+
+def test_a_click_inserts_after_the_selected_block(palette):
+    project = palette.canvas.editor.project
+    say = next(block.id for block in project.blocks.values() if block.type == "robot.say")
+    palette.canvas.selection.set([say])
+
+    click(palette, "control.wait")
+
+    chain = project.stack_of(say).body
+    assert project.blocks[chain[chain.index(say) + 1]].type == "control.wait"
+    assert palette.canvas.selection.ids == (chain[chain.index(say) + 1],)
+
+
+def test_a_click_on_a_value_fills_the_empty_slot_of_the_selected_block(palette):
+    project = palette.canvas.editor.project
+    change = next(block for block in project.blocks.values() if block.type == "variable.change")
+    palette.canvas.selection.set([change.id])
+
+    click(palette, "math.number")
+
+    assert project.blocks[change.inputs["amount"]].type == "math.number"
+
+
+def test_a_click_without_a_selection_inserts_where_one_looks(palette):
+    palette.canvas.selection.clear()
+
+    click(palette, "event.started")
+
+    made = palette.canvas.selection.ids[0]
+    rect = palette.canvas.view_rect_of(made)
+    assert palette.canvas.viewport().rect().contains(rect.center().toPoint())
+
+
+def test_an_inserted_block_is_one_step_of_undo(palette):
+    before = len(types(palette))
+    click(palette, "control.wait")
+
+    palette.canvas.editor.history.undo()
+
+    assert len(types(palette)) == before
+
+
+def test_a_block_dragged_out_is_carried_and_lands_on_the_canvas(palette):
+    before = len(types(palette))
+
+    press_and_drag(palette, "control.wait", QPoint(450, 60))
+    is_carried = palette.canvas.sprite is not None and len(types(palette)) == before
+    drop(palette, QPoint(450, 60))
+
+    assert is_carried
+    assert types(palette)[-1] == "control.wait"
+    assert len(types(palette)) == before + 1
+
+
+def test_a_short_drag_is_a_click(palette):
+    viewport = palette.shelf.viewport()
+    place = grip(palette.shelf, number_of(palette, "control.wait"))
+    before = len(types(palette))
+
+    QTest.mousePress(viewport, LEFT, pos=place)
+    QTest.mouseMove(viewport, place + QPoint(3, 2))
+    QTest.mouseRelease(viewport, LEFT, pos=place + QPoint(3, 2))
+
+    assert len(types(palette)) == before + 1
+    assert palette.canvas.sprite is None
+
+
+def test_a_block_dragged_back_to_the_palette_is_let_go(palette):
+    before = len(types(palette))
+    viewport = palette.shelf.viewport()
+    press_and_drag(palette, "control.wait", QPoint(450, 60))
+
+    QTest.mouseMove(viewport, QPoint(60, 200))
+    QTest.mouseRelease(viewport, LEFT, pos=QPoint(60, 200))
+
+    assert len(types(palette)) == before
+    assert not palette.shelf._is_delete
+
+
+def test_blocks_dropped_on_the_palette_are_deleted_and_it_says_so(palette, qtbot):
+    canvas = palette.canvas
+    say = next(b.id for b in canvas.editor.project.blocks.values() if b.type == "robot.say")
+    place = canvas.view_rect_of(say).topLeft().toPoint() + QPoint(10, 24)
+    over = canvas.viewport().mapFromGlobal(palette.mapToGlobal(QPoint(200, 300)))
+
+    QTest.mousePress(canvas.viewport(), LEFT, pos=place)
+    QTest.mouseMove(canvas.viewport(), place + QPoint(20, 20))
+    QTest.mouseMove(canvas.viewport(), over)
+    was_shown = palette.shelf._is_delete
+    with qtbot.waitSignal(canvas.blocks_deleted):
+        QTest.mouseRelease(canvas.viewport(), LEFT, pos=over)
+
+    assert was_shown and not palette.shelf._is_delete
+    assert say not in canvas.editor.project.blocks
+
+
+def test_what_was_used_last_comes_first_and_is_remembered(palette, qtbot, settings):
+    click(palette, "control.wait")
+
+    qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
+    assert type_of(palette, 1) == "control.wait"
+    assert settings.recent_blocks[0] == "control.wait"
+
+
+def test_the_list_stays_where_it_is_when_something_is_used(palette, qtbot):
+    click(palette, "math.number")
+    before = palette.shelf.shown_drawer().id
+
+    qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
+
+    assert palette.shelf.shown_drawer().id == before
+
+
+def test_arrows_choose_a_block_and_enter_inserts_it(palette, qtbot):
+    palette.canvas.selection.clear()
+    palette.shelf.setFocus()
+    qtbot.keyClick(palette.shelf, Qt.Key.Key_Home)
+    first = type_of(palette, palette.shelf.current_item())
+
+    qtbot.keyClick(palette.shelf, Qt.Key.Key_Down)
+    second = type_of(palette, palette.shelf.current_item())
+    before = types(palette).count(second)
+    qtbot.keyClick(palette.shelf, Qt.Key.Key_Return)
+
+    assert first != second
+    assert types(palette).count(second) == before + 1
+
+
+def test_letters_typed_on_the_list_go_to_the_search(palette, qtbot):
+    palette.shelf.setFocus()
+
+    qtbot.keyClick(palette.shelf, Qt.Key.Key_W)
+
+    assert palette.search.text() == "w"
+    qtbot.waitUntil(palette.search.hasFocus)
+
+
+def test_arrows_go_from_the_search_to_the_list_and_back(palette, qtbot):
+    palette.search.setFocus()
+    qtbot.keyClick(palette.search, Qt.Key.Key_Down)
+    went = palette.shelf.hasFocus() and palette.shelf.current is not None
+
+    qtbot.keyClick(palette.shelf, Qt.Key.Key_Up)
+
+    assert went
+    assert palette.search.hasFocus()
+
+
+def test_a_screen_reader_finds_the_blocks_by_their_sentences(palette):
+    found = QAccessible.queryAccessibleInterface(palette.shelf)
+
+    names = [found.child(n).text(QAccessible.Text.Name) for n in range(found.childCount())]
+
+    assert found.role() == QAccessible.Role.List
+    assert "when the program starts" in names
+    assert "Category Robot" in names
+
+
+def test_the_tip_says_what_a_block_does_and_its_python(palette):
+    stock = palette.shelf._stock
+
+    words = tip(stock, stock.sample("control.wait"))
+
+    assert "The program waits here" in words
+    assert "sleep" in words or "wait" in words.split("<pre>")[1]
+
+
+def test_the_palette_becomes_a_narrow_column_of_signs(palette, qtbot):
+    with qtbot.waitSignal(palette.narrowed):
+        qtbot.mouseClick(palette.fold, LEFT)
+
+    assert palette.shelf.isHidden() and palette.search.isHidden()
+    assert palette.maximumWidth() < 120
+
+
+def test_a_category_of_the_narrow_palette_opens_it(palette, qtbot):
+    palette.set_narrow(True)
+
+    qtbot.mouseClick(palette.categories.buttons["math"], LEFT)
+
+    assert not palette.is_narrow
+    assert palette.shelf.shown_drawer().id == "math"
+
+
+def test_the_palette_takes_another_theme_and_direction(palette):
+    canvas = palette.canvas
+    canvas.set_look(load_theme("dark"), canvas.block_font, is_mirrored=True)
+
+    palette.refresh()
+
+    rect = palette.shelf.rect_of(number_of(palette, "event.started"))
+    assert rect.right() > palette.shelf.viewport().width() - 30
+    image = palette.shelf.viewport().grab().toImage()
+    assert image.pixelColor(2, 2) == load_theme("dark").colour("panel")
+
+
+def test_blocks_are_as_narrow_as_the_palette(palette):
+    palette.setFixedWidth(340)
+
+    palette.shelf.refresh()
+
+    width = palette.shelf.viewport().width()
+    wide = [
+        n for n in range(len(palette.shelf.entries)) if palette.shelf.rect_of(n).width() > width
+    ]
+    assert wide == []

@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.edits import DeleteBlocks, RenameProject
 from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.problems.live_checks import _sliced_check
 from nep_studio.ui.problems.slices import Cancelled, RestingMapping, SlicedCall
 
 
@@ -150,3 +151,18 @@ def test_what_a_work_raises_comes_out_of_its_result() -> None:
 
     with pytest.raises(ValueError, match="no"):
         call.result()
+
+
+def test_a_huge_program_is_checked_in_many_slices(karate: MainWindow) -> None:
+    editor = karate.files.document.editor
+    with editor.transaction("many"):
+        for number in range(400):
+            editor.create("control.wait", editor.new_stack("behaviour", 900, 60 * number))
+
+    check = _sliced_check(editor.project, editor.language, karate.files.document.folder)
+    slices = 1
+    while not check.run(0.0):
+        slices += 1
+
+    assert slices > 400
+    assert len(check.result()) >= 1

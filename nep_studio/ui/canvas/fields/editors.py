@@ -188,6 +188,9 @@ class FieldEditors(QObject):
             self.comments.close()
         elif event.type() == QEvent.Type.ToolTip:
             return self._tell_tip(cast(QHelpEvent, event))
+        elif event.type() == QEvent.Type.Hide:  # what is open would outlive the canvas
+            self.close()
+            self.comments.close()
         elif event.type() == QEvent.Type.Resize:
             self._follow()
         return False

@@ -74,6 +74,8 @@ class FieldPopup(QFrame):
         """Go away."""
         self._is_over = True
         self.hide()
+        # a popup that still waits to be deleted must not be taken along by its canvas
+        self.setParent(None, self.windowFlags())
         self.deleteLater()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

@@ -17,6 +17,7 @@ class Bubble(QLabel):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
+        self._view = parent
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setForegroundRole(QPalette.ColorRole.WindowText)
         self._fill = QColor()
@@ -41,7 +42,7 @@ class Bubble(QLabel):
         if text != self.text():
             self.setText(text)
             self._take_size()
-        room = self.parentWidget().rect()
+        room = self._view.rect()
         place = at + QPoint(OFFSET_PX, OFFSET_PX)
         if place.x() + self.width() > room.right():
             place.setX(at.x() - OFFSET_PX - self.width())

@@ -123,8 +123,10 @@ def _chain_at(view: PageView, place: Place) -> Chain | None:
     """The chain of a place, as it is laid out."""
     if isinstance(place, InStack):
         return view.page_layout.chains.get(place.stack)
-    owner = view.page_layout.placed(place.block) if isinstance(place, InBody) else None
-    mouths = owner.box.mouths if owner is not None and isinstance(place, InBody) else []
+    if not isinstance(place, InBody):
+        return None
+    owner = view.page_layout.placed(place.block)
+    mouths = owner.box.mouths if owner is not None else []
     return next((mouth for mouth in mouths if mouth.key == place.slot), None)
 
 
