@@ -23,7 +23,7 @@ from typing import Any
 
 from .definitions import Category, Definition
 from .language import Language
-from .sentence import Group, Part, SentenceError, Slot
+from .sentence import Group, Part, SentenceError, Slot, groups_of
 
 Table = Mapping[str, Any]
 
@@ -144,7 +144,9 @@ def _definition(
         parts = translated_parts(definition, sentence) if sentence else definition.parts
     except SentenceError:
         parts = definition.parts
-    return replace(definition, category=category, parts=parts)
+    groups = groups_of(parts)  # in the English order: that of the buttons below the block
+    known = {name: groups[name] for name in definition.groups}
+    return replace(definition, category=category, parts=parts, groups=known)
 
 
 def _category(category: Category, table: Table) -> Category:

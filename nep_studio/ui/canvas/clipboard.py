@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Iterable
 
 from PySide6.QtCore import QMimeData
@@ -29,6 +30,19 @@ def put_on_clipboard(editor: Editor, ids: Iterable[str]) -> None:
     except CodeRefused:
         data.setText(text)  # blocks that make no code yet can still be kept as text
     QGuiApplication.clipboard().setMimeData(data)
+    atexit.unregister(_keep_text_only)
+    atexit.register(_keep_text_only)
+
+
+def _keep_text_only() -> None:
+    """At the end of the program, leave a plain text on the clipboard.
+
+    WORKAROUND: PySide 6.11 crashes when data made in Python is on the clipboard after Python has
+    gone.
+    """
+    clipboard = QGuiApplication.clipboard() if QGuiApplication.instance() is not None else None
+    if clipboard is not None and clipboard.ownsClipboard():
+        clipboard.setText(clipboard.text())
 
 
 def clip_from_clipboard(editor: Editor) -> Clip:

@@ -44,9 +44,6 @@ HINTS = {
 }
 """What an empty place says of itself."""
 
-UNITS = {"angle": "°", "duration": " s"}
-"""What a number means, shown where the sentence does not say it behind the field."""
-
 MOST_LINES = 3
 """So many lines of a long text are shown in its field."""
 
@@ -85,6 +82,13 @@ def _said_units(parts: tuple[Part, ...]) -> frozenset[tuple[str, str]]:
         for slot, words in pairs
         if isinstance(slot, Slot) and isinstance(words, str) and words.strip()
     )
+
+
+def unit_of(kind: str) -> str:
+    """What a number means, shown where the sentence does not say it behind the field."""
+    if kind == "duration":
+        return " " + tr("s")  # seconds
+    return "°" if kind == "angle" else ""
 
 
 def says_unit(definition: Definition, slot_name: str, unit: str) -> bool:
@@ -142,8 +146,7 @@ def _text(
         return variable.name if variable is not None else ""
     if kind == "robot" and value == ALL_ROBOTS:
         return tr("all robots")
-    if kind in UNITS:
-        unit = tr(UNITS[kind])
+    if unit := unit_of(kind):
         is_said = says_unit(language.definitions[block.type], slot.name, unit)
         return f"{value}" if is_said else f"{value}{unit}"
     if kind == "file":

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.ui.canvas.fields.question import Question
 from nep_studio.ui.canvas.fields.reason import ReasonBubble
+from nep_studio.ui.screens import room_around
 from nep_studio.ui.theme import Theme
 
 
@@ -46,7 +47,7 @@ class Asking(QFrame):
     def show_at(self, place: QPoint) -> None:
         """Show at a place of the screen, inside the screen."""
         self.adjustSize()
-        room = self.screen().availableGeometry()
+        room = room_around(self.parentWidget())
         x = min(max(place.x(), room.left()), room.right() - self.width())
         y = min(max(place.y(), room.top()), room.bottom() - self.height())
         self.move(x, y)

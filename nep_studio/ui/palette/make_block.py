@@ -75,6 +75,9 @@ class PartRow(QWidget):
         row.addWidget(self.name, 1)
         row.addWidget(self.kind)
         row.addWidget(away)
+        for widget in (self.name, self.kind):
+            widget.ensurePolished()  # before that the style sheet's sizes do not count
+        self.setMinimumHeight(self.sizeHint().height())
 
     @property
     def part(self) -> str | Parameter:

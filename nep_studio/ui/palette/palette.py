@@ -27,6 +27,9 @@ from .shelf import Shelf
 from .snippet_menu import SnippetMenu
 from .stock import Stock
 
+WIDEST = 16_777_215
+"""What Qt takes for no limit."""
+
 
 class Palette(QWidget):
     """All blocks that belong on the page of a canvas.
@@ -48,6 +51,7 @@ class Palette(QWidget):
         self.settings = settings
         self.snippets = snippets or Snippets(settings.folder / "snippets")
         self.search = QLineEdit(self)
+        self._sign = QAction(self.search)
         self.fold = QToolButton(self)
         self.categories = CategoryColumn(self)
         self.shelf = Shelf(canvas, self)
@@ -69,12 +73,10 @@ class Palette(QWidget):
         self.setAccessibleName(tr("Palette"))
         self.search.setPlaceholderText(tr("Search blocks"))
         self.search.setAccessibleName(tr("Search blocks"))
-        for action in self.search.actions():
-            self.search.removeAction(action)
-        sign = QAction(icon("search", self.canvas.theme), "", self.search)
-        self.search.addAction(sign, QLineEdit.ActionPosition.LeadingPosition)
+        self._sign.setIcon(icon("search", self.canvas.theme))
         self._show_fold()
         self._listen()
+        self._drawers = []
         self.shelf.refresh()
         self.fill()
 
@@ -84,9 +86,11 @@ class Palette(QWidget):
         kind = editor.project.kind_of_page(self.canvas.page)
         recent = recent_types(self.settings, editor.language, kind)
         stock = Stock(editor)
-        self._drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
-        self.categories.show_drawers(self._drawers, self.canvas.theme)
-        self.categories.set_narrow(self.is_narrow)
+        drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
+        if drawers != self._drawers:
+            self._drawers = drawers
+            self.categories.show_drawers(drawers, self.canvas.theme)
+            self._fit()
         typed = self.search.text().strip()
         if typed:
             samples = [s for drawer in self._drawers for s in stock.offered(drawer.id)]
@@ -114,7 +118,7 @@ class Palette(QWidget):
         self.search.setVisible(not is_narrow)
         self.shelf.setVisible(not is_narrow)
         self.categories.set_narrow(is_narrow)
-        self.setMaximumWidth(self.categories.width() + 4 if is_narrow else 16777215)
+        self._fit()
         self._show_fold()
         self.narrowed.emit(is_narrow)
 
@@ -159,6 +163,7 @@ class Palette(QWidget):
     def _arrange(self) -> None:
         self.fold.setAutoRaise(True)
         self.search.setClearButtonEnabled(True)
+        self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
         top = QHBoxLayout()
         top.setContentsMargins(4, 4, 4, 2)
         top.addWidget(self.fold)
@@ -190,6 +195,10 @@ class Palette(QWidget):
 
     def _on_search_changed(self, text: str) -> None:
         self.fill(to_top=True)
+
+    def _fit(self) -> None:
+        """Be no wider than the signs while the palette is narrow."""
+        self.setMaximumWidth(self.categories.width() + 4 if self.is_narrow else WIDEST)
 
     def _show_fold(self) -> None:
         is_wide = not self.is_narrow

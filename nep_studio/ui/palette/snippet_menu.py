@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QMenu
 
 from nep_studio.blocks.operations.copying import copy
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.canvas.context_menu import MenuEntry, MenuPlace
+from nep_studio.ui.canvas.menu_entries import MenuEntry, MenuPlace
 from nep_studio.ui.snippets import ENDING, Snippet, file_stem, write_out
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr

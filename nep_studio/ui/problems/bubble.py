@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
 from nep_studio.blocks.checks import Problem
 from nep_studio.ui.messages import Message
 from nep_studio.ui.messages_card import MessageText
+from nep_studio.ui.screens import room_around
 from nep_studio.ui.words import tr
 
 from .looks import fix_button
@@ -42,7 +43,7 @@ class ProblemBubble(QFrame):
         width = self.width()
         height = max(self.layout().totalHeightForWidth(width), self.minimumSizeHint().height())
         self.resize(width, height)
-        room = self.screen().availableGeometry()
+        room = room_around(self.parentWidget())
         x = min(max(badge.left(), room.left()), room.right() - width)
         below, above = badge.bottom() + 6, badge.top() - height - 6
         self.move(QPoint(x, below if below + height <= room.bottom() else above))

@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QAction, QContextMenuEvent, QPointingDevice, QWheelEvent
+from PySide6.QtGui import (
+    QAction,
+    QContextMenuEvent,
+    QInputMethodEvent,
+    QPointingDevice,
+    QWheelEvent,
+)
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.editor import Editor
@@ -23,9 +29,14 @@ ALT = Qt.KeyboardModifier.AltModifier
 Key = Qt.Key
 
 
-def say(text: str, **inputs: B) -> B:
+def say(text: str) -> B:
     """A robot that says something."""
-    return B("robot.say", {"text": text}, inputs)
+    return B("robot.say", {"text": text})
+
+
+def say_block(inside: B) -> B:
+    """A robot that says what another block gives."""
+    return B("robot.say", {}, {"text": inside})
 
 
 def story() -> list[B]:
@@ -120,6 +131,18 @@ class Person:
         x, y = placed.x + piece.x + piece.width / 2, placed.y + piece.y + piece.height / 2
         return self.canvas.camera.to_view(x, y).toPoint()
 
+    def seen(self, colour: str, rect: QRectF) -> int:
+        """How many pixels of a part of the canvas have a colour of the theme."""
+        image = self.canvas.viewport().grab(rect.toAlignedRect()).toImage()
+        wanted = self.canvas.theme.colour(colour).rgb()
+        points = ((x, y) for x in range(image.width()) for y in range(image.height()))
+        return sum(image.pixel(x, y) == wanted for x, y in points)
+
+    def told(self) -> str:
+        """All words of the messages in the window."""
+        labels = self.window.message_area.findChildren(QLabel)
+        return "\n".join(label.text() for label in labels if label.isVisible())
+
     # What the hands do
 
     def press(self, at: QPoint, held=PLAIN, widget: QWidget | None = None) -> None:
@@ -162,7 +185,14 @@ class Person:
         QTest.keyClick(widget or self.canvas, key, held)
 
     def type(self, text: str, widget: QWidget | None = None) -> None:
-        QTest.keyClicks(widget or self.canvas, text)
+        """Type; letters that are on no key come from an input method."""
+        for letter in text:
+            if letter.isascii():
+                QTest.keyClicks(widget or self.canvas, letter)
+            else:
+                event = QInputMethodEvent()
+                event.setCommitString(letter)
+                QApplication.sendEvent(widget or self.canvas, event)
 
     def undo(self) -> bytes:
         """Press Ctrl+Z once; gives the program after that."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRect, Qt
-from PySide6.QtGui import QGuiApplication, QHideEvent, QKeyEvent
+from PySide6.QtGui import QHideEvent, QKeyEvent
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
 from nep_studio.blocks.values import FieldValue
+from nep_studio.ui.screens import room_around
 
 from .field_edit import Editing
 from .places import beside, view_rect_of
@@ -62,13 +63,11 @@ class FieldPopup(QFrame):
             return
         field = QRect(rect.toAlignedRect())
         field.moveTopLeft(canvas.viewport().mapToGlobal(field.topLeft()))
-        screen = canvas.screen() or QGuiApplication.primaryScreen()
         self.ensurePolished()
         self.column.activate()
         self.adjustSize()
         mirrored = canvas.measures.is_mirrored
-        room = screen.availableGeometry()
-        self.move(beside(field, self.size(), room, is_mirrored=mirrored))
+        self.move(beside(field, self.size(), room_around(canvas), is_mirrored=mirrored))
 
     def dispose(self) -> None:
         """Go away."""
