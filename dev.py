@@ -38,6 +38,8 @@ Each makes .venv beside this file when it is not there or out of date."""
 ROOT = Path(__file__).resolve().parent
 OLDEST, NEWEST = (3, 11), (3, 13)
 STORY = ["run", str(ROOT / "resources" / "examples" / "karate_greeting.nep")]
+EVERY_TEST = ["--numprocesses", str(min(os.cpu_count() or 1, 4)), "--dist", "worksteal"]
+"""All tests side by side: most of the stories' time is waiting for what robots and people do."""
 
 UNABLE = {
     "Windows": "On Windows dev.py installs no system software. If Qt does not start, install the"
@@ -120,7 +122,7 @@ def modules(arguments: list[str], *, is_shown: bool) -> dict[str, list[list[str]
     """
     return {
         "run": [["nep_studio", *(arguments or ([] if is_shown else STORY))]],
-        "test": [["pytest", *arguments]],
+        "test": [["pytest", *(arguments or EVERY_TEST)]],
         "lint": [["ruff", "format", "--check", "."], ["ruff", "check", "."], ["mypy"]],
         "bench": [["benchmarks", *arguments]],
         "setup": [],

@@ -70,8 +70,11 @@ class Stage:
         window.show()
         window.start(None)
         if example is not None:
+            checked: list[object] = []
+            window.workbench.checks.found.connect(checked.append)
             window.files.open_example(paths.examples() / f"{example}.nep")
-            until(lambda: window.files.document is not None)
+            until(lambda: window.files.document is not None and bool(checked))
+            until(lambda: window.workbench.code.live.code is not None)
         quiet()
         try:
             yield window

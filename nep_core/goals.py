@@ -39,7 +39,7 @@ class Goal:
     priority: Priority = "normal"
     stop: str = ""
     interrupted: Interrupted = "again"
-    hooks: dict[GoalEvent, Action] = field(default_factory=dict)
+    hooks: dict[GoalEvent, list[Action]] = field(default_factory=dict)
     returns: bool = False
 
 
@@ -54,10 +54,12 @@ class Goals:
         self._running: Goal | None = None
         self._task: Task | None = None
         self._cut: End = "finished"
+        self._has_ended = False
+        """Whether the running goal came to its end by itself, whatever cut it after that."""
         self._news = threading.Condition()
 
     def __bool__(self) -> bool:
-        return bool(self._goals)
+        return bool(self._goals or self._hooks)
 
     @property
     def is_busy(self) -> bool:
@@ -110,7 +112,7 @@ class Goals:
                     f"There is no goal with the name “{name}”.",
                     checklist=("Write the name as the goal's own block has it.",),
                 )
-            goals[name].hooks[event] = action
+            goals[name].hooks.setdefault(event, []).append(action)
 
     def _next(self, task: Task) -> Goal:
         """Wait for a goal, and make it the running one."""
@@ -121,6 +123,7 @@ class Goals:
             goal = max(self._waiting, key=lambda waiting: ORDER[waiting.priority])
             self._waiting.remove(goal)
             self._running, self._cut, self._task = goal, "finished", None
+            self._has_ended = False
             return goal
 
     def _pursue(self, goal: Goal, task: Task) -> None:
@@ -133,9 +136,10 @@ class Goals:
         self._tell("goal_started", goal.name)
         _wait_for(part.start(), task)
         with self._news:
-            end, self._task = self._cut, None
+            end: End = "finished" if self._has_ended else self._cut
+            self._task = None
         self._tell(TOLD[end], goal.name)
-        if action := goal.hooks.get(end):
+        for action in goal.hooks.get(end, ()):
             _wait_for(Part(action, f"nep-goal-{goal.name}-{end}", task).start(), task)
         self._release(goal, end)
 
@@ -143,14 +147,18 @@ class Goals:
         """Let go of a goal that has ended; one that returns waits before those of its priority."""
         with self._news:
             self._running = None
-            if end == "interrupted" and goal.interrupted == "again":
+            was_stopped = self._cut == "stopped"  # while its hooks ran
+            if end == "interrupted" and goal.interrupted == "again" and not was_stopped:
                 goal.returns = True
                 self._waiting.insert(0, goal)
 
     def _play(self, goal: Goal) -> None:
-        if goal.returns and (returning := goal.hooks.get("returns")):
-            returning()
+        if goal.returns:
+            for returning in goal.hooks.get("returns", ()):
+                returning()
         goal.action()
+        with self._news:
+            self._has_ended = True
 
     def _interrupt(self) -> None:
         running = self._running

@@ -162,7 +162,7 @@ def recover(folder: Path, language: Language) -> list[Recoverable]:
             continue
         try:
             work = _read(journal, language)
-        except (OSError, BlocksError, msgspec.MsgspecError) as error:
+        except (OSError, BlocksError, msgspec.MsgspecError, ValueError) as error:
             log.warning("The journal in %s cannot be read: %s", journal, error)
             work = None
         finally:
@@ -190,11 +190,14 @@ def _replay(project: Project, edits: Path) -> int:
     """Apply the steps of a file, up to the first that is not whole; gives how many were."""
     steps = 0
     for step in _steps(edits):
+        undo: list[Edit] = []
         try:
             for edit in step:
-                edit.apply(project)
-        except BlocksError as error:
+                undo.append(edit.apply(project))
+        except (BlocksError, LookupError) as error:
             log.warning("Step %d of %s does not fit: %s", steps + 1, edits, error)
+            for edit in reversed(undo):
+                edit.apply(project)
             break
         steps += 1
     return steps

@@ -41,7 +41,7 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
     """Check statements that stand in a function, or raise CodeTextRefused."""
     lines = _visible_lines(text)
     tree = _parse("\n".join(lines), "exec")
-    inside = frozenset(_inside_texts(tree))
+    inside = frozenset(lines_inside_texts(tree))
     opening = ["def _():", " while 1:"] if in_loop else ["def _():", " if 1:"]
     shifted = [
         line if n in inside or not line.strip() else f"  {line}" for n, line in enumerate(lines, 1)
@@ -118,7 +118,8 @@ def _visible_lines(text: str) -> list[str]:
     return lines
 
 
-def _inside_texts(tree: ast.AST) -> Iterator[int]:
+def lines_inside_texts(tree: ast.AST) -> Iterator[int]:
+    """The lines that begin inside a text of several lines."""
     for node in ast.walk(tree):
         is_text = isinstance(node, ast.JoinedStr) or (
             isinstance(node, ast.Constant) and isinstance(node.value, str | bytes)
@@ -143,11 +144,28 @@ def _names(tree: ast.AST) -> tuple[frozenset[str], frozenset[str]]:
     read: set[str] = set()
     made: set[str] = set()
     for node in ast.walk(tree):
+        made.update(_made_by(node))
         if isinstance(node, ast.Name):
             (read if isinstance(node.ctx, ast.Load) else made).add(node.id)
         if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name):
             read.add(node.target.id)
     return frozenset(read), frozenset(made)
+
+
+def _made_by(node: ast.AST) -> Iterator[str]:
+    """The names that a statement makes without writing them as ast.Name."""
+    match node:
+        case ast.Import(names=names) | ast.ImportFrom(names=names):
+            yield from ((alias.asname or alias.name).partition(".")[0] for alias in names)
+        case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):
+            yield name
+        case (
+            ast.ExceptHandler(name=str(name))
+            | ast.MatchAs(name=str(name))
+            | ast.MatchStar(name=str(name))
+            | ast.MatchMapping(rest=str(name))
+        ):
+            yield name
 
 
 def _told(error: SyntaxError) -> str:

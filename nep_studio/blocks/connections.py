@@ -55,6 +55,8 @@ def why_not_plugged(
         return None
     if not value.is_value:
         return "Only a block that gives a value goes into a slot."
+    if value.result in slot.kind.fits:
+        return None
     return why_not_fit(slot.kind, value.result, value.told)
 
 

@@ -95,6 +95,9 @@ class Definition:
 
     def slot(self, key: str, groups: Mapping[str, int]) -> Slot | None:
         """The slot with this key in a block with so many groups, or None."""
+        plain = self.slots.get(key)
+        if plain is not None:  # most keys have no number
+            return None if plain.group else plain
         name, number = split_slot(key)
         slot = self.slots.get(name)
         if slot is None:

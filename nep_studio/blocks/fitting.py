@@ -45,9 +45,12 @@ def why_not_stack(
 def _reasons(
     block: Block, definition: Definition, blocks: Mapping[str, Block], language: Language
 ) -> Iterator[str]:
-    if (reason := why_no_groups(block, definition)) is not None:
+    if block.groups and (reason := why_no_groups(block, definition)) is not None:
         yield reason
     for key, value in block.fields.items():
+        slot = definition.slot(key, block.groups)
+        if slot is not None and slot.why_not(value) is None:
+            continue
         if (reason := why_no_field(block, key, value, language)) is not None:
             yield f"“{key}”: {reason}"
     for key, plugged in block.inputs.items():

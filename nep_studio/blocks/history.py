@@ -75,10 +75,12 @@ class History:
     def transaction(self, label: str) -> Iterator[Step]:
         """Everything applied inside is one step; an exception takes all of it back.
 
-        A transaction inside another is part of the outer one.
+        A transaction inside another is part of the outer one; an exception takes back what was
+        applied inside it, so that the outer one may go on.
         """
         if self._open is not None:
-            yield self._open
+            with self._inner(self._open):
+                yield self._open
             return
         self._last_number += 1
         step = self._open = Step(label, number=self._last_number)
@@ -93,6 +95,17 @@ class History:
         finally:
             self._open = None
             self._tell()
+
+    @contextmanager
+    def _inner(self, step: Step) -> Iterator[None]:
+        edits, applied = len(step.edits), len(self._applied)
+        try:
+            yield
+        except BaseException:
+            while len(step.edits) > edits:
+                step.edits.pop().apply(self._project)
+            del self._applied[applied:]
+            raise
 
     def apply(self, edit: Edit, label: str = "") -> None:
         """Apply an edit, as a step of its own when no transaction is open."""
@@ -115,6 +128,8 @@ class History:
 
     def drop(self, to: int) -> None:
         """Take steps back until ``to`` are left, as if they had never been: Esc in a field."""
+        if self._open is not None:
+            raise RuntimeError("steps cannot be dropped inside a transaction")
         self.seal()
         while len(self._undo) > to:
             self._take_back(self._undo.pop())

@@ -11,7 +11,7 @@ from .sentence import Part, Slot
 from .slots import KINDS
 from .values import FieldValue, why_not_line, why_not_name
 
-OWN_CATEGORY = Category("my", "My blocks", "my_blocks", 11, "behaviour")
+OWN_CATEGORY = Category("my", "My blocks", "my_blocks", 50, "behaviour")
 """The category of own blocks; resources/blocks/my_blocks.toml has those of all projects."""
 
 DEFINE, CALL, PARAMETER, RETURN = "my.define.", "my.call.", "my.parameter.", "my.return"

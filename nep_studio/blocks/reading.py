@@ -154,24 +154,32 @@ def _read_block(project: Project, entry: dict[str, Any], language: Language) -> 
     if not isinstance(block_id, str) or not isinstance(block_type, str):
         raise Fault(f"block number {len(project.blocks) + 1} needs an id and a type.")
     _new_id(project, block_id, project.blocks)
-    if not _TYPE.fullmatch(block_type):
-        raise Fault("the block's type is not a name.", block_id)
     definition = language.definitions.get(block_type)
+    if definition is None and not _TYPE.fullmatch(block_type):
+        raise Fault("the block's type is not a name.", block_id)
     keys = _KNOWN_KEYS if definition is not None else _UNKNOWN_TYPE_KEYS
+    known = entry if entry.keys() <= keys else {k: entry[k] for k in keys & entry.keys()}
     try:
-        block = msgspec.convert({key: entry[key] for key in keys & entry.keys()}, Block)
+        block = msgspec.convert(known, Block)
     except msgspec.ValidationError as error:
         raise Fault(f"{in_words(error)}.", block_id) from error
-    reason = why_not_text(block.comment) or why_not_size(block.comment_width, block.comment_height)
-    if reason is not None:
-        raise Fault(f"its comment: {reason}", block_id)
-    block.extra = {key: value for key, value in entry.items() if key not in keys}
-    if is_deeper(block.extra, DEEPEST_EXTRA):
-        raise Fault("groups are nested too deep in it.", block_id)
-    block.bodies = {slot: chain for slot, chain in block.bodies.items() if chain}
-    if definition is not None:
+    if block.comment or block.comment_width or block.comment_height:
+        _require_comment(block)
+    if len(known) < len(entry):
+        block.extra = {key: value for key, value in entry.items() if key not in keys}
+        if is_deeper(block.extra, DEEPEST_EXTRA):
+            raise Fault("groups are nested too deep in it.", block_id)
+    if block.bodies:
+        block.bodies = {slot: chain for slot, chain in block.bodies.items() if chain}
+    if definition is not None and definition.minimum:
         block.groups = {**definition.minimum, **block.groups}
     project.blocks[block_id] = block
+
+
+def _require_comment(block: Block) -> None:
+    reason = why_not_text(block.comment) or why_not_size(block.comment_width, block.comment_height)
+    if reason is not None:
+        raise Fault(f"its comment: {reason}", block.id)
 
 
 def _new_id(project: Project, some_id: str, taken: Container[str]) -> None:

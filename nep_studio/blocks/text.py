@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .definitions import Definition
 from .language import Language
 from .program import ALL_ROBOTS, Block, Project
 from .sentence import Group, Part, Slot
@@ -34,11 +35,20 @@ def _sentence(project: Project, language: Language, block: Block, depth: int) ->
         key = f"{part.name}.{number}" if number else part.name
         if key in block.inputs:
             plugged = project.blocks[block.inputs[key]]
-            words.append(_sentence(project, language, plugged, depth + 1))
+            said = _sentence(project, language, plugged, depth + 1)
+            words.append(f"({said})" if _is_open(plugged, definition, language) else said)
         elif part.kind.name != "body":
             value = definition.value(block, key)
             words.append(field_text(project, language, block, part, value, key))
     return " ".join(word for word in words if word).replace(" ,", ",")
+
+
+def _is_open(plugged: Block, owner: Definition, language: Language) -> bool:
+    """Whether a value in another value could be read with what is beside it: (a + b) × c."""
+    inner = language.definitions.get(plugged.type)
+    if inner is None or not owner.is_value or len(inner.parts) < 2:
+        return False
+    return not isinstance(inner.parts[0], str) and not isinstance(inner.parts[-1], str)
 
 
 def _parts(parts: tuple[Part, ...], block: Block) -> Iterator[tuple[str | Slot, int]]:

@@ -15,6 +15,7 @@ FieldValue = str | int | float | bool | dict[str, Setting]
 LONGEST_TEXT = 10_000
 LONGEST_NAME = 100
 MOST_SETTINGS = 100
+_HALF = re.compile("[\ud800-\udfff]")
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -49,7 +50,7 @@ def why_not_text(value: object) -> str | None:
         return f"A text is needed here, not {_told(value)}."
     if len(value) > LONGEST_TEXT:
         return f"This text is too long: {len(value)} characters, {LONGEST_TEXT} at most."
-    if any("\ud800" <= character <= "\udfff" for character in value):
+    if _HALF.search(value):
         return "This text has half of a character in it (a lone surrogate), which no file can hold."
     return None
 

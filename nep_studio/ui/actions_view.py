@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu, QSizePolicy, QToolBar, QToolButton, QWidget
 
 from nep_studio.settings import SYSTEM
+from nep_studio.ui.actions_icons import icon_room
 from nep_studio.ui.theme import icon, load_theme, themes
 from nep_studio.ui.words import available_languages, tr
 
@@ -136,7 +137,7 @@ def add_toolbar(window: MainWindow) -> QToolBar:
 def size_toolbar(bar: QToolBar) -> None:
     """Let the icons be as large as the text asks for, with words where there is room for them."""
     side = round(bar.fontMetrics().height() * 1.25)
-    bar.setIconSize(QSize(side, side))
+    bar.setIconSize(icon_room(side))
     bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
     for name in ICON_ONLY:
         _button(bar, name).setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)

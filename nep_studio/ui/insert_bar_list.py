@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QFontInfo, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from nep_studio.blocks.operations.copying import Clip
@@ -20,6 +20,8 @@ from nep_studio.ui.palette.accessible_list import make_list_accessible, tell_cur
 from nep_studio.ui.words import tr
 
 SCALE = 0.85
+"""How large blocks are in the list beside those of the canvas at its usual size."""
+
 HIGHEST_ROW = 150.0
 """How much of a suggestion is shown, in units of the measures."""
 
@@ -46,6 +48,7 @@ class SuggestionList(QWidget):
         super().__init__(parent)
         self._canvas = canvas
         self.rows: list[Row] = []
+        self._scale = SCALE
         self.current = 0
         self.accessible: object = None
         self.setMouseTracking(True)
@@ -58,13 +61,15 @@ class SuggestionList(QWidget):
         self._painter = BlockPainter(
             self._canvas.theme, self._canvas.editor.language, measures, self._canvas.block_font
         )
+        size = QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.block_font).pixelSize()
+        self._scale = SCALE * size
         self.rows, self.current = [], 0
         y, gap = 4.0, measures.line * 0.35
         for clip, label in clips:
             layout = Layout(clip.project, self._canvas.editor.language, measures)
             row = Row(clip, label, layout.chain(clip.roots[0]), y)
-            whole = (row.chain.height + measures.notch_depth) * SCALE
-            row.height = min(whole, HIGHEST_ROW * measures.unit) + gap
+            whole = (row.chain.height + measures.notch_depth) * self._scale
+            row.height = min(whole, HIGHEST_ROW * measures.unit * size) + gap
             y += row.height
             self.rows.append(row)
         self.updateGeometry()
@@ -72,7 +77,7 @@ class SuggestionList(QWidget):
 
     def sizeHint(self) -> QSize:
         """As large as the blocks."""
-        widest = max((row.chain.width * SCALE for row in self.rows), default=200.0)
+        widest = max((row.chain.width * self._scale for row in self.rows), default=200.0)
         last = self.rows[-1] if self.rows else None
         return QSize(round(widest) + 24, round(last.y + last.height + 4) if last else 0)
 
@@ -98,8 +103,8 @@ class SuggestionList(QWidget):
                 painter.setClipRect(rect)
                 x = rect.right() - 12 if is_mirrored else 12.0
                 painter.translate(QPointF(x, row.y + 4))
-                painter.scale(SCALE, SCALE)
-                self._painter.paint(painter, boxes_of(row.chain, EVERYWHERE), SCALE)
+                painter.scale(self._scale, self._scale)
+                self._painter.paint(painter, boxes_of(row.chain, EVERYWHERE), self._scale)
                 painter.restore()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:

@@ -91,6 +91,7 @@ class MainWindow(QMainWindow):
         }
         self.toolbar: QToolBar = add_toolbar(self)
         self.workbench.problems_found.connect(self._on_problems_found)
+        self.workbench.canvas.picture_requested.connect(self.export_picture)
         self.workbench.canvas.layout_changed.connect(self.update_actions)
         self.workbench.canvas.selection.changed.connect(self.update_actions)
         self._on_problems_found([])
@@ -182,7 +183,10 @@ class MainWindow(QMainWindow):
         self.setWindowFilePath("" if document is None else str(document.path or ""))
 
     def _on_problems_found(self, problems: Sequence[Problem]) -> None:
-        is_open = self.files.document is not None
+        document = self.files.document
+        is_open = document is not None
+        if document is not None and not document.project.blocks:
+            problems = []  # that nothing happens yet is no news to somebody who begins
         check = self.actions_by_name["check"]
         worst = next(iter(problems), None)
         colour = "success" if worst is None else worst.severity

@@ -6,9 +6,10 @@ from PySide6.QtCore import QObject
 
 from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.empty_hint import EmptyHint
 from nep_studio.ui.find_bar import FindBar
 from nep_studio.ui.insert_bar import InsertBar
-from nep_studio.ui.minimap import Minimap
+from nep_studio.ui.minimap import MARGIN, Minimap
 from nep_studio.ui.palette.palette import Palette
 from nep_studio.ui.trash_panel import TrashButton
 
@@ -24,7 +25,9 @@ class CanvasHelpers(QObject):
         self.insert_bar = InsertBar(canvas, settings)
         self.minimap = Minimap(canvas)
         self.trash = TrashButton(canvas)
+        self.empty_hint = EmptyHint(canvas)
         self.find_bar.hide()
+        self._stack_corner()
         self.minimap.setVisible(self.is_minimap_shown)
 
     @property
@@ -40,5 +43,12 @@ class CanvasHelpers(QObject):
 
     def refresh(self) -> None:
         """Take the theme, the words and the project that the canvas has now."""
-        for helper in (self.palette, self.find_bar, self.insert_bar, self.minimap, self.trash):
+        helpers = (self.palette, self.find_bar, self.insert_bar, self.trash, self.empty_hint)
+        for helper in helpers:
             helper.refresh()
+        self._stack_corner()
+
+    def _stack_corner(self) -> None:
+        """The minimap is above the trash."""
+        self.minimap.below = self.trash.height() + MARGIN
+        self.minimap.refresh()

@@ -51,6 +51,10 @@ class Area(QTabWidget):
             self.setCornerWidget(self.close_button, Qt.Corner.TopRightCorner)
         self.hide()
 
+    def tabs_width(self) -> int:
+        """How wide it must be to show all its tabs."""
+        return self.tabBar().sizeHint().width() + self.close_button.sizeHint().width()
+
     def show_panel(self, widget: QWidget, is_shown: bool) -> None:
         """Show or hide a panel, and with the last one the area."""
         index = self.indexOf(widget)
@@ -116,8 +120,9 @@ class Panels(QObject):
         """Give the areas the sizes that they had, or good ones; ``line`` is a line of text."""
         if not self.row.restoreState(self._settings.state("row")):
             width = self.row.window().width()  # it may not have been shown yet
-            left = min(self.areas["left"].sizeHint().width(), width * 3 // 10)
-            right = min(line * 20, width // 4)
+            left = min(self.areas["left"].sizeHint().width(), width * 36 // 100)
+            right = max(min(line * 16, width * 21 // 100), self.areas["right"].tabs_width())
+            right = min(right, width * 30 // 100)
             self.row.setSizes([left, width - left - right, right])
         if not self.column.restoreState(self._settings.state("column")):
             height = self.row.window().height()

@@ -15,6 +15,7 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import apply_fix
 from nep_studio.blocks.program import Project
 from nep_studio.ui.app import Studio
+from nep_studio.ui.canvas.accessibility.installing import make_accessible
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.overlay import badge_rect
 from nep_studio.ui.code_pane.pane import CodePane
@@ -49,6 +50,7 @@ class Workbench(QWidget):
         self.canvas = Canvas(
             editor, studio.look.theme, font=block_font(studio), is_mirrored=is_right_to_left()
         )
+        make_accessible(self.canvas)
         self.pages_bar = PagesBar(editor, studio.look, self.canvas.attempt)
         self.code = CodePane(editor, studio.look)
         self.outline = Outline(self.canvas)
@@ -102,6 +104,7 @@ class Workbench(QWidget):
         editor = self._no_editor() if document is None else document.editor
         folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
         self._set_editor(editor)
+        self.canvas.fields.project_folder = folder() if document and document.path else None
         self.checks.follow(None if document is None else editor, folder)
 
     def retire(self) -> None:
@@ -126,13 +129,8 @@ class Workbench(QWidget):
 
     def _show_corner(self) -> None:
         """Look at the corner of the page where reading begins, at the usual size."""
-        canvas = self.canvas
         self.zoom_usual()
-        bounds = canvas.page_layout.bounds()
-        x, y = (bounds.x, bounds.y) if bounds is not None else (0.0, 0.0)
-        if bounds is not None and canvas.measures.is_mirrored:
-            x = bounds.right - (canvas.viewport().width() - 2 * MARGIN) / canvas.camera.scale
-        canvas.move_camera(x, y, margin=MARGIN)
+        self.canvas.show_beginning()
 
     # Blocks and problems
 
@@ -169,8 +167,10 @@ class Workbench(QWidget):
 
     def _on_problems_found(self, problems: list[Problem]) -> None:
         self.problems.show_problems(problems)
+        before = self.canvas.problems.problems
         self.canvas.problems.show(problems)
-        self.canvas.viewport().update()
+        if self.canvas.problems.problems != before:
+            self.canvas.viewport().update()
         self.problems_found.emit(problems)
 
     def _on_problem_opened(self, problem: Problem) -> None:

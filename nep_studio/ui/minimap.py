@@ -34,6 +34,8 @@ class Minimap(QWidget):
         self._scale = 1.0
         self._is_stale = True
         self._grip: QPointF | None = None
+        self.below = 0
+        """How much room is left free under it, in pixels."""
         self._later = QTimer(self, singleShot=True, interval=DRAW_MS)
         self._later.timeout.connect(self._on_rested)
         canvas.layout_changed.connect(self._on_layout_changed)
@@ -134,7 +136,8 @@ class Minimap(QWidget):
             painter.setPen(QPen(theme.colour("accent"), 2))
             painter.setBrush(shade)
             whole = QRectF(self.rect()).adjusted(1, 1, -1, -1)
-            painter.drawRoundedRect(self.view_frame().intersected(whole), 3, 3)
+            if self.canvas.page_layout.bounds() is not None:
+                painter.drawRoundedRect(self.view_frame().intersected(whole), 3, 3)
             painter.setPen(QPen(theme.colour("field_line"), 1))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4)
@@ -198,7 +201,7 @@ class Minimap(QWidget):
             self._is_stale = True
         is_mirrored = self.canvas.measures.is_mirrored
         x = view.left() + MARGIN if is_mirrored else view.right() - MARGIN - size.width()
-        self.move(x, view.bottom() - MARGIN - size.height())
+        self.move(x, view.bottom() - self.below - MARGIN - size.height())
 
     def _on_layout_changed(self) -> None:
         if self.isVisible() and not self._later.isActive():

@@ -185,15 +185,15 @@ class TrashButton(QAbstractButton):
         return super().eventFilter(watched, event)
 
     def _take_place(self) -> None:
-        """In the corner where reading begins: the minimap is in the other."""
+        """In the corner where lines end: blocks begin at the other side."""
         view = self.canvas.viewport().geometry()
         self.resize(self.sizeHint())
         is_mirrored = self.canvas.measures.is_mirrored
-        x = view.right() - MARGIN - self.width() if is_mirrored else view.left() + MARGIN
+        x = view.left() + MARGIN if is_mirrored else view.right() - MARGIN - self.width()
         self.move(x, view.bottom() - MARGIN - self.height())
         size = self.panel.sizeHint().boundedTo(view.size() - QSize(2 * MARGIN, 6 * MARGIN))
         self.panel.resize(size.expandedTo(QSize(160, 120)))
-        left = self.geometry().right() - self.panel.width() + 1 if is_mirrored else self.x()
+        left = self.x() if is_mirrored else self.geometry().right() - self.panel.width() + 1
         self.panel.move(QPoint(left, self.y() - MARGIN - self.panel.height()))
 
     def _on_clicked(self) -> None:

@@ -69,6 +69,23 @@ def test_groups_keep_their_names_and_what_is_in_them(english: Language) -> None:
         )
 
 
+def test_the_buttons_of_groups_say_the_translated_words(english: Language) -> None:
+    spanish = translated(
+        english,
+        {
+            "blocks": {
+                "control.if": "si {condition} {do} [otherwise: si no {otherwise_do}]"
+                " [also: o si {also_condition} {also_do}]"
+            }
+        },
+    )
+
+    groups = spanish.definitions["control.if"].groups
+
+    assert list(groups) == list(english.definitions["control.if"].groups)
+    assert [group.parts[0] for group in groups.values()] == ["o si", "si no"]
+
+
 def test_a_program_reads_in_the_other_language_and_makes_the_same_code(english) -> None:
     spanish = translated(
         english,

@@ -89,7 +89,7 @@ def test_a_note_is_a_comment_and_a_body_of_notes_passes(language):
     note = B("control.note", {"text": "to do: sing"})
 
     assert lines(language, B("control.repeat", bodies={"do": [note]})) == [
-        *("for _ in range(3):", "    pass", "    # to do: sing"),
+        *("for _ in range(3):", "    # to do: sing", "    pass"),
     ]
 
 

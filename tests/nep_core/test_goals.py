@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from nep_core import tasks
 from nep_core.p2p import PeerNetwork
 from nep_core.robot import Robot
+from nep_core.tasks import wait, wait_until
 from tests.nep_core.goal_playing import Join, Scene
 from tests.nep_core.robot_playing import PlayedRobot
 
@@ -179,3 +181,41 @@ def test_interrupting_a_goal_ends_what_the_robot_does_for_it(scene: Scene, join:
     tasks.wait_until(lambda: sum(action == "stop" for action, _ in nao.asked) >= 2)
     stopped = [args["request"] for action, args in nao.asked if action == "stop"]
     assert len(set(stopped)) == 2 and "" not in stopped
+
+
+def test_all_that_is_to_be_done_when_a_goal_ends_is_done(scene: Scene) -> None:
+    scene.goal("chat", 0.05)
+    for word in ("first", "second"):
+        scene.behavior.when_goal("chat", "finished")(lambda word=word: scene.diary.write(word))
+    scene.begin()
+
+    scene.does("chat")
+
+    entries = [scene.diary.next() for _ in range(4)]
+    assert entries == ["chat begins", "chat done", "first", "second"]
+
+
+def test_a_goal_that_is_stopped_while_what_follows_its_interruption_runs_does_not_return(
+    scene: Scene,
+) -> None:
+    stopped = threading.Event()
+
+    def on_interrupted() -> None:
+        scene.diary.write("interrupted")
+        wait_until(stopped.is_set, 5)
+        wait(0.2)
+
+    scene.goal("chat", priority="low", stop="enough")
+    scene.goal("danger", 0.05, priority="high")
+    scene.behavior.when_goal("chat", "interrupted")(on_interrupted)
+    scene.begin()
+    scene.does("chat")
+    assert scene.diary.next() == "chat begins"
+
+    scene.does("danger")
+    assert scene.diary.next() == "interrupted"
+    scene.does("enough")
+    stopped.set()
+
+    assert [scene.diary.next(), scene.diary.next()] == ["danger begins", "danger done"]
+    assert scene.diary.is_quiet()

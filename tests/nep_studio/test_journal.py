@@ -198,3 +198,31 @@ def test_a_full_disk_is_told_and_does_not_stop_the_work(tmp_path, editor, monkey
     assert "No space" in journal.error and "No space" in caplog.text
     assert len(editor.project.blocks) == 1
     journal.close()
+
+
+def test_a_step_that_fits_only_in_part_is_left_out_whole(tmp_path, editor, language):
+    journal = Journal(tmp_path, editor)
+    add_blocks(editor, 1)
+    with editor.transaction("two"):
+        block = add_blocks(editor, 1)[0]
+        editor.apply(SetField(block, "text", "hello"))
+    before_step = [b.id for b in editor.project.blocks.values()][:1]
+    abandon(journal)
+    (edits,) = journal.folder.glob("*.edits")
+    first, second = edits.read_bytes().splitlines()
+    broken = second.replace(b'"block":"' + block.encode(), b'"block":"b999')
+    assert broken != second
+    edits.write_bytes(first + b"\n" + broken + b"\n")
+
+    (work,) = recover(tmp_path, language)
+
+    assert list(work.project.blocks) == before_step
+
+
+def test_a_folder_that_is_no_journal_is_left_alone(tmp_path, language):
+    folder = tmp_path / "1-1"
+    folder.mkdir()
+    (folder / "about.json").write_text('{"name": "x", "path": "", "unsaved": true}')
+
+    assert recover(tmp_path, language) == []
+    assert folder.exists()

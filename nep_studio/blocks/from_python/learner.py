@@ -18,11 +18,14 @@ from ..sentence import Slot
 from ..values import FieldValue
 from .markers import VARIABLE_NAME, body_name, number_for, part_name, slot_name, word_for
 
-_WORDS = frozenset({"text", "line", "state", "gesture", "lines"})
+_WORDS = frozenset({"text", "line", "state", "gesture", "lines", "robot"})
 
 
 class Learner(Expressions):
-    """Makes Python with markers; ``asked`` are the choices that the generator looked at."""
+    """Makes Python with markers; ``asked`` are the choices that the generator looked at.
+
+    ``filled`` are the slots that it wrote as they are.
+    """
 
     def __init__(
         self,
@@ -34,6 +37,7 @@ class Learner(Expressions):
     ) -> None:
         super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS)
         self.asked: list[str] = []
+        self.filled: set[str] = set()
         self._fields_chosen = fields
         self._positions = {key: position for position, key in enumerate(keys)}
         self._typed = typed
@@ -54,6 +58,7 @@ class Learner(Expressions):
     def slot(self, block: Block, key: str) -> ast.expr:
         """A marker for a slot; the text slots of a value that is no text are markers too."""
         slot = self._slot(block, key)
+        self.filled.add(key)
         if key == self._plain:
             return constant(self.definition(block).defaults[slot.name])
         if key in self._typed:

@@ -17,7 +17,7 @@ from ..definitions import Definition
 from ..errors import CodeRefused
 from ..language import Language
 from ..procedures import procedure_of
-from ..program import split_slot
+from ..program import ALL_ROBOTS, split_slot
 from ..values import FieldValue
 from .learner import Learner
 from .markers import MARKS, position_of
@@ -104,14 +104,20 @@ def _learn(definitions: Sequence[Definition], language: Language) -> Learned:
     return found
 
 
-def _order(pattern: Pattern) -> tuple[int, int, int]:
+def _order(pattern: Pattern) -> tuple[bool, int, int, int]:
     """Patterns that say more come first, then those that take any number, not just 0 in “> 0”;
 
-    then those that take less: a gesture is a state too.
+    then those that take less: a gesture is a state too. Whatever robot tells of it: a state.
     """
+    is_anybody = ALL_ROBOTS in pattern.fields.values()
     slots = pattern.definition.slots.values()
     fixed = sum(_is_plain(node) for nodes in pattern.nodes for node in ast.walk(nodes))
-    return -pattern.size, fixed, sum(slot.kind.name in ("state", "text", "any") for slot in slots)
+    return (
+        is_anybody,
+        -pattern.size,
+        fixed,
+        sum(slot.kind.name in ("state", "text", "any") for slot in slots),
+    )
 
 
 def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
@@ -154,7 +160,13 @@ def _choices(
         list(language.choices_of(definition.slots[split_slot(key)[0]])) or [""] for key in asked
     ]
     ways = itertools.islice(itertools.product(*tables), MOST_PATTERNS)
-    return [dict(zip(asked, way, strict=True)) for way in ways]
+    made = [dict[str, FieldValue](zip(asked, way, strict=True)) for way in ways]
+    if definition.shape != "hat":
+        return made
+    slots = {key: definition.slots[split_slot(key)[0]] for key in keys}
+    robots = [k for k in keys if slots[k].kind.name == "robot" and k not in learner.filled]
+    anybody: dict[str, FieldValue] = dict.fromkeys(robots, ALL_ROBOTS)  # a hat then names none
+    return [*made, *({**way, **anybody} for way in made if anybody)]
 
 
 def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[frozenset[str], str]]:

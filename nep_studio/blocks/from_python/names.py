@@ -81,8 +81,11 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
             if text not in names.robots.values():
                 _add_robot(editor, text)
             names.robots[name] = text
-        case [ast.List()] if made == "Robot":
+        case [ast.List(elts=listed)] if made == "Robot":
             names.robots[name] = ALL_ROBOTS
+            for robot in listed:
+                if isinstance(robot, ast.Constant) and isinstance(robot.value, str):
+                    _add_robot(editor, robot.value)
         case _:
             raise CodeUnread(f"{made} needs a name in quotes here.", node.lineno)
 

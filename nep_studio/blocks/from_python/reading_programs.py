@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -32,19 +33,25 @@ class ReadRule:
     text: str
 
 
-def read_rules(editor: Editor, source: Source, as_code: Collection[str] = ()) -> list[ReadRule]:
+def read_rules(
+    editor: Editor, source: Source, as_code: Collection[str] = (), known: Collection[str] = ()
+) -> list[ReadRule]:
     """The functions of a program; robots, variables and own blocks that lack are made.
 
-    ``as_code`` names the functions whose statements become one code block.
+    ``as_code`` names the functions whose statements become one code block. A function whose text
+    is ``known`` is not read: its chain is empty. It may hold what blocks say but nobody can read.
     """
+    left = Counter(known)
     names = names_in(editor, source.tree)
     reader = StatementReader(editor.language, names, source)
     rules, after = [], 0
     for node in source.tree.body:
         if isinstance(node, ast.FunctionDef):
-            chain = reader.rule(node, after, as_code=node.name in as_code)
             first = source.first_line(node, after)
-            text = source.text(first, node.end_lineno or node.lineno)
+            text = source.text(first, source.last_line(node.body))
+            left.subtract([text])
+            is_known = left[text] >= 0
+            chain = [] if is_known else reader.rule(node, after, as_code=node.name in as_code)
             rules.append(ReadRule(node, chain, text))
         elif not _is_frame(node):
             raise CodeUnread(
@@ -97,7 +104,8 @@ def _loose(reader: StatementReader, nodes: list[ast.stmt]) -> list[Made]:
     if len(nodes) == 1 and isinstance(nodes[0], ast.Expr):
         value = nodes[0].value
         found = reader.values.blocks(value)
-        is_call = isinstance(value, ast.Call) and not found
+        code = reader.values.type_of("code_value")
+        is_call = isinstance(value, ast.Call) and (not found or found[0][0].type == code)
         if found and not is_call:
             return [found[0][0]]
         if isinstance(value, ast.Constant) and (made := _constant(reader, value)):

@@ -25,10 +25,18 @@ class StatementReader:
         self._source = source
         self._learned = learned(language)
 
-    def chain(self, nodes: Sequence[ast.stmt], after: int, until: int = 0) -> list[Made]:
+    def body(self, nodes: Sequence[ast.stmt]) -> list[Made]:
+        """The blocks of statements that are moved in, with the comments above and below them."""
+        before, last = self._source.line_before(nodes), self._source.last_line(nodes)
+        return self.chain(_without_pass(nodes), before, last, nodes[0].col_offset)
+
+    def chain(
+        self, nodes: Sequence[ast.stmt], after: int, until: int = 0, margin: int = 0
+    ) -> list[Made]:
         """The blocks of statements; comments from line ``after`` on belong to them.
 
-        ``until`` is the last line where a comment can belong to them, 0 for that of the last one.
+        ``until`` is the last line where a comment can belong to them, 0 for that of the last one;
+        it is so far in as ``margin``.
         """
         made: list[Made] = []
         code: list[ast.stmt] = []
@@ -46,7 +54,6 @@ class StatementReader:
             made.append(found[0])
             begin = end_of(used)
         begin = self._keep_code(made, code, begin)
-        margin = nodes[0].col_offset if nodes else 0
         said = self._source.comments_between(begin + 1, until, margin)
         note = self.values.type_of("note")
         if said and note:
@@ -61,7 +68,7 @@ class StatementReader:
         hat.text = self._source.text(first, node.lineno)
         if as_code:
             return [hat, self.code(_without_global(node.body), node.lineno)]
-        return [hat, *self.chain(_without_pass(node.body), node.lineno, self._last(node.body))]
+        return [hat, *self.body(node.body)]
 
     def code(self, nodes: Sequence[ast.stmt], after: int) -> Made:
         """A code block that keeps the text of statements."""
@@ -109,7 +116,7 @@ class StatementReader:
             made_from = self.values.made_from(pattern, found) if found is not None else None
             if made_from is not None and found is not None:
                 for key, body in found.bodies.items():
-                    made_from.bodies[key] = self.chain(_without_pass(body), 0, self._last(body))
+                    made_from.bodies[key] = self.body(body)
                 return made_from, count
         return None
 
@@ -129,13 +136,6 @@ class StatementReader:
 
     def _is_last(self, made: Made) -> bool:
         return self._language.definitions[made.type].is_last
-
-    def _last(self, body: Sequence[ast.stmt]) -> int:
-        """The last line of comments that stand below a body as far in as it does."""
-        line, margin = end_of(body), body[0].col_offset
-        while line + 1 in self._source.alone and self._source.margin(line + 1) >= margin:
-            line += 1
-        return line
 
 
 def _without_pass(body: Sequence[ast.stmt]) -> list[ast.stmt]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -54,14 +54,14 @@ def update_from_python(editor: Editor, text: str) -> None:
     while True:
         try:
             with editor.transaction("change the code"):
-                _update(editor, source, as_code, anew)
-                wrong = _functions_that_differ(editor, source)
+                functions = _update(editor, source, as_code, anew)
+                wrong = _functions_that_differ(editor, source, functions)
                 if wrong:
                     raise _Differs(wrong)
         except _Differs as differs:
             if differs.functions <= as_code:
                 raise CodeUnread(
-                    "This function cannot become blocks that say the same.",
+                    differs.sentence,
                     _line_of(source, min(differs.functions)),
                     checklist=("Write it in another way.", "Or undo the last change."),
                 ) from differs
@@ -77,16 +77,20 @@ def update_from_python(editor: Editor, text: str) -> None:
 class _Differs(Exception):
     """Functions that would not be made again from the blocks as they are in the text."""
 
-    def __init__(self, functions: set[str]) -> None:
+    def __init__(self, functions: set[str], sentence: str = "") -> None:
         super().__init__()
         self.functions = functions
+        self.sentence = sentence or "This function cannot become blocks that say the same."
 
 
-def _update(editor: Editor, source: Source, as_code: set[str], anew: bool) -> None:
-    """Change the stacks whose lines have changed; ``anew``, make those anew."""
+def _update(editor: Editor, source: Source, as_code: set[str], anew: bool) -> dict[str, str]:
+    """Change the stacks whose lines have changed; ``anew``, make those anew.
+
+    Gives the name of the function that each stack is to make.
+    """
     code = _code(editor)
     written = _written(editor.project, code)
-    rules = read_rules(editor, source, as_code)
+    rules = read_rules(editor, source, as_code, [] if anew else [w.text for w in written])
     left = {stack.stack: stack for stack in written}
     same = {id(rule): _take(left, lambda w, r=rule: w.text == r.text) for rule in rules}
     firsts = []
@@ -103,6 +107,9 @@ def _update(editor: Editor, source: Source, as_code: set[str], anew: bool) -> No
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
     _put_in_order(editor, firsts)
+    names = [rule.function.name for rule in rules]
+    stacks = [editor.project.stack_of(first).id for first in firsts]
+    return dict(zip(stacks, names, strict=True))
 
 
 def _change(editor: Editor, code: Code, rule: ReadRule, known: _Written | None, anew: bool) -> str:
@@ -181,11 +188,17 @@ def _function_name(line: str) -> str:
     return line[4:].partition("(")[0] if line.startswith("def ") else ""
 
 
-def _functions_that_differ(editor: Editor, source: Source) -> set[str]:
+def _functions_that_differ(
+    editor: Editor, source: Source, functions: Mapping[str, str]
+) -> set[str]:
     """The functions that the blocks would make in another way than the text has them."""
     try:
         made = ast.parse(generate_program(editor.project, editor.language).text)
     except CodeRefused as refused:
+        if refused.block in editor.project.blocks:
+            stack = editor.project.stack_of(refused.block).id
+            if stack in functions:
+                raise _Differs({functions[stack]}, refused.sentence) from refused
         raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
     again = [_plain(node) for node in made.body if isinstance(node, ast.FunctionDef)]
     return {

@@ -125,7 +125,7 @@ class ValueReader:
             is_unsaid = key in wanted.optional and key not in made.inputs
             if is_unsaid and made.fields.get(key) == definition.defaults[key]:
                 return None  # the block would not write it
-        return made
+        return made if self._choose_masters(made) else None
 
     def called(self, node: ast.Call) -> Iterator[Made]:
         """The blocks of a call, whether they give a value or not."""
@@ -155,7 +155,24 @@ class ValueReader:
             if found.variable not in self.names.variables:
                 return None
             made.fields["variable"] = self.names.variables[found.variable]
-        return made
+        return made if self._choose_masters(made) else None
+
+    def _choose_masters(self, made: Made) -> bool:
+        """Choose what a choice depends on where Python does not say it: the arm of a joint."""
+        definition, choices = self.language.definitions[made.type], self.language.choices
+        for key, value in list(made.fields.items()):
+            slot = definition.slots[split_slot(key)[0]]
+            if not slot.master or slot.master in made.fields:
+                continue
+            masters = list(choices.get(definition.slots[slot.master].table, ()))
+            tables = {master: choices.get(f"{slot.table}.{master}", {}) for master in masters}
+            fitting = [master for master in masters if value in tables[master]]
+            if not fitting and any(tables.values()):
+                return False
+            default = definition.defaults.get(slot.master)
+            if fitting:
+                made.fields[slot.master] = default if default in fitting else fitting[0]
+        return True
 
     def _blocks(self, node: ast.expr) -> Iterator[tuple[Made, str]]:
         definitions = self.language.definitions

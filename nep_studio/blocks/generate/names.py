@@ -46,7 +46,7 @@ RESERVED = frozenset(
         *(name for name in dir(builtins) if not name.startswith("_")),
         *("exit", "quit", "copyright", "credits", "license", "help"),
         *API,
-        *("behavior", "launcher"),
+        *("behavior", "launcher", "answer"),
         *MODULES,
     }
 )

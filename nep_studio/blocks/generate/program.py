@@ -126,8 +126,9 @@ class ProgramGenerator:
         variables = {v.id: table.give(v.name, "variable") for v in self._project.variables}
         procedures = {p: table.give(words(self._project.procedures[p]), "block") for p in headers}
         names = ProgramNames(robots, variables, procedures)
+        taken = names.taken()
         for p in headers:
-            local = NameTable(names.taken())
+            local = NameTable(taken)
             for parameter in parameters(self._project.procedures[p]):
                 names.parameters[f"{p}.{parameter.id}"] = local.give(parameter.name, "value")
         return names

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import chain as chain_of
 
 from ..code_text import CodeTextRefused, compile_quietly
 from ..errors import CodeRefused
@@ -51,7 +52,7 @@ class _Frame:
     ``opens`` marks the chain that is the whole body of a function.
     """
 
-    left: Iterator[Block] | Iterator[Piece]
+    left: Iterator[Block | Piece]
     block: str
     indent: int
     loops: int
@@ -173,7 +174,7 @@ class RuleWriter:
 
     def _enabled(
         self, chain: Sequence[str], owner: str, indent: int, loops: int
-    ) -> Iterator[Block]:
+    ) -> Iterator[Block | Piece]:
         """The blocks of a chain that are not disabled; where there are none, write ``pass``."""
         if loops > DEEPEST_LOOP or indent > DEEPEST_INDENT:
             raise CodeRefused(
@@ -185,7 +186,7 @@ class RuleWriter:
         project_blocks = self._code.project.blocks
         blocks = [project_blocks[i] for i in chain if not project_blocks[i].disabled]
         if all(self._is_silent(block) for block in blocks):
-            self._line(f"{_MARGINS[indent]}pass", owner)
+            return chain_of(blocks, ["pass"])
         return iter(blocks)
 
     def _is_silent(self, block: Block) -> bool:

@@ -71,8 +71,9 @@ def _procedure_for(
     if same is not None and not (brings_header and header_of(editor.project, same.id)):
         return same
     new = replace(procedure, id=editor.project.new_id("p"))
-    if same is not None:
-        new = _told_apart(new, {title(p) for p in there})
+    titles = {title(p) for p in there}
+    if title(new) in titles:
+        new = _told_apart(new, titles)
     editor.apply(AddProcedure(new, len(editor.project.procedures)))
     names.made.append(new.id)
     return new

@@ -15,21 +15,28 @@ Sizes = Mapping[str, tuple[float, float]]
 
 
 def tidy(
-    editor: Editor, page: str, sizes: Sizes, *, align: Literal["", "columns"] = ""
+    editor: Editor,
+    page: str,
+    sizes: Sizes,
+    *,
+    align: Literal["", "columns"] = "",
+    is_mirrored: bool = False,
 ) -> tuple[str, ...]:
     """Push overlapping stacks apart, or put all in columns; gives the stacks that moved.
 
-    No stack gets a place before one that was before it: the order of reading stays.
+    No stack gets a place before one that was before it: the order of reading stays. On a mirrored
+    page, where a stack's place is its right corner, everything goes from right to left.
     """
+    side = -1 if is_mirrored else 1
     boxes = {
-        stack.id: Box(stack.x, stack.y, *sizes.get(stack.id, (0.0, 0.0)))
+        stack.id: Box(side * stack.x, stack.y, *sizes.get(stack.id, (0.0, 0.0)))
         for stack in editor.project.pages[page]
     }
     placed = in_columns(boxes) if align == "columns" else apart(boxes)
     moved = tuple(stack for stack, box in placed.items() if box[:2] != boxes[stack][:2])
     with editor.transaction("tidy up"):
         for stack in moved:
-            editor.apply(MoveStack(stack, placed[stack].x, placed[stack].y))
+            editor.apply(MoveStack(stack, side * placed[stack].x, placed[stack].y))
     return moved
 
 

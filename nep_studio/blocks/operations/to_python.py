@@ -29,7 +29,8 @@ def python_of(project: Project, language: Language, ids: Iterable[str]) -> str:
         for stack in list(clip.pages["behaviour"])
     }
     code = generate_program(clip, language)
-    texts = [_lines(clip, code, stack, blocks) for stack, blocks in added.items()]
+    lines = code.text.splitlines()
+    texts = [_lines(clip, code, lines, stack, blocks) for stack, blocks in added.items()]
     return "\n\n".join(text for text in texts if text)
 
 
@@ -63,18 +64,13 @@ def _variable(clip: Project) -> str:
     return variable
 
 
-def _lines(clip: Project, code: Code, stack: str, added: set[str]) -> str:
+def _lines(clip: Project, code: Code, lines: list[str], stack: str, added: set[str]) -> str:
     """The lines of a stack, without those of the blocks that were added to it."""
-    inside = {block.id for block in clip.within(clip.stacks[stack].body)}
-    held = [line for line, block in _numbered(code) if block in added and len(added) == 2]
+    held = [line for block in added for line in code.lines_of(block) if len(added) == 2]
     if held:  # the last of them is “name = value”
-        return code.text.splitlines()[held[-1] - 1].partition(" = ")[2]
-    numbers = [line for line, block in _numbered(code) if block in inside - added]
+        return lines[max(held) - 1].partition(" = ")[2]
+    inside = (block.id for block in clip.within(clip.stacks[stack].body) if block.id not in added)
+    numbers = [line for block in inside for line in code.lines_of(block)]
     if not numbers:
         return ""
-    lines = code.text.splitlines()[numbers[0] - 1 : numbers[-1]]
-    return textwrap.dedent("\n".join(lines))
-
-
-def _numbered(code: Code) -> Iterable[tuple[int, str]]:
-    return enumerate(code.blocks, start=1)
+    return textwrap.dedent("\n".join(lines[min(numbers) - 1 : max(numbers)]))

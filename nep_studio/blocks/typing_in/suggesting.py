@@ -14,6 +14,7 @@ from ..program import Project
 from ..sentence import Slot
 from .filling import Filler, Filling, is_quoted, number_in
 from .labels import label_of, spans_in
+from .unspaced import spaced
 from .vocabulary import Entry, Vocabulary, vocabulary
 
 MOST_SUGGESTIONS = 12
@@ -62,6 +63,7 @@ def suggestions(
     typed = text.strip()
     if not typed:
         return _recent(language, project, fits, recents)[:limit]
+    typed = spaced(typed, vocabulary(language).by_word)
     filler = Filler(language, project)
     found = [*_sentences(typed, filler, fits, recents), *_values(typed, filler, fits)]
     found += _repeated(typed, filler, fits, recents)
@@ -135,8 +137,9 @@ def _attempt(
             is_in_run = True
             continue
         attempt.used.add(index)
-        attempt.matched.append(entry.words[index][0][: len(word)])
-        attempt.score += like[entry.words[index][0]] + (1.0 if index == last + 1 else 0.0)
+        said = entry.words[index][0]
+        attempt.matched.append(word if word in said else said[: len(word)])
+        attempt.score += like[said] + (1.0 if index == last + 1 else 0.0)
         last, after, is_in_run = index, entry.words[index][1], False
     for after, run in runs:
         if not _place_run(attempt, run, after, filler):

@@ -10,6 +10,7 @@ from ..definitions import Definition
 from ..language import Language
 from ..operations.finding import folded
 from ..sentence import Group, Part, Slot
+from .unspaced import is_unspaced
 
 EXACT, BEGUN, ALIKE, NEAR = 10.0, 7.0, 6.0, 3.0
 """How much a typed word counts that is a word, begins one, means one, or is nearly one."""
@@ -64,10 +65,11 @@ class Vocabulary:
     def words_like(self, typed: str) -> dict[str, float]:
         """The words that a typed word may stand for, each with how well it does."""
         found = {word: ALIKE for word in self.meanings.get(typed, ())}
+        is_glued = len(typed) > 1 and is_unspaced(typed)  # its words have no spaces between them
         for word in self.by_word:
             if word == typed:
                 found[word] = EXACT
-            elif word.startswith(typed):
+            elif word.startswith(typed) or (is_glued and typed in word):
                 found[word] = max(found.get(word, 0), BEGUN + 2 * len(typed) / len(word))
         if not found and len(typed) >= 4:
             found = {word: NEAR for word in self.by_word if is_near(typed, word)}
@@ -128,7 +130,9 @@ def _words(definition: Definition) -> list[tuple[str, int]]:
 
 def split_words(text: str) -> list[str]:
     """The words of a text without case, accents, and signs around them."""
-    return [word for word in (w.strip("“”\"'.,:;()?!") for w in folded(text).split()) if word]
+    return [
+        word for word in (w.strip("“”\"'.,:;()?!、。「」") for w in folded(text).split()) if word
+    ]
 
 
 def _texts(part: Part, definition: Definition) -> list[str]:

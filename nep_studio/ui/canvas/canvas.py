@@ -38,7 +38,7 @@ from .gestures.wheel import native_gesture, wheel
 from .keyboard.carrying import KeyboardCarry
 from .keyboard.keys import Keyboard
 from .menu_entries import Section
-from .note_editing import press_key
+from .note_editing import NoteEditor, press_key
 from .snapping import Point
 
 _FINGERS = {
@@ -47,6 +47,10 @@ _FINGERS = {
     QEvent.Type.TouchEnd,
     QEvent.Type.TouchCancel,
 }
+
+
+BUSY_MS = 50
+"""How long work that can wait is put off while something is dragged."""
 
 
 class Canvas(DropTarget):
@@ -81,6 +85,7 @@ class Canvas(DropTarget):
         parent: QWidget | None = None,
     ) -> None:
         self.gesture: Gesture | None = None
+        self.note_editor: NoteEditor | None = None
         super().__init__(editor, theme, font=font, is_mirrored=is_mirrored, parent=parent)
         self.pointing = Pointing(self)
         self.fields = FieldEditors(self)
@@ -95,9 +100,15 @@ class Canvas(DropTarget):
         self.menu: QMenu | None = None
         self.menu_sections: list[Section] = []
         self.menu_requested.connect(self._on_menu_requested)
-        self.page_changed.connect(self.cancel_gesture)
         self.viewport().setAttribute(Qt.WidgetAttribute.WA_AcceptTouchEvents)
         self.viewport().ungrabGesture(Qt.GestureType.PanGesture)  # two fingers are ours
+
+    def lay_out_more(self) -> None:
+        """Lay out more of a large page, but later when something is dragged: that comes first."""
+        is_busy = self.gesture is not None
+        self._rest.setInterval(BUSY_MS if is_busy else 0)
+        if not is_busy:
+            super().lay_out_more()
 
     # Changes
 
@@ -128,10 +139,30 @@ class Canvas(DropTarget):
 
     def set_look(self, theme: Theme, font: QFont, *, is_mirrored: bool) -> None:
         """Show the blocks with this theme, this font, and from this side."""
-        self.cancel_gesture()
+        is_made = hasattr(self, "bubble")  # not while the view itself is being made
+        if is_made:
+            self._leave_page()  # open editors have the old look
         super().set_look(theme, font, is_mirrored=is_mirrored)
-        if hasattr(self, "bubble"):  # not while the view itself is being made
+        if is_made:
             self.bubble.dress(theme)
+
+    def set_editor(self, editor: Editor) -> None:
+        """Show another project; what is under way in this one ends."""
+        self._leave_page()
+        super().set_editor(editor)
+
+    def show_page(self, page: str) -> None:
+        """Show another page, from its beginning; what is under way on this one ends."""
+        if page != self.page:
+            self._leave_page()
+        super().show_page(page)
+
+    def _leave_page(self) -> None:
+        self.cancel_gesture()  # while there is what it puts back
+        self.fields.close()
+        self.fields.comments.close()
+        if self.note_editor is not None:
+            self.note_editor.finish()
 
     def _on_changes(self, changes: Changes) -> None:
         self.cancel_gesture()  # what is carried may not be there any more
@@ -189,7 +220,7 @@ class Canvas(DropTarget):
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Cancel what is under way: its end would not be seen."""
-        self.pointing.is_space_down = False
+        self.pointing.is_space_down = self.keyboard.is_space_pressed = False
         self.cancel_gesture()
         super().focusOutEvent(event)
 
@@ -197,6 +228,8 @@ class Canvas(DropTarget):
 
     def event(self, event: QEvent) -> bool:
         """Keep all keys from the window's shortcuts while a gesture is under way."""
+        if event.type() == QEvent.Type.WindowBlocked:  # a dialog takes the mouse
+            self.cancel_gesture()
         if event.type() == QEvent.Type.ShortcutOverride and self.gesture is not None:
             event.accept()
             return True
@@ -213,9 +246,10 @@ class Canvas(DropTarget):
             super().keyPressEvent(event)
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:
-        """Remember that the space bar is up again."""
+        """Remember that the space bar is up again, and pick up if it was only pressed."""
         if event.key() == Qt.Key.Key_Space and not event.isAutoRepeat():
             self.pointing.is_space_down = False
+            self.keyboard.release_space()
         super().keyReleaseEvent(event)
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QPointF
 
@@ -57,7 +57,7 @@ class Commands:
         canvas, ids = self._canvas, self._canvas.selection.ids
         if not ids:
             return False
-        return self._make(lambda: duplicate(canvas.editor, ids, self._corners(ids)), tr("copied"))
+        return self._make(lambda: duplicate(canvas.editor, ids, canvas.corners(ids)), tr("copied"))
 
     def delete(self) -> bool:
         """Take the selected blocks away; those below move up."""
@@ -114,8 +114,10 @@ class Commands:
             stack: (canvas.page_layout.index.rect(stack).width, chain.height)
             for stack, chain in canvas.page_layout.chains.items()
         }
+        align: Literal["", "columns"] = "columns" if columns else ""
+        is_mirrored = canvas.measures.is_mirrored
         return canvas.attempt(
-            lambda: tidy(canvas.editor, canvas.page, sizes, align="columns" if columns else "")
+            lambda: tidy(canvas.editor, canvas.page, sizes, align=align, is_mirrored=is_mirrored)
         )
 
     def _make(self, change: Callable[[], Iterable[str]], told: str) -> bool:
@@ -138,15 +140,6 @@ class Commands:
         while layout.hit(x + side / 4, y + PASTE_STEP / 2) is not None and y < seen.bottom:
             x, y = x + side, y + PASTE_STEP
         return QPointF(x, y)
-
-    def _corners(self, ids: Iterable[str]) -> dict[str, tuple[float, float]]:
-        """Where blocks lie on the page, by their upper corner."""
-        corners = {}
-        for block in ids:
-            placed = self._canvas.page_layout.placed(block)
-            if placed is not None:
-                corners[block] = (placed.x, placed.y)
-        return corners
 
 
 def _neighbour(canvas: Canvas, ids: Iterable[str]) -> str:

@@ -181,14 +181,16 @@ class Layout:
     def _place_rows(self, box: Box, rows: list[Row], y: float) -> float:
         """Put rows into a statement from ``y`` on; gives their height."""
         measures, top = self.measures, y
+        closer = measures.row_pad if len(rows) > 1 else 0.0  # rows of one sentence belong together
+        y += closer / 2
         for row in rows:
             low = measures.button if all(_is_button(item) for item in row.items) else 0.0
             smallest = measures.row_height if not (row.items and low) else low + measures.gap
-            height = max(smallest, row.height + measures.row_pad * (1 if low else 2))
+            height = max(smallest, row.height + measures.row_pad * (1 if low else 2)) - closer
             place(row, measures.pad, y, height, measures.gap)
             _keep(box, row)
             y += height
-        return y - top
+        return y + closer / 2 - top
 
     def _fill_value(self, box: Box, sections: list[Section]) -> None:
         """A reporter: rows inside a rounded outline; bodies of an unknown block are not shown."""

@@ -12,6 +12,7 @@ from nep_studio.blocks.program import Note
 from nep_studio.ui.words import tr
 
 from .fields.comment_bubble import NoteText
+from .fields.focus import give_back_focus
 from .fields.places import editor_font
 from .gestures.gesture import Gesture, Pointer
 from .notes import SMALLEST_HEIGHT, SMALLEST_WIDTH
@@ -64,7 +65,8 @@ def edit_note(canvas: Canvas, note_id: str) -> NoteEditor | None:
     if note_id not in canvas.editor.project.notes:
         return None
     canvas.notes.select(note_id)
-    return NoteEditor(canvas, note_id)
+    canvas.note_editor = NoteEditor(canvas, note_id)
+    return canvas.note_editor
 
 
 class NotePress:
@@ -161,14 +163,15 @@ class NoteEditor(NoteText):
         if self._is_over:
             return
         self._is_over = True
+        self._canvas.note_editor = None
         for signal in (self._canvas.view_changed, self._canvas.layout_changed):
             signal.disconnect(self._follow)
         self._canvas.notes.edited = ""
         self._canvas.editor.history.seal()
         self._repaint()
+        give_back_focus(self._canvas, self)
         self.hide()
         self.deleteLater()
-        self._canvas.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """A press elsewhere ends the writing."""

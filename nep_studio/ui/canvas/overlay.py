@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 FEW = 4
 """Up to so many blocks it is faster to look for each than through all that can be seen."""
 
+MANY = 300
+"""Selected blocks in view from which on their outlines are not followed."""
+
 
 class Overlay(Protocol):
     """Something drawn over the page each time the view is painted, in canvas units."""
@@ -33,8 +36,7 @@ class SelectionOverlay:
     def paint(self, painter: QPainter, view: PageView) -> None:
         """Draw the lines, for the blocks in view."""
         pixel = 1.0 / view.camera.scale
-        for block_id in _selected_in_view(view):
-            ring(painter, view, block_id, view.theme.colour("focus"), 2.5 * pixel)
+        _rings(painter, view, _selected_in_view(view), view.theme.colour("focus"), 2.5 * pixel)
         cursor = view.selection.cursor
         if cursor and view.hasFocus():
             placed = view.page_layout.placed(cursor)
@@ -42,13 +44,31 @@ class SelectionOverlay:
                 _frame(painter, placed, view.theme.colour("focus"), pixel)
 
 
-def _selected_in_view(view: PageView) -> Iterable[str]:
+def _selected_in_view(view: PageView) -> list[Placed]:
     """The selected blocks to draw a line around: of many only those that can be seen."""
     selected, layout = view.selection, view.page_layout
     if len(selected) <= FEW:
-        return [block for block in selected.ids if block not in layout.layout.hidden]
+        shown = (
+            layout.placed(block) for block in selected.ids if block not in layout.layout.hidden
+        )
+        return [placed for placed in shown if placed is not None]
     seen = layout.boxes(view.visible_page_rect())
-    return [placed.box.block for placed in seen if placed.box.block in selected]
+    return [placed for placed in seen if placed.box.block in selected]
+
+
+def _rings(
+    painter: QPainter, view: PageView, blocks: list[Placed], colour: QColor, width: float
+) -> None:
+    """Lines around blocks; around very many, which are small then, plain rectangles."""
+    if len(blocks) <= MANY:
+        for placed in blocks:
+            _ring(painter, view, placed, colour, width)
+        return
+    painter.setPen(QPen(colour, width))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    painter.drawRects([QRectF(*placed.rect) for placed in blocks])
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
 
 class MarkOverlay:
@@ -102,8 +122,11 @@ def badge_rect(placed: Placed, view: PageView) -> QRectF:
 def ring(painter: QPainter, view: PageView, block_id: str, colour: QColor, width: float) -> None:
     """A line around a block."""
     placed = view.page_layout.placed(block_id)
-    if placed is None:
-        return
+    if placed is not None:
+        _ring(painter, view, placed, colour, width)
+
+
+def _ring(painter: QPainter, view: PageView, placed: Placed, colour: QColor, width: float) -> None:
     painter.setPen(QPen(colour, width))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.translate(placed.x, placed.y)

@@ -16,6 +16,9 @@ from .measures import Measures
 from .repairs import changed_rects
 from .stacks import Stacks
 
+MOST_STACKS_AT_ONCE = 12
+"""When a step changes more stacks, those out of view are laid out while nobody waits."""
+
 
 @dataclass(frozen=True, slots=True)
 class Placed:
@@ -70,6 +73,8 @@ class PageLayout:
             self.refresh_all()
             return [rect for rect in (old, self.bounds()) if rect is not None]
         self.layout.forget(changes.owners)
+        if len(changes.stacks) > MOST_STACKS_AT_ONCE:
+            return self._postpone(changes.stacks)
         return self._update(changes.stacks)
 
     def preview(self, hidden: frozenset[str], gap: Gap | None) -> list[Rect]:
@@ -92,6 +97,21 @@ class PageLayout:
             elif new is not None:
                 rects.append(self.index.rect(stack_id))
         return rects
+
+    def _postpone(self, stacks: set[str]) -> list[Rect]:
+        """Lay many changed stacks out when they are looked at; gives the place around them."""
+        here = self._order = self._new_order()
+        around: Rect | None = None
+        for stack_id in stacks:
+            rects = [self.index.rect(stack_id)] if stack_id in self.index else []
+            if stack_id in here:
+                self.chains.postpone(stack_id)
+                rects.append(self.index.rect(stack_id))
+            else:
+                self.chains.drop(stack_id)
+            for rect in rects:
+                around = rect.united(around) if around is not None else rect
+        return [around] if around is not None else []
 
     def _new_order(self) -> dict[str, int]:
         """The stacks of the page, each with its number: later ones lie over earlier ones."""
@@ -159,7 +179,7 @@ def boxes_of(chain: Chain, rect: Rect) -> Iterator[Placed]:
     while waiting:
         item, x, y = waiting.pop()
         if isinstance(item, Chain):
-            waiting += reversed(list(_touching(item, x, y, rect)))
+            waiting += reversed(list(boxes_touching(item, x, y, rect)))
             continue
         yield Placed(item, x, y)
         for mouth in reversed(item.mouths):
@@ -168,10 +188,10 @@ def boxes_of(chain: Chain, rect: Rect) -> Iterator[Placed]:
             waiting.append((plug.box, x + plug.x, y + plug.y))
 
 
-def _touching(
+def boxes_touching(
     chain: Chain, x: float, y: float, rect: Rect
-) -> Iterator[tuple[Chain | Box, float, float]]:
-    """The boxes of a chain that a rectangle touches by its height."""
+) -> Iterator[tuple[Box, float, float]]:
+    """The boxes of a chain at (x, y) that a rectangle touches by its height, with their corners."""
     if not chain.boxes or y > rect.bottom or y + chain.height < rect.y - 20:
         return
     first, last = chain.index_at(rect.y - 20 - y), chain.index_at(rect.bottom - y)

@@ -14,6 +14,9 @@ from .view import PageView
 MARGIN = 160.0
 """How far a page can be scrolled past its last block, in pixels."""
 
+BEGINNING_PX = 28.0
+"""How far from the view's corner a page begins that is shown anew."""
+
 
 class ScrollingView(PageView):
     """Moves the camera: by scroll bars, to a block, to the whole page."""
@@ -25,10 +28,9 @@ class ScrollingView(PageView):
         super().lay_out_more()
         self.update_scroll_bars()
 
-    def move_camera(self, x: float, y: float, *, margin: float = 0.0) -> None:
-        """Look at a place of the page with the view's corner, ``margin`` pixels inside it."""
-        self.camera.x = x - margin / self.camera.scale
-        self.camera.y = y - margin / self.camera.scale
+    def move_camera(self, x: float, y: float) -> None:
+        """Look at a place of the page with the view's corner."""
+        self.camera.x, self.camera.y = x, y
         self._camera_moved()
 
     def pan(self, dx: float, dy: float) -> None:
@@ -87,9 +89,15 @@ class ScrollingView(PageView):
         if page == self.page:
             return
         super().show_page(page)
-        bounds = self.page_layout.bounds()
-        corner = (bounds.x, bounds.y) if bounds is not None else (0.0, 0.0)
-        self.move_camera(*corner, margin=24.0)
+        self.show_beginning()
+
+    def show_beginning(self) -> None:
+        """Look at the corner of the page where reading begins."""
+        bounds = self.page_layout.bounds() or Rect(0.0, 0.0, 0.0, 0.0)
+        x, margin = bounds.x, BEGINNING_PX / self.camera.scale
+        if self.measures.is_mirrored:
+            x = bounds.right + 2 * margin - self.visible_page_rect().width
+        self.move_camera(x - margin, bounds.y - margin)
 
     def repaint_all(self) -> None:
         """Paint everything anew; the page may be larger now."""
@@ -104,9 +112,8 @@ class ScrollingView(PageView):
     def update_scroll_bars(self) -> None:
         """Let the scroll bars reach over the page, and say where the camera is."""
         scale, view = self.camera.scale, self.viewport().size()
-        bounds = self.page_layout.bounds() or Rect(0.0, 0.0, 0.0, 0.0)
-        seen = self.visible_page_rect()
-        whole = bounds.grown(MARGIN / scale).united(seen)
+        bounds, seen = self.page_layout.bounds(), self.visible_page_rect()
+        whole = seen if bounds is None else bounds.grown(MARGIN / scale).united(seen)
         self._is_scrolling = True
         _set(self.horizontalScrollBar(), whole.x, whole.width, seen.x, view.width(), scale)
         _set(self.verticalScrollBar(), whole.y, whole.height, seen.y, view.height(), scale)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil, floor
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
@@ -56,16 +57,23 @@ class Sprite:
         return rect.toAlignedRect().adjusted(-2, -2, 2, 2)
 
 
-def make_sprite(view: PageView, chains: list[Chain], bounds: Rect) -> Sprite:
-    """Paint chains, whose places are on the page, into a picture with a soft shadow."""
+def make_sprite(
+    view: PageView, chains: list[Chain], bounds: Rect, held: QPointF | None = None
+) -> Sprite:
+    """Paint chains, whose places are on the page, into a picture with a soft shadow.
+
+    ``held`` is the point of the page where a pointer holds them.
+    """
     scale, ratio = view.camera.scale, view.devicePixelRatioF()
+    if held is not None:
+        bounds = _reachable(view, bounds, held)
     margin = 6.0 * view.measures.unit
     longest = LARGEST_PIXELS / (scale * ratio)
     width = min(bounds.width + 2 * margin, longest)
     height = min(bounds.height + 2 * margin, longest)
     left = bounds.right + margin - width if view.measures.is_mirrored else bounds.x - margin
-    top = bounds.y - margin
-    pixmap = QPixmap(max(1, round(width * scale * ratio)), max(1, round(height * scale * ratio)))
+    left, top = _on_pixel(view, left, bounds.y - margin)
+    pixmap = QPixmap(max(1, ceil(width * scale * ratio)), max(1, ceil(height * scale * ratio)))
     pixmap.fill(Qt.GlobalColor.transparent)
     shown = Rect(left, top, width, height)
     with QPainter(pixmap) as painter:
@@ -76,6 +84,23 @@ def make_sprite(view: PageView, chains: list[Chain], bounds: Rect) -> Sprite:
             view.block_painter.paint(painter, boxes_of(chain, shown), scale)
     pixmap.setDevicePixelRatio(ratio)
     return Sprite(pixmap, width, height, scale, left, top)
+
+
+def _on_pixel(view: PageView, x: float, y: float) -> tuple[float, float]:
+    """The place of a whole pixel of the screen: the picture is then exactly that of the page."""
+    camera, step = view.camera, view.camera.scale * view.devicePixelRatioF()
+    return (
+        camera.x + floor((x - camera.x) * step) / step,
+        camera.y + floor((y - camera.y) * step) / step,
+    )
+
+
+def _reachable(view: PageView, bounds: Rect, held: QPointF) -> Rect:
+    """What can come into view while the pointer, which is in it, holds this point."""
+    seen = view.visible_page_rect()
+    x, y = held.x() - seen.width, held.y() - seen.height
+    near = Rect(x, y, 2 * seen.width, 2 * seen.height)
+    return bounds.intersected(near) if bounds.touches(near) else bounds
 
 
 def _paint_shadow(painter: QPainter, view: PageView, chains: list[Chain], shown: Rect) -> None:

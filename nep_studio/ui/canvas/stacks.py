@@ -17,11 +17,13 @@ MOST_AT_ONCE = 600
 class Stacks(Mapping[str, Chain]):
     """Chains by stack, and in ``index`` where they are.
 
-    Of a stack that is not laid out yet the index has a rectangle that is certainly large enough.
+    Of a stack that is not laid out yet the index has a rectangle that is large enough, but for
+    blocks very deep inside each other; ``outgrown`` are the places of those that were larger.
     """
 
     def __init__(self, layout: Layout) -> None:
         self.index = GridIndex()
+        self.outgrown: list[Rect] = []
         self._layout = layout
         self._chains: dict[str, Chain] = {}
         self._waiting: dict[str, None] = {}
@@ -37,8 +39,7 @@ class Stacks(Mapping[str, Chain]):
                 self.lay_out(stack)
             return
         for stack, count in counts.items():
-            self._waiting[stack] = None
-            self.index.set(stack, self._enough(stack, count))
+            self._wait(stack, count)
 
     def __getitem__(self, stack_id: str) -> Chain:
         if stack_id in self._waiting:
@@ -53,6 +54,16 @@ class Stacks(Mapping[str, Chain]):
 
     def __contains__(self, stack_id: object) -> bool:
         return stack_id in self._chains or stack_id in self._waiting
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether stacks wait to be laid out."""
+        return bool(self._waiting)
+
+    def postpone(self, stack_id: str) -> None:
+        """Lay a stack out anew when somebody next looks at it."""
+        self.drop(stack_id)
+        self._wait(stack_id, self._count(stack_id))
 
     def near(self, rect: Rect) -> list[str]:
         """The stacks that touch a rectangle, all of them laid out."""
@@ -70,6 +81,7 @@ class Stacks(Mapping[str, Chain]):
 
     def lay_out(self, stack_id: str) -> None:
         """Lay a stack out now; one whose blocks are all carried has no chain."""
+        assumed = self.index.rect(stack_id) if stack_id in self._waiting else None
         self.drop(stack_id)
         stack, chain = self._layout.project.stacks[stack_id], self._layout.stack(stack_id)
         if not chain.boxes:
@@ -78,7 +90,10 @@ class Stacks(Mapping[str, Chain]):
         self._chains[stack_id] = chain
         left = stack.x - (chain.width if chain.is_mirrored else 0.0)
         tab = self._layout.measures.notch_depth
-        self.index.set(stack_id, Rect(left, stack.y, chain.width, chain.height + tab))
+        rect = Rect(left, stack.y, chain.width, chain.height + tab)
+        self.index.set(stack_id, rect)
+        if assumed is not None and rect.united(assumed) != assumed:
+            self.outgrown.append(rect)
 
     def lay_out_some(self, seconds: float) -> bool:
         """Lay out stacks that wait, for so long; whether others wait still."""
@@ -92,8 +107,12 @@ class Stacks(Mapping[str, Chain]):
         with paused_garbage_collection():
             self.lay_out_some(float("inf"))
 
+    def _wait(self, stack_id: str, count: int) -> None:
+        self._waiting[stack_id] = None
+        self.index.set(stack_id, self._enough(stack_id, count))
+
     def _count(self, stack_id: str) -> int:
-        """How many blocks a stack has; a count that stops early where it would not matter."""
+        """How many blocks a stack has."""
         project = self._layout.project
         blocks, waiting = project.blocks, list(project.stacks[stack_id].body)
         count = 0

@@ -137,8 +137,11 @@ class PageView(QAbstractScrollArea):
 
     def lay_out_more(self) -> None:
         """Lay out, while nobody waits, some of the stacks of a large page that are out of view."""
-        if not self.page_layout.chains.lay_out_some(SLICE_S):
+        chains = self.page_layout.chains
+        if not chains.lay_out_some(SLICE_S):
             self._rest.stop()
+        outgrown, chains.outgrown = chains.outgrown, []
+        self.repaint_page(outgrown)
 
     def repaint_all(self) -> None:
         """Paint everything anew."""
@@ -216,6 +219,8 @@ class PageView(QAbstractScrollArea):
 
     def _on_changes(self, changes: Changes) -> None:
         self.repaint_page(self.page_layout.change(changes))
+        if self.page_layout.chains.is_waiting:
+            self._rest.start()
         self.repaint_page(self.notes.change(changes))
         self.selection.keep(i for i in self.selection.ids if i in self.editor.project.blocks)
         self.layout_changed.emit()

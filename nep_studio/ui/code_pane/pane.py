@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
+from PySide6.QtGui import QGuiApplication, QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
-    QLabel,
     QPushButton,
-    QSizePolicy,
     QVBoxLayout,
     QWidget,
 )
@@ -21,6 +19,7 @@ from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
 from nep_studio.blocks.from_python.made import CodeUnread
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.source_map import Code
+from nep_studio.ui.elided_label import ElidedLabel
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.messages_card import MessageText
 from nep_studio.ui.theme import Look, icon
@@ -46,10 +45,8 @@ class CodePane(QWidget):
         self.text = CodeText(look, self)
         self.note = QFrame()
         self.note.hide()
-        self.copy_button = QPushButton(tr("Copy"))
-        self.edit_button = QPushButton(tr("Edit"))
-        self.apply_button = QPushButton(tr("Apply"))
-        self.discard_button = QPushButton(tr("Discard"))
+        self.copy_button, self.edit_button = QPushButton(), QPushButton()
+        self.apply_button, self.discard_button = QPushButton(), QPushButton()
         self._lay_out()
         self._connect()
         self._on_theme_changed()
@@ -62,10 +59,10 @@ class CodePane(QWidget):
         self.buttons = QHBoxLayout()
         self.buttons.setContentsMargins(2 * gap, gap, gap, gap)
         self.buttons.setSpacing(gap)
-        self.title = QLabel()
+        self.title = ElidedLabel()
         self.title.setProperty("role", "hint")
-        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.buttons.addWidget(self.title, 1)
+        self.setMinimumWidth(9 * self.fontMetrics().height())  # its buttons can do without words
         for button in (self.copy_button, self.edit_button, self.discard_button, self.apply_button):
             self.buttons.addWidget(button)
         QVBoxLayout(self.note)
@@ -88,6 +85,11 @@ class CodePane(QWidget):
         self._look.theme_changed.connect(self._on_theme_changed)
 
     # What is shown
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the words on the buttons where there is room for them."""
+        super().resizeEvent(event)
+        self._name_buttons()
 
     def set_editor(self, editor: Editor) -> None:
         """Show the code of another project."""
@@ -228,8 +230,27 @@ class CodePane(QWidget):
         self.edit_button.setVisible(not self.is_editing and can_edit)
         self.apply_button.setVisible(self.is_editing)
         self.discard_button.setVisible(self.is_editing)
+        self._name_buttons()
         reading = tr("Made from the blocks") if can_edit else tr("Starts the robots and nodes")
-        self.title.setText(tr("You are changing the Python") if self.is_editing else reading)
+        self.title.set_words(tr("You are changing the Python") if self.is_editing else reading)
+
+    def _name_buttons(self) -> None:
+        """Give the buttons their words, or where these have no room, signs and tips alone."""
+        names = {
+            self.copy_button: tr("Copy"),
+            self.edit_button: tr("Edit"),
+            self.apply_button: tr("Apply"),
+            self.discard_button: tr("Discard"),
+        }
+        for button, words in names.items():
+            button.setText(words)
+            button.setAccessibleName(words)
+        shown = [button for button in names if not button.isHidden()]
+        wanted = sum(button.sizeHint().width() + self.buttons.spacing() for button in shown)
+        is_narrow = wanted + 3 * self.buttons.spacing() > self.width()
+        for button, words in names.items():
+            button.setText("" if is_narrow else words)
+            button.setToolTip(words if is_narrow else "")
 
     def _on_theme_changed(self) -> None:
         theme = self._look.theme

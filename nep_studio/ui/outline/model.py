@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 
 from nep_studio.blocks.editor import Editor
@@ -139,8 +141,7 @@ class OutlineModel(QAbstractItemModel):
 
     def _on_changes(self, changes: Changes) -> None:
         """Tell of new words, or begin anew when rows have come, gone or moved."""
-        known = {owner: list(rows) for owner, rows in self._rows.items()}
-        if not changes.whole and all(self._blocks_under(o) == ids for o, ids in known.items()):
+        if not changes.whole and all(map(self._is_up_to_date, self._changed_rows(changes))):
             for owner in changes.owners:
                 index = self.index_of(owner)
                 if index.isValid():  # an owner may be a stack
@@ -149,3 +150,17 @@ class OutlineModel(QAbstractItemModel):
         self.beginResetModel()
         self._rows.clear()
         self.endResetModel()
+
+    def _changed_rows(self, changes: Changes) -> Iterator[str]:
+        """Under which rows a step may have brought others: looking at all would cost at each key.
+
+        What is below the first block of a stack is under its row.
+        """
+        stacks = self._editor.project.stacks
+        for owner in changes.owners:
+            yield from stacks[owner].body[:1] if owner in stacks else [owner]
+        if any(owner not in self._editor.project.blocks for owner in changes.owners):
+            yield PAGE
+
+    def _is_up_to_date(self, owner: str) -> bool:
+        return owner not in self._rows or list(self._rows[owner]) == self._blocks_under(owner)

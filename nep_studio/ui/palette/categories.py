@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtGui import QIcon, QPainter, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QButtonGroup, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
 from nep_studio.ui.theme import Theme
@@ -13,6 +13,11 @@ from nep_studio.ui.words import tr
 
 from .entries import Drawer
 from .shelf_painter import paint_badge
+
+
+WORDS_SCALE = 0.9
+SIGN_LINES = 1.15
+"""How large the words are beside those of the window, and the signs in lines of text."""
 
 
 class CategoryColumn(QScrollArea):
@@ -24,6 +29,7 @@ class CategoryColumn(QScrollArea):
         super().__init__(parent)
         self.buttons: dict[str, QToolButton] = {}
         self._is_narrow = False
+        self._words_width = self.wide_width = 0
         self._group = QButtonGroup(self)
         self.setWidgetResizable(True)
         self.setFrameShape(QScrollArea.Shape.NoFrame)
@@ -46,6 +52,8 @@ class CategoryColumn(QScrollArea):
 
     def set_narrow(self, is_narrow: bool) -> None:
         """Show the signs without the names."""
+        if is_narrow == self._is_narrow:
+            return
         self._is_narrow = is_narrow
         for button in self.buttons.values():
             button.setToolButtonStyle(self._style())
@@ -65,9 +73,13 @@ class CategoryColumn(QScrollArea):
         button.setAccessibleName(drawer.title)
         button.setCheckable(True)
         button.setAutoRaise(True)
-        side = round(self.fontMetrics().height() * 1.35)
-        button.setIcon(_badge(drawer, theme, side, self.devicePixelRatioF()))
-        button.setIconSize(QSize(side, side))
+        font = button.font()
+        font.setPointSizeF(font.pointSizeF() * WORDS_SCALE)
+        button.setFont(font)
+        side = round(self.fontMetrics().height() * SIGN_LINES)
+        badge = _badge(drawer, theme, side, self.devicePixelRatioF())
+        button.setIcon(badge)
+        button.setIconSize(badge.actualSize(QSize(2 * side, side)))
         button.setToolButtonStyle(self._style())
         button.clicked.connect(lambda: self.opened.emit(drawer.id))
         self._group.addButton(button)
@@ -84,14 +96,31 @@ class CategoryColumn(QScrollArea):
         widest = max((b.sizeHint().width() for b in self.buttons.values()), default=40)
         for button in self.buttons.values():
             button.setMinimumWidth(widest)
-        self.setFixedWidth(widest + self.verticalScrollBar().sizeHint().width() + 4)
+        self._words_width = widest + 4
+        if not self._is_narrow:
+            self.wide_width = self._words_width
+        self._make_room()
+
+    def _make_room(self) -> None:
+        """Be as wide as the words, with a scroll bar only where one is needed."""
+        inner = self.widget()
+        is_long = inner is not None and inner.sizeHint().height() > self.viewport().height()
+        bar = self.verticalScrollBar().sizeHint().width() if is_long else 0
+        self.setFixedWidth(self._words_width + bar)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the scroll bar its room, or take it back."""
+        super().resizeEvent(event)
+        self._make_room()
 
 
 def _badge(drawer: Drawer, theme: Theme, side: int, ratio: float) -> QIcon:
-    pixmap = QPixmap(round(side * ratio), round(side * ratio))
+    """The sign with a little room around it, which sets it off from the word."""
+    gap = side / 6
+    pixmap = QPixmap(round((side + 2 * gap) * ratio), round(side * ratio))
     pixmap.setDevicePixelRatio(ratio)
     pixmap.fill(Qt.GlobalColor.transparent)
     with QPainter(pixmap) as painter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        paint_badge(painter, QRectF(1, 1, side - 2, side - 2), drawer, theme)
+        paint_badge(painter, QRectF(gap + 1, 1, side - 2, side - 2), drawer, theme)
     return QIcon(pixmap)

@@ -55,7 +55,7 @@ def drawers_of(editor: Editor, kind: str, *, has_recent: bool) -> list[Drawer]:
     drawers = [Drawer(RECENT, tr("Recently used"), "history")] if has_recent else []
     for category in editor.language.categories:
         if category.page == kind:
-            icon = category_icon_name(category.colour)
+            icon = category_icon_name(category.colour, category.id)
             drawers.append(Drawer(category.id, category.title, icon, category.colour))
     return [*drawers, Drawer(SNIPPETS, tr("My snippets"), "star")]
 

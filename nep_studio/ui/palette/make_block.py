@@ -79,6 +79,12 @@ class PartRow(QWidget):
             widget.ensurePolished()  # before that the style sheet's sizes do not count
         self.setMinimumHeight(self.sizeHint().height())
 
+    def show_part(self, part: str | Parameter) -> None:
+        """Take the words, or the name and kind, of a part that there is already."""
+        self.name.setText(part.name if isinstance(part, Parameter) else part)
+        if isinstance(part, Parameter):
+            self.kind.setCurrentIndex(self.kind.findData(part.kind))
+
     @property
     def part(self) -> str | Parameter:
         """What the row says."""
@@ -89,14 +95,21 @@ class PartRow(QWidget):
 
 
 class MakeBlockDialog(QDialog):
-    """Puts an own block together, and shows it as it will look."""
+    """Puts an own block together, or changes one, and shows it as it will look."""
 
-    def __init__(self, canvas: Canvas, make: MakeBlock, parent: QWidget) -> None:
+    def __init__(
+        self,
+        canvas: Canvas,
+        make: MakeBlock,
+        parent: QWidget,
+        procedure: Procedure | None = None,
+    ) -> None:
         super().__init__(parent)
         self.canvas = canvas
         self._make = make
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle(tr("Make a block"))
+        self._is_new = procedure is None
+        self.setWindowTitle(tr("Make a block") if self._is_new else tr("Change the block"))
         self.rows: list[PartRow] = []
         self.picture = BlockPicture(canvas, self)
         self.reason = ReasonBubble(canvas.theme, self)
@@ -104,7 +117,10 @@ class MakeBlockDialog(QDialog):
         self.gives_value.toggled.connect(self.update_preview)
         self._list = QVBoxLayout()
         self._arrange()
-        self.add_words()
+        if procedure is None:
+            self.add_words()
+        else:
+            self._fill(procedure)
         self.rows[0].name.setFocus()
 
     def add_words(self) -> PartRow:
@@ -143,6 +159,13 @@ class MakeBlockDialog(QDialog):
             return
         super().accept()
 
+    def _fill(self, procedure: Procedure) -> None:
+        self.gives_value.setChecked(procedure.gives_value)
+        for part in procedure.parts:
+            row = self._add(PartRow(self, part.id if isinstance(part, Parameter) else ""))
+            row.show_part(part)
+        self.update_preview()
+
     def _add(self, row: PartRow) -> PartRow:
         self.rows.append(row)
         self._list.addWidget(row)
@@ -164,7 +187,7 @@ class MakeBlockDialog(QDialog):
         adding.addStretch(1)
         standard = QDialogButtonBox.StandardButton
         buttons = QDialogButtonBox(standard.Ok | standard.Cancel)
-        buttons.button(standard.Ok).setText(tr("Make"))
+        buttons.button(standard.Ok).setText(tr("Make") if self._is_new else tr("Change"))
         buttons.button(standard.Cancel).setText(tr("Cancel"))
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)

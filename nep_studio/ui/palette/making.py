@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPoint
 
-from nep_studio.blocks.procedures import DEFINE
+from nep_studio.blocks.procedures import DEFINE, procedure_of
 from nep_studio.blocks.program import PAGES, Parameter
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.menu_entries import MenuEntry, MenuPlace
 from nep_studio.ui.insert_bar_places import free_place
 from nep_studio.ui.words import tr
 
@@ -28,6 +30,7 @@ class Making(QObject):
         self._palette = palette
         self.asking: Asking | None = None
         self.dialog: MakeBlockDialog | None = None
+        palette.canvas.menu_sections.append(self._section)
 
     def ask_for_variable(self) -> None:
         """Ask for the name of a new variable."""
@@ -48,6 +51,39 @@ class Making(QObject):
         canvas = self._palette.canvas
         self.dialog = MakeBlockDialog(canvas, self.make_block, self._palette)
         self.dialog.open()
+
+    def ask_to_change(self, procedure_id: str) -> None:
+        """Ask for other words and values of an own block; all that use it follow, in one step."""
+        canvas = self._palette.canvas
+
+        def change(parts: Sequence[str | Parameter], gives_value: bool) -> None:
+            canvas.editor.change_procedure(procedure_id, parts, gives_value=gives_value)
+
+        procedure = canvas.editor.project.procedures[procedure_id]
+        self.dialog = MakeBlockDialog(canvas, change, self._palette, procedure)
+        self.dialog.open()
+
+    def _section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+        """What the menu of an own block, of its header and its parameters offers besides."""
+        block_type = place.hit.placed.box.type if place.hit is not None else ""
+        procedure = procedure_of(block_type)
+        if procedure not in canvas.editor.project.procedures:
+            return []
+        ask = MenuEntry(
+            "change_block",
+            tr("Change this own block…"),
+            lambda: self.ask_to_change(procedure),
+            "pencil",
+        )
+        if not block_type.startswith(DEFINE):
+            return [ask]
+        delete = MenuEntry(
+            "delete_own_block",
+            tr("Delete this own block with its definition"),
+            lambda: canvas.attempt(lambda: canvas.editor.delete_procedure(procedure)),
+            "trash-2",
+        )
+        return [ask, delete]
 
     def make_block(self, parts: Sequence[str | Parameter], gives_value: bool) -> None:
         """Make an own block with its header, where one looks; raises EditRefused."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QAction, QKeyEvent
+from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from nep_studio.blocks.edits import CreateBlocks, Edit
@@ -29,6 +29,13 @@ from .stock import Stock
 
 WIDEST = 16_777_215
 """What Qt takes for no limit."""
+
+
+SHELF_LINES = 13.5
+"""How wide the list of blocks wants to be, in lines of text."""
+
+LEAST_SHELF_LINES = 8.5
+"""Where the list would be narrower, the categories leave their names away."""
 
 
 class Palette(QWidget):
@@ -117,7 +124,6 @@ class Palette(QWidget):
         self.is_narrow = is_narrow
         self.search.setVisible(not is_narrow)
         self.shelf.setVisible(not is_narrow)
-        self.categories.set_narrow(is_narrow)
         self._fit()
         self._show_fold()
         self.narrowed.emit(is_narrow)
@@ -125,8 +131,9 @@ class Palette(QWidget):
     def sizeHint(self) -> QSize:
         """Room for the categories and most blocks."""
         line = self.fontMetrics().height()
-        wide = 0 if self.is_narrow else 20 * line
-        return QSize(self.categories.width() + wide, 30 * line)
+        wide = 0 if self.is_narrow else round(SHELF_LINES * line)
+        column = self.categories
+        return QSize((column.width() if self.is_narrow else column.wide_width) + wide, 30 * line)
 
     # What it does
 
@@ -197,7 +204,9 @@ class Palette(QWidget):
         self.fill(to_top=True)
 
     def _fit(self) -> None:
-        """Be no wider than the signs while the palette is narrow."""
+        """Be no wider than the signs while the palette is narrow; give the list its room."""
+        least = self.categories.wide_width + LEAST_SHELF_LINES * self.fontMetrics().height()
+        self.categories.set_narrow(self.is_narrow or self.width() < least)
         self.setMaximumWidth(self.categories.width() + 4 if self.is_narrow else WIDEST)
 
     def _show_fold(self) -> None:
@@ -238,6 +247,11 @@ class Palette(QWidget):
 
     def _on_delete_area_entered(self, is_over: bool) -> None:
         self.shelf.set_delete(is_over and is_taking(self.canvas, self))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show the names of the categories where there is room for them."""
+        super().resizeEvent(event)
+        self._fit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """In the search box, Down goes to the list, Enter inserts the first, Esc clears."""

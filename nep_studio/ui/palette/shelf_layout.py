@@ -18,8 +18,8 @@ from nep_studio.ui.canvas.measures import Measures
 from .entries import Drawer, Entry
 from .stock import Stock
 
-SCALE = 0.9
-"""How large blocks are in the palette, in pixels for each canvas unit."""
+SCALE = 0.8
+"""How large blocks are in the palette beside those of the canvas at its usual size."""
 
 NARROWEST = 160.0
 HIGHEST_SNIPPET = 200.0
@@ -49,16 +49,19 @@ class Spot:
 
 
 class ShelfLayout:
-    """The spots of a list of entries, for one width of the palette."""
+    """The spots of a list of entries, for one width of the palette.
 
-    def __init__(self, canvas: Canvas, width: float) -> None:
+    ``size`` is how large the words of the palette are beside those of a canvas at scale 1.
+    """
+
+    def __init__(self, canvas: Canvas, width: float, size: float = 1.0) -> None:
         like = canvas.measures
-        self.width = width
+        self.width, self.size, self.scale = width, size, SCALE * size
         self.is_mirrored = like.is_mirrored
-        self.line = like.line
-        self.margin = like.line * 0.6
+        self.line = like.line * size
+        self.margin = self.line * 0.6
         self.measures = Measures(like.line, like.text_width, is_mirrored=like.is_mirrored)
-        room = (width - 2 * self.margin) / SCALE
+        room = (width - 2 * self.margin) / self.scale
         self.measures.widest = max(NARROWEST, room - 2 * self.measures.pad)
         self.highest_snippet = HIGHEST_SNIPPET * self.measures.unit
         self.spots: list[Spot] = []
@@ -134,7 +137,8 @@ class ShelfLayout:
         if entry.snippet is not None:
             return self._snippet(entry, y)
         if entry.kind == "words":
-            rows = self.measures.text_width(entry.text) / max(self.width - 2 * self.margin, 1) + 1
+            words = self.measures.text_width(entry.text) * self.size
+            rows = words / max(self.width - 2 * self.margin, 1) + 1
             return Spot(entry, y, line * 1.3 * int(rows + 0.5))
         return Spot(entry, y, line * (2.0 if entry.kind == "button" else 1.9))
 
@@ -153,7 +157,7 @@ class ShelfLayout:
 
     def _blocks(self, entry: Entry, y: float, chains: list[Chain]) -> Spot:
         chain = chains[0]
-        scale = SCALE
+        scale = self.scale
         if chain.width * scale > self.width - 2 * self.margin:
             scale = max(0.3, (self.width - 2 * self.margin) / chain.width)
         height = chain.height if entry.kind == "block" else min(chain.height, self.highest_snippet)

@@ -23,7 +23,8 @@ class ShelfPainter:
         self._theme: Theme = canvas.theme
         self._layout = layout
         self._font = QFont(canvas.block_font)
-        self._bold = QFont(canvas.block_font)
+        self._font.setPointSizeF(self._font.pointSizeF() * layout.size)
+        self._bold = QFont(self._font)
         self._bold.setBold(True)
         self._blocks = BlockPainter(
             canvas.theme, canvas.editor.language, layout.measures, canvas.block_font

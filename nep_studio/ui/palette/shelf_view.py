@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRect, QRectF, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QFontInfo, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractScrollArea, QWidget
 
 from nep_studio.ui.canvas.canvas import Canvas
@@ -113,7 +113,8 @@ class ShelfView(QAbstractScrollArea):
 
     def _lay_out(self) -> None:
         width = max(self.viewport().width(), 120)
-        self._layout = ShelfLayout(self._canvas, float(width))
+        size = QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.block_font).pixelSize()
+        self._layout = ShelfLayout(self._canvas, float(width), size)
         self._layout.fill(self._stock, self._entries)
         self._painter = ShelfPainter(self._canvas, self._layout)
         bar = self.verticalScrollBar()

@@ -22,6 +22,8 @@ PLAIN_WORDS = {
     "`int`": "a whole number",
     "`bool`": "true or false",
     "`null`": "nothing",
+    "`array`": "a list",
+    "`object`": "a group of values",
     "<=": "at most",
     ">=": "at least",
 }

@@ -9,11 +9,12 @@ import pytest
 from PySide6.QtCore import QPointF
 from PySide6.QtGui import QImage
 
-from nep_studio.blocks.edits import DeleteBlocks, MoveStack, SetField, SetFlag
 from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import DeleteBlocks, MoveStack, SetField, SetFlag
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.canvas.scrolling import ScrollingView
+from nep_studio.ui.canvas.sprite import make_sprite
 from nep_studio.ui.theme import load_theme
 from tests.blocks.block_building import B, build
 
@@ -121,3 +122,32 @@ def test_fitting_shows_every_block(view: ScrollingView) -> None:
     bounds, seen = view.page_layout.bounds(), view.visible_page_rect()
     assert seen.holds(bounds.x, bounds.y)
     assert seen.holds(bounds.right, bounds.bottom)
+
+
+@pytest.mark.parametrize("scale", [0.1, 0.4, 1.0, 4.0])
+def test_a_repaired_picture_is_right_at_this_zoom(view: ScrollingView, scale) -> None:
+    chance = random.Random(7)
+    view.zoom(scale, QPointF(60, 60))
+    view.sharpen.stop()
+    picture(view)
+
+    for _ in range(10):
+        random_step(view, chance)
+        repaired = picture(view)
+
+        assert is_same(repaired, painted_anew(view))
+
+
+@pytest.mark.parametrize("scale", [0.5, 1.0, 1.3])
+def test_a_sprite_is_drawn_exactly_over_the_blocks_that_it_shows(view, scale) -> None:
+    view.zoom(scale, QPointF(0, 0))
+    view.sharpen.stop()
+    stack, chain = next(iter(view.page_layout.chains.items()))
+    block = next(b.id for b in view.editor.project.blocks.values() if b.type == "robot.say")
+    placed = view.page_layout.placed(block)
+    inside = view.camera.view_rect(placed.rect).toAlignedRect().adjusted(3, 3, -3, -3)
+    before = view.viewport().grab(inside).toImage()
+
+    view.set_sprite(make_sprite(view, [chain], view.page_layout.index.rect(stack)))
+
+    assert is_same(view.viewport().grab(inside).toImage(), before)

@@ -66,10 +66,10 @@ def test_what_is_inside_a_block_is_inside_its_outline(language: Language, is_mir
 
     for box in insides(next(iter(layout.chains.values()))):
         for piece in box.pieces:
-            assert 0 <= piece.x and piece.x + piece.width <= box.width
-            assert 0 <= piece.y and piece.y + piece.height <= box.height
+            assert piece.x >= 0 and piece.x + piece.width <= box.width
+            assert piece.y >= 0 and piece.y + piece.height <= box.height
         for plug in box.plugs:
-            assert 0 <= plug.x and plug.x + plug.box.width <= box.width
+            assert plug.x >= 0 and plug.x + plug.box.width <= box.width
 
 
 def test_a_mirrored_page_has_the_same_blocks_left_and_right_exchanged(language) -> None:

@@ -20,9 +20,7 @@ from tests.ui.checklist.person import CTRL, Fingers, Key, Person
 
 
 @pytest.fixture
-def studio(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qapp: QApplication
-) -> Iterator[Studio]:
+def studio(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qapp: QApplication) -> Iterator[Studio]:
     """The program with settings of its own."""
     monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path / "home"))
     settings = Settings(tmp_path / "home")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import (
     QAction,
     QContextMenuEvent,
     QInputMethodEvent,
+    QPaintEvent,
     QPointingDevice,
     QWheelEvent,
 )
@@ -276,8 +277,17 @@ class Fingers:
         touch.commit()
 
 
+class PaintedPixels(QObject):
+    """Counts the pixels that a widget is asked to paint."""
+
+    count = 0
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if isinstance(event, QPaintEvent):
+            self.count += sum(rect.width() * rect.height() for rect in event.region())
+        return False
+
+
 def is_dragging(person: Person) -> bool:
     """Whether blocks are in the hand."""
     return person.canvas.sprite is not None and person.canvas.gesture is not None
-
-

@@ -109,7 +109,9 @@ def test_bump_loose_near_miss_blocks_away(person: Person) -> None:
 
     person.put(number, person.foot(person.body()[-1]) + QPoint(3, -6))
 
-    stack, loose = (person.canvas.page_layout.index.rect(s.id) for s in person.project.stacks.values())
+    stack, loose = (
+        person.canvas.page_layout.index.rect(s.id) for s in person.project.stacks.values()
+    )
     assert not stack.touches(loose)
     assert person.undo() == before
 
@@ -229,7 +231,9 @@ def test_touch_taps_drags_pinches_and_opens_menus(person: Person, fingers: Finge
     person.look_at_corner()
     place = person.grip(person.body()[1])
     fingers.to(place)
-    person.qtbot.waitUntil(lambda: person.canvas.menu is not None and person.canvas.menu.isVisible())
+    person.qtbot.waitUntil(
+        lambda: person.canvas.menu is not None and person.canvas.menu.isVisible()
+    )
     fingers.up(place)
     assert person.file == before
     person.canvas.menu.close()

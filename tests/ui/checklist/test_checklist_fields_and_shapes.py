@@ -106,7 +106,8 @@ def test_fields_text_number_choice_checkbox_words_and_variable(person: Person) -
 
 def test_fields_lines_angle_colour_slider_date_file_and_dependent_choice(person: Person) -> None:
     """Fields: multiline, angle, colour, slider, file path, date, column picker."""
-    person.editor.use_language(kinds_language())
+    person.window.studio.language = kinds_language()
+    person.window.studio.words_changed.emit()
     kinds = ("lines", "angle", "colour", "slider", "date", "file")
     joint = B("robot_moves.move_joint", {"part": "left_arm"})
     person.make([*(B(f"kinds.{kind}") for kind in kinds), joint])
@@ -219,7 +220,7 @@ def test_items_are_added_removed_and_reordered_in_place(person: Person) -> None:
     [
         ("math.number", "round"),
         ("logic.compare", "hexagon"),
-        ("list.create", "square"),
+        ("list.create", "bracket"),
         ("robot.say", "statement"),
         ("event.started", "hat"),
         ("control.stop_program", "cap"),
@@ -236,5 +237,5 @@ def test_shapes_say_what_fits(person: Person, block_type: str, outline: str) -> 
         return next(piece for piece in placed.box.pieces if piece.piece == "socket")
 
     assert layout.placed(block).box.outline == outline
-    assert (socket(check).shape, socket(length).shape) == ("hexagon", "square")
+    assert (socket(check).shape, socket(length).shape) == ("hexagon", "bracket")
     assert socket(check).hint and socket(length).hint

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, Qt
 from PySide6.QtTest import QAbstractItemModelTester
 
+from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import DeleteBlocks, MoveBlocks, SetField
-from nep_studio.blocks.places import InStack
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.places import InBody, InStack
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.outline.model import OutlineModel
@@ -61,7 +65,7 @@ def block_of(canvas: Canvas, text: str) -> str:
 def test_the_outline_has_a_row_for_each_block_that_is_not_plugged_in(outline: Outline) -> None:
     rows = tree(outline.model())
 
-    assert [name for name, _ in rows][0] == "when the program starts"
+    assert next(name for name, _ in rows) == "when the program starts"
     assert len(rows) == 2
     repeat, after = rows[0][1]
     assert repeat[0] == "repeat 1 + 2 times"
@@ -107,6 +111,43 @@ def test_another_page_has_other_rows(outline: Outline, canvas: Canvas) -> None:
     canvas.show_page("robots")
 
     assert outline.model().rowCount() == 0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_after_any_steps_the_rows_are_those_of_an_outline_made_anew(qtbot, seed) -> None:
+    editor, chance = program(), random.Random(seed)
+    model = OutlineModel(editor, load_theme("light"))
+    tree(model)
+
+    for _ in range(40):
+        random_step(editor, chance)
+        fresh = OutlineModel(editor, load_theme("light"))
+
+        assert tree(model) == tree(fresh)
+        fresh.close()
+
+
+def random_step(editor: Editor, chance: random.Random) -> None:
+    project = editor.project
+    block = chance.choice(list(project.blocks))
+    stack = chance.choice(list(project.stacks.values()))
+    repeats = [b.id for b in project.blocks.values() if b.type == "control.repeat"]
+    places = [InStack(stack.id, chance.randrange(3)), editor.new_stack("behaviour", 0, 0)]
+    places += [InBody(repeat, "do", chance.randrange(2)) for repeat in repeats]
+    try:
+        match chance.randrange(4):
+            case 0:
+                editor.apply(MoveBlocks(block, 1, chance.choice(places)))
+            case 1:
+                editor.create("robot.say", chance.choice(places))
+            case 2 if len(project.blocks) > 4:
+                editor.apply(DeleteBlocks(block, 1))
+            case _:
+                editor.history.undo()
+                if not project.blocks:
+                    editor.history.redo()
+    except EditRefused:
+        pass
 
 
 def test_qt_finds_no_fault_in_the_model_while_the_program_changes(qtbot) -> None:

@@ -72,6 +72,13 @@ def test_the_japanese_font_has_every_character_of_our_table(fonts: Fonts) -> Non
     assert not missing, "run resources/fonts/make_fonts.py as its README.md says"
 
 
+def test_a_line_with_kanji_is_as_high_as_one_without(fonts: Fonts) -> None:
+    latin = QRawFont(str(FOLDER / "AtkinsonHyperlegibleNext-Regular.ttf"), 12)
+    japanese = QRawFont(str(JAPANESE), 12)
+
+    assert (japanese.ascent(), japanese.descent()) == (latin.ascent(), latin.descent())
+
+
 def test_each_font_has_its_licence_beside_it() -> None:
     licences = [path.read_text(encoding="utf-8") for path in FOLDER.glob("LICENSE-*.txt")]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol, cast
 
 from PySide6.QtCore import QEvent, QObject
 from PySide6.QtGui import QHelpEvent
-from PySide6.QtWidgets import QToolTip
+from PySide6.QtWidgets import QToolTip, QWidget
 
 from nep_studio.ui.words import tr
 
@@ -19,6 +19,7 @@ from .comments import Comments
 from .date_popup import DatePopup
 from .field_edit import Editing, FieldEdit, ParameterEdit
 from .file_popup import FilePopup
+from .focus import give_back_focus
 from .line_editor import LineEditor
 from .lines_editor import LinesEditor
 from .naming_popups import RobotPopup, VariablePopup
@@ -218,11 +219,11 @@ class FieldEditors(QObject):
         self.canvas.attempt(closing.edit.end)
         if not restore and closing.edit.slot.kind.name == "colour":
             self._remember(str(closing.edit.value))
+        give_back_focus(self.canvas, cast(QWidget, closing))
         closing.dispose()
         rect = page_rect_of(self.canvas, closing.edit.block, closing.edit.key)
         if rect is not None:
             self.canvas.update_page(rect.grown(4.0))
-        self.canvas.setFocus()
 
     def _remember(self, colour: str) -> None:
         recent = [c for c in self.recent_colours if c != colour]

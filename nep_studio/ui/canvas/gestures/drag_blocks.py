@@ -37,7 +37,7 @@ class DragBlocks:
         self._reasons: dict[tuple[object, str], str | None] = {}
         self._run = _selected_run(canvas, cargo)
         self._last = Pointer(canvas.camera.to_view(grabbed.x(), grabbed.y()), grabbed)
-        canvas.set_sprite(make_sprite(canvas, cargo.chains, cargo.bounds))
+        canvas.set_sprite(make_sprite(canvas, cargo.chains, cargo.bounds, grabbed))
         assert canvas.sprite is not None
         self._corner = canvas.sprite.x, canvas.sprite.y
         canvas.set_preview(cargo.hidden, None)

@@ -96,11 +96,11 @@ def _lies_on_blocks(canvas: Canvas, chain: Chain, dx: float, dy: float) -> bool:
 
 def _bumped(canvas: Canvas, bounds: Rect, dx: float, dy: float) -> Point:
     """The way, changed so that the blocks lie clear of all stacks."""
-    index = canvas.page_layout.index
+    layout = canvas.page_layout
     box = PageBox(bounds.x + dx, bounds.y + dy, bounds.width, bounds.height)
     while True:  # each round goes right or down past the stacks that are near, and never back
-        near = index.near(Rect(*box).grown(GAP))
-        clear = bumped(box, {stack: PageBox(*index.rect(stack)) for stack in near})
+        near = layout.near(Rect(*box).grown(GAP))  # laid out: where they wait they seem larger
+        clear = bumped(box, {stack: PageBox(*layout.index.rect(stack)) for stack in near})
         if clear is None:
             return box.x - bounds.x, box.y - bounds.y
         box = box._replace(x=clear[0], y=clear[1])

@@ -31,7 +31,7 @@ class Pointing:
     def press(self, event: QMouseEvent) -> None:
         """A mouse button went down."""
         canvas = self._canvas
-        self.was_cancelled_by_right = False
+        self.was_cancelled_by_right = canvas.keyboard.is_space_pressed = False
         if isinstance(canvas.gesture, KeyboardCarry):  # the mouse begins something of its own
             canvas.cancel_gesture()
         if canvas.gesture is not None:

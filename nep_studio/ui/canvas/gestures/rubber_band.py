@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPen
 
-from nep_studio.blocks.operations.selection import is_inside
-
 from ..index import Rect
-from ..page import Placed
+from ..page import boxes_touching
 from .auto_scroll import AutoScroll
 from .gesture import Pointer
 
@@ -75,19 +72,19 @@ def touched_blocks(canvas: Canvas, rect: Rect) -> list[str]:
 
     Only the first row counts, so that blocks in the mouth of a C block can be had without it.
     """
-    touched: dict[str, None] = {}
-    for placed in _heads(canvas, rect):
-        if not is_inside(canvas.editor.project, placed.box.block, touched):
-            touched[placed.box.block] = None
-    return list(touched)
-
-
-def _heads(canvas: Canvas, rect: Rect) -> Iterator[Placed]:
-    parents = canvas.editor.project.parents
-    for placed in canvas.page_layout.boxes(rect):
-        box = placed.box
-        is_plugged = box.outline not in ("statement", "hat", "cap")
-        if is_plugged and parents[box.block].slot:
-            continue
-        if Rect(placed.x, placed.y, box.width, box.segments[0]).touches(rect):
-            yield placed
+    layout = canvas.page_layout
+    touched: list[str] = []
+    waiting = [
+        (layout.chains[s], layout.chains[s].x, layout.chains[s].y) for s in layout.near(rect)
+    ]
+    waiting.reverse()
+    while waiting:
+        chain, x, y = waiting.pop()
+        inner = []
+        for box, left, top in boxes_touching(chain, x, y, rect):
+            if Rect(left, top, box.width, box.segments[0]).touches(rect):
+                touched.append(box.block)
+            else:
+                inner += [(mouth, left + mouth.x, top + mouth.y) for mouth in box.mouths]
+        waiting += reversed(inner)
+    return touched

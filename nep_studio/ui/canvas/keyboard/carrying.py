@@ -37,7 +37,9 @@ class KeyboardCarry:
         canvas.overlays.append(self._overlay)
         origin = place_of(canvas.editor.project, first, 1) if first else None
         canvas.set_preview(cargo.hidden, None)
-        canvas.set_sprite(make_sprite(canvas, cargo.chains, cargo.bounds))
+        sprite = make_sprite(canvas, cargo.chains, cargo.bounds)
+        canvas.set_sprite(sprite)
+        self._inset = sprite.x - cargo.bounds.x, sprite.y - cargo.bounds.y
         self._targets = self._reading_order(canvas)
         self._index = self._index_of(origin)
         canvas.announced.emit(
@@ -64,7 +66,7 @@ class KeyboardCarry:
         canvas.set_preview(self._cargo.hidden, None)
         self._overlay.show(canvas, None)
         bounds = self._cargo.bounds
-        canvas.move_sprite(bounds.x + self._dx, bounds.y + self._dy)
+        self._move_sprite(canvas, bounds.x + self._dx, bounds.y + self._dy)
         canvas.announced.emit(tr("by itself on the page"))
 
     def drop(self, canvas: Canvas) -> None:
@@ -119,9 +121,13 @@ class KeyboardCarry:
                 elif not joint.is_head and ends.top is not None:
                     found.append(Target(joint.place, "below", joint.x, joint.y))
         order = {stack: n for n, stack in enumerate(reading_order(canvas))}
-        project = canvas.editor.project
-        found.sort(key=lambda t: (order[_stack_of(project, t.place)], t.y, t.x))
+        project, side = canvas.editor.project, -1 if canvas.measures.is_mirrored else 1
+        found.sort(key=lambda t: (order[_stack_of(project, t.place)], t.y, side * t.x))
         return found
+
+    def _move_sprite(self, canvas: Canvas, x: float, y: float) -> None:
+        """Show the corner of the blocks there; their picture has a margin."""
+        canvas.move_sprite(x + self._inset[0], y + self._inset[1])
 
     def _index_of(self, origin: Place | None) -> int:
         places = [target.place for target in self._targets]
@@ -141,7 +147,8 @@ class KeyboardCarry:
         canvas.show_rect(Rect(target.x, target.y, min(rect.width, 300.0), 80.0))
         unit = canvas.measures.unit
         left = target.x - rect.width if canvas.measures.is_mirrored else target.x
-        canvas.move_sprite(left + 12 * unit, target.y + 4 * unit)
+        side = -1 if canvas.measures.is_mirrored else 1
+        self._move_sprite(canvas, left + side * 12 * unit, target.y + 4 * unit)
         canvas.announced.emit(self._told(canvas, target))
 
     def _told(self, canvas: Canvas, target: Target | None) -> str:
@@ -167,8 +174,8 @@ class KeyboardCarry:
 def reading_order(canvas: Canvas) -> list[str]:
     """The stacks of the page from top to bottom; beside each other, as the language is read."""
     side = -1 if canvas.measures.is_mirrored else 1
-    chains = canvas.page_layout.chains
-    return sorted(chains, key=lambda stack: (chains[stack].y, side * chains[stack].x))
+    stacks = canvas.editor.project.pages.get(canvas.page, [])
+    return [stack.id for stack in sorted(stacks, key=lambda stack: (stack.y, side * stack.x))]
 
 
 def _stack_of(project: Project, place: Place) -> str:

@@ -33,12 +33,16 @@ class Keyboard:
     def __init__(self, canvas: Canvas) -> None:
         self._canvas = canvas
         self.walk = Walk(canvas)
+        self.is_space_pressed = False
+        """Whether the space bar is down and has only been pressed: the mouse pans with it too."""
         self.type_letter: Callable[[str], None] = lambda letter: None
         self._rules = self._resting_rules()
         self._carrying_rules = self._rules_while_carrying()
 
     def press(self, event: QKeyEvent) -> bool:
         """Do what a key means; False when it means nothing here."""
+        if event.isAutoRepeat() and event.key() == Key.Key_Space:
+            return True  # held down, it would pick up and put down in turns
         held = event.modifiers()
         press = (
             Key(event.key()),
@@ -64,6 +68,15 @@ class Keyboard:
         if cursor in canvas.editor.project.blocks and canvas.gesture is None:
             canvas.gesture = KeyboardCarry(canvas, lift(canvas, cursor, alone=alone), cursor)
 
+    def release_space(self) -> None:
+        """Pick up, unless something else was done while the space bar was down."""
+        if self.is_space_pressed:
+            self.is_space_pressed = False
+            self.pick_up()
+
+    def _press_space(self) -> None:
+        self.is_space_pressed = True
+
     def _resting_rules(self) -> dict[Press, Rule]:
         canvas, plain = self._canvas, (False, False, False)
         walk = self.walk
@@ -80,8 +93,9 @@ class Keyboard:
             (Key.Key_End, *plain): lambda: walk.go_to_end(-1),
             (Key.Key_Home, False, True, False): lambda: walk.go_to_stack(0),
             (Key.Key_End, False, True, False): lambda: walk.go_to_stack(-1),
-            (Key.Key_Space, *plain): self.pick_up,
+            (Key.Key_Space, *plain): self._press_space,
             (Key.Key_Space, False, True, False): lambda: self.pick_up(alone=True),
+            (Key.Key_Space, True, True, False): lambda: self.pick_up(alone=True),
             (Key.Key_Space, True, False, False): self._toggle,
             (Key.Key_Return, *plain): self._edit,
             (Key.Key_Enter, *plain): self._edit,

@@ -1,0 +1,107 @@
+"""Comments, texts of several lines and refused lines of edited Python: nothing gets lost."""
+
+from __future__ import annotations
+
+import textwrap
+
+import pytest
+from block_building import B, build
+
+from nep_studio.blocks.from_python.made import CodeUnread
+from nep_studio.blocks.from_python.updating import update_from_python
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.writing import to_bytes
+
+
+def updated(language, body: str):
+    """A program whose only rule has got this body."""
+    editor = build(language, [B("event.started"), B("control.wait")], variables=("x",))
+    text = generate_program(editor.project, language).text
+    update_from_python(editor, text.replace("    wait(1)", textwrap.indent(body, "    ")))
+    return editor
+
+
+def body_of(editor) -> str:
+    text = generate_program(editor.project, editor.language).text
+    body = text.partition("def when_started():\n")[2].partition("\n\n\nbehavior.run()")[0]
+    return textwrap.dedent(body)
+
+
+@pytest.mark.parametrize(
+    ("written", "made"),
+    [
+        ("# later\npass", "# later\npass"),
+        ("pass\n# later", "# later\npass"),
+        ("wait(1)\n\n\n# the end", "wait(1)\n# the end"),
+        ("# above\n\nwait(1)", "# above\nwait(1)"),
+        ("if True:\n    # nothing\n    pass", "if True:\n    # nothing\n    pass"),
+        ("if True:\n    wait(1)\n\n    # end", "if True:\n    wait(1)\n    # end"),
+    ],
+)
+def test_a_comment_stays_wherever_it_stands(language, written, made):
+    editor = updated(language, written)
+
+    assert body_of(editor) == made
+
+
+def test_a_comment_at_the_top_of_the_text_is_in_no_body(language):
+    editor = build(language, [B("event.started"), B("control.wait")])
+    text = generate_program(editor.project, language).text
+    text = "# mine\n" + text.replace("wait(1)", "if True:\n        pass")
+
+    update_from_python(editor, text)
+
+    assert body_of(editor) == "if True:\n    pass"
+
+
+def test_a_text_of_several_lines_keeps_its_margin(language):
+    editor = build(language, [B("event.started"), B("control.wait")])
+    text = generate_program(editor.project, language).text
+    text = text.replace("wait(1)", "poem = '''\n  roses\nviolets\n'''")
+
+    update_from_python(editor, text)
+
+    assert (
+        "    poem = '''\n  roses\nviolets\n'''" in generate_program(editor.project, language).text
+    )
+
+
+def test_what_no_rule_can_do_becomes_code_and_what_none_may_is_told_with_its_line(language):
+    assert body_of(updated(language, "return 5")) == "return 5"
+
+    with pytest.raises(CodeUnread) as raised:
+        updated(language, "yield 5")
+    assert raised.value.line > 1
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import math as x",
+        "def x():\n    pass",
+        "class x:\n    pass",
+        "try:\n    pass\nexcept ValueError as x:\n    pass",
+        "match 1:\n    case x:\n        pass",
+    ],
+)
+def test_code_that_makes_a_variable_in_any_way_makes_the_one_of_the_program(language, code):
+    editor = build(
+        language, [B("event.started"), B("code.lines", {"code": code})], variables=("x",)
+    )
+
+    assert body_of(editor).startswith("global x\n")
+
+
+def test_an_update_inside_another_step_is_taken_back_alone(language):
+    editor = build(language, [B("event.started"), B("control.wait")])
+    text = generate_program(editor.project, language).text
+
+    with editor.transaction("more"):
+        editor.create("control.wait", editor.new_stack("behaviour", 900, 0))
+        before = to_bytes(editor.project)
+        with pytest.raises(CodeUnread):
+            update_from_python(editor, text.replace("wait(1)", "wait(1)\n    yield"))
+
+        assert to_bytes(editor.project) == before
+
+    assert to_bytes(editor.project) == before

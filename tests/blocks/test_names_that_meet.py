@@ -1,0 +1,61 @@
+"""Names of people that meet the program's own: an answer, parameters, own blocks pasted."""
+
+from __future__ import annotations
+
+from block_building import B, build
+
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.operations.copying import copy
+from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.procedures import title
+from nep_studio.blocks.text import sentence
+
+
+def code_of(editor):
+    return generate_program(editor.project, editor.language).text
+
+
+def test_asking_does_not_overwrite_a_variable_called_answer(language):
+    counted = B("variable.change", {"variable": "v1"})
+    ask = B("robot_speech.ask", bodies={"do.1": [counted]}, groups={"answer": 1})
+    editor = build(language, [B("event.started"), ask], variables=("answer",))
+
+    text = code_of(editor)
+
+    assert "    answer = nao.ask(" in text
+    assert "        answer_ += 1" in text and "global answer_" in text
+
+
+def test_own_blocks_may_have_parameters_of_the_same_name(language):
+    editor = build(language)
+    for word in ("greet", "thank"):
+        name = editor.new_parameter("name", "text")
+        editor.add_procedure([word, name], place=editor.new_stack("behaviour", 0, 0))
+
+    text = code_of(editor)
+
+    assert "def greet(name):" in text and "def thank(name):" in text
+
+
+def test_a_pasted_own_block_of_the_same_words_and_another_kind_is_told_apart(language):
+    source, target = build(language), build(language)
+    for editor, kind in ((source, "number"), (target, "text")):
+        times = editor.new_parameter("times", kind)
+        editor.add_procedure(["dance", times], place=editor.new_stack("behaviour", 0, 0))
+    call = source.create(
+        "my.call." + next(iter(source.project.procedures)), source.new_stack("behaviour", 300, 0)
+    )
+
+    paste(target, copy(source.project, source.language, [call]), "behaviour", 300, 0)
+
+    titles = [title(procedure) for procedure in target.project.procedures.values()]
+    assert titles == ["dance (times)", "dance 2 (times)"]
+
+
+def test_a_calculation_inside_another_is_told_in_parentheses(language):
+    plus = B("math.arithmetic", {"operation": "add", "a": 1, "b": 2})
+    product = B("math.arithmetic", {"operation": "multiply", "b": 3}, {"a": plus})
+    editor = build(language, [B("event.started"), B("control.wait", inputs={"seconds": product})])
+    wait = next(b.id for b in editor.project.blocks.values() if b.type == "control.wait")
+
+    assert sentence(editor.project, language, wait) == "wait (1 + 2) × 3 seconds"

@@ -1,0 +1,54 @@
+"""Transactions inside transactions: what fails inside is taken back, what is outside stays."""
+
+from __future__ import annotations
+
+import pytest
+from block_building import B, build
+
+from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.reading import from_bytes
+from nep_studio.blocks.writing import to_bytes
+
+
+def test_what_fails_inside_a_step_is_taken_back_and_the_step_goes_on(language):
+    editor = build(language, [B("event.started")])
+    empty = to_bytes(editor.project)
+    recorded = []
+    editor.history.record(recorded.append)
+
+    with editor.transaction("outer"):
+        wait = editor.create("control.wait", editor.new_stack("behaviour", 300, 0))
+        with pytest.raises(EditRefused), editor.transaction("inner"):
+            editor.create("control.wait", editor.new_stack("behaviour", 600, 0))
+            editor.apply(SetField(wait, "seconds", -1))
+
+    assert [b.type for b in editor.project.blocks.values()] == ["event.started", "control.wait"]
+    again = from_bytes(empty, "x", language)
+    for edit in recorded[0]:
+        edit.apply(again)
+    assert to_bytes(again) == to_bytes(editor.project)
+    editor.history.undo()
+    assert to_bytes(editor.project) == empty
+
+
+def test_steps_cannot_be_dropped_inside_a_step(language):
+    editor = build(language, [B("event.started")])
+
+    with editor.transaction("more"), pytest.raises(RuntimeError):
+        editor.history.drop(0)
+
+    assert editor.project.blocks
+
+
+def test_a_project_of_version_1_has_pages_and_no_own_blocks(language):
+    text = to_bytes(Project("Old")).replace(b'"version": 2', b'"version": 1')
+    lines = [
+        line for line in text.splitlines() if not line.startswith((b'"procedures"', b'"notes"'))
+    ]
+
+    project = from_bytes(b"\n".join(lines), "old.nep", language)
+
+    assert list(project.pages) == ["behaviour", "robots", "nodes"]
+    assert not project.procedures and not project.notes

@@ -1,0 +1,71 @@
+"""A canvas that nobody holds any more goes quietly, whatever was open on it."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+
+BEGIN = """
+import gc
+from PySide6.QtGui import QAccessible, QGuiApplication
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from nep_studio.studio_language import studio_language
+from nep_studio.ui.canvas.accessibility.installing import make_accessible
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.theme import load_theme
+from tests.blocks.block_building import B, build
+app, language, theme = QApplication([]), studio_language(), load_theme("light")
+
+def use():
+    editor = build(language, [B("robot.do"), B("robot.say")])
+    canvas = Canvas(editor, theme)
+    canvas.show()
+    block = next(iter(editor.project.blocks))
+    QAccessible.setActive(is_accessible)
+    make_accessible(canvas)
+    canvas.selection.set([block])
+    assert canvas.fields.open(block, "posture"), "it has this field"
+    if not is_left_open:
+        canvas.fields.close()
+    canvas.close()
+
+for _ in range(12):
+    use()
+    app.processEvents()
+    gc.collect()
+assert QGuiApplication.primaryScreen() is not None
+"""
+
+
+@pytest.mark.parametrize("is_left_open", [True, False])
+@pytest.mark.parametrize("is_accessible", [True, False])
+def test_canvases_can_be_collected_as_garbage(is_left_open, is_accessible) -> None:
+    setting = f"is_left_open, is_accessible = {is_left_open}, {is_accessible}\n"
+
+    child = subprocess.run(
+        [sys.executable, "-X", "faulthandler", "-c", setting + BEGIN],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+
+    assert child.returncode == 0, child.stderr
+
+
+def test_nobody_asks_a_widget_for_its_screen() -> None:
+    """Only ``room_around`` knows how to do that without deleting the screen later."""
+    asking = [
+        path.name
+        for path in (ROOT / "nep_studio").rglob("*.py")
+        if re.search(r"\w\.screen\(\)", path.read_text().replace("QWidget.screen()", ""))
+    ]
+
+    assert asking == []

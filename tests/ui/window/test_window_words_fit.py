@@ -1,0 +1,143 @@
+"""Nothing in the window is cut off: toolbar, tabs, buttons and labels, in every language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QTabBar,
+    QToolBar,
+    QToolButton,
+    QWidget,
+)
+from pytestqt.qtbot import QtBot
+
+from nep_studio import paths
+from nep_studio.ui.app import Studio
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.words import PSEUDO, use_language
+
+SIZE = (1280, 800)
+TABLES = sorted(path.stem for path in (paths.resources() / "translations").glob("*.toml"))
+LANGUAGES = ["en", *TABLES, PSEUDO]
+
+
+@pytest.fixture(params=LANGUAGES)
+def spoken(request: pytest.FixtureRequest, studio: Studio) -> Iterator[str]:
+    """Each language in turn."""
+    studio.choose_language(request.param)
+    yield request.param
+    use_language("en")
+
+
+@pytest.fixture
+def start(spoken: str, window: MainWindow) -> MainWindow:
+    """The window with the start page."""
+    window.resize(*SIZE)
+    return window
+
+
+@pytest.fixture
+def work(spoken: str, karate: MainWindow, qtbot: QtBot) -> MainWindow:
+    """The window with the karate example and all panels."""
+    karate.resize(*SIZE)
+    karate.workbench.panels.restore(karate.fontMetrics().height())
+    karate.show_problems()
+    qtbot.waitUntil(lambda: karate.workbench.problems.isVisible())
+    return karate
+
+
+def shown(window: QWidget, kind: type) -> list:
+    return [widget for widget in window.findChildren(kind) if widget.isVisible()]
+
+
+def cut_buttons(window: QWidget) -> list[str]:
+    """Buttons with words that are narrower than they want to be."""
+    return [
+        f"{button.text()}: {button.width()} of {button.sizeHint().width()}"
+        for button in shown(window, QAbstractButton)
+        if has_words(button) and button.width() < button.sizeHint().width()
+    ]
+
+
+def has_words(button: QAbstractButton) -> bool:
+    if isinstance(button, QToolButton):
+        style = button.toolButtonStyle()
+        return bool(button.text()) and style != style.ToolButtonIconOnly
+    return isinstance(button, QPushButton) and bool(button.text())
+
+
+def cut_labels(window: QWidget) -> list[str]:
+    """Labels that show only a part of their words, without a sign that there is more."""
+    return [
+        f"{label.text()}: {label.width()} x {label.height()}"
+        for label in shown(window, QLabel)
+        if label.text() and not label.text().endswith("…") and is_cut(label)
+    ]
+
+
+def is_cut(label: QLabel) -> bool:
+    if label.wordWrap():
+        return label.height() < label.heightForWidth(label.width())
+    if label.sizePolicy().horizontalPolicy() != QSizePolicy.Policy.Ignored:
+        return label.width() < label.minimumSizeHint().width()
+    words = label.fontMetrics().horizontalAdvance(label.text())
+    return words > label.contentsRect().width()
+
+
+def cut_tabs(window: QWidget) -> list[str]:
+    """Tab bars that scroll because their tabs have no room."""
+    bars = [bar for bar in shown(window, QTabBar) if bar.count()]
+    return [bar.tabText(0) for bar in bars if any(shown(bar, QToolButton)) or is_squeezed(bar)]
+
+
+def is_squeezed(bar: QTabBar) -> bool:
+    metrics = bar.fontMetrics()
+    tabs = [number for number in range(bar.count()) if bar.isTabVisible(number)]
+    words = (metrics.horizontalAdvance(bar.tabText(number).replace("&", "")) for number in tabs)
+    return any(bar.tabRect(n).width() < w for n, w in zip(tabs, words, strict=True))
+
+
+def hidden_tools(window: MainWindow) -> bool:
+    """Whether a part of the toolbar is behind an arrow."""
+    bar = window.findChild(QToolBar, "tools")
+    extension = bar.findChild(QToolButton, "qt_toolbar_ext_button")
+    return extension is not None and extension.isVisible()
+
+
+def test_the_start_page_shows_all_its_words(start) -> None:
+    assert cut_buttons(start) == []
+    assert cut_labels(start) == []
+    assert not hidden_tools(start)
+
+
+def test_the_workbench_shows_all_its_words(work) -> None:
+    assert cut_buttons(work) == []
+    assert cut_labels(work) == []
+    assert cut_tabs(work) == []
+    assert not hidden_tools(work)
+
+
+def test_the_canvas_has_the_most_room_of_all(karate) -> None:
+    karate.resize(*SIZE)
+
+    karate.workbench.panels.restore(karate.fontMetrics().height())
+
+    assert karate.workbench.canvas.width() >= 0.45 * karate.width()
+
+
+def test_what_is_cut_off_is_found(qtbot) -> None:
+    """The checks themselves: a button and a label that are too narrow."""
+    box = QWidget()
+    qtbot.addWidget(box)
+    button, label = QPushButton("Open a project", box), QLabel("Made from the blocks", box)
+    box.show()
+    button.resize(40, 30)
+    label.resize(30, 30)
+
+    assert len(cut_buttons(box)) == len(cut_labels(box)) == 1
