@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import msgspec
 
 from .edits import ChangeNote, Edit, SetComment, SetField
-from .program import Changes, Project
+from .program import Changes, Note, Project
 
 Listener = Callable[[Changes], None]
 Recorder = Callable[[tuple[Edit, ...]], None]
@@ -172,9 +172,18 @@ class History:
         if not step.edits:
             return
         self._redo.clear()
-        if not (self._may_merge and self._undo and _same_typing(self._undo[-1], step)):
+        if not (self._may_merge and self._undo and self._is_same_typing(step)):
             self._undo.append(step)
         self._may_merge = True
+
+    def _is_same_typing(self, step: Step) -> bool:
+        """Whether a step goes on with the typing of the last one."""
+        if not _same_typing(self._undo[-1], step):
+            return False
+        edit = step.edits[0]
+        if not isinstance(edit, ChangeNote):
+            return True
+        return _without_text(edit.note) == _without_text(self._project.notes[edit.note.id])
 
 
 def _same_typing(earlier: Step, later: Step) -> bool:
@@ -188,7 +197,9 @@ def _same_typing(earlier: Step, later: Step) -> bool:
         return first.block == second.block
     if isinstance(first, ChangeNote) and isinstance(second, ChangeNote):
         # both are what undoes a step: the note as it was before it
-        return msgspec.structs.replace(first.note, text="") == msgspec.structs.replace(
-            second.note, text=""
-        )
+        return _without_text(first.note) == _without_text(second.note)
     return False
+
+
+def _without_text(note: Note) -> Note:
+    return msgspec.structs.replace(note, text="")

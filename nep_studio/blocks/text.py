@@ -44,7 +44,7 @@ def _sentence(project: Project, language: Language, block: Block, depth: int) ->
 
 
 def _is_open(plugged: Block, owner: Definition, language: Language) -> bool:
-    """Whether a value in another value could be read with what is beside it: (a + b) × c."""
+    """Whether a value in another value could be read with what is beside it: (a + b) * c."""
     inner = language.definitions.get(plugged.type)
     if inner is None or not owner.is_value or len(inner.parts) < 2:
         return False

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
+import unicodedata
 from collections.abc import Callable, Mapping
 from datetime import date
 
@@ -16,6 +17,7 @@ LONGEST_TEXT = 10_000
 LONGEST_NAME = 100
 MOST_SETTINGS = 100
 _HALF = re.compile("[\ud800-\udfff]")
+_JOINERS = "\u200c\u200d"
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -39,9 +41,14 @@ def why_not_name(value: object) -> str | None:
 def why_not_line(value: object) -> str | None:
     """Why ``value`` is not one line of visible text."""
     reason = why_not_text(value)
-    if reason is None and not str(value).isprintable():
+    if reason is None and not all(map(_is_visible, str(value))):
         return "This text must be one line, without control characters."
     return reason
+
+
+def _is_visible(letter: str) -> bool:
+    """Whether a letter may be in a line: Japanese has its own space, Persian and emoji join."""
+    return letter.isprintable() or letter in _JOINERS or unicodedata.category(letter) == "Zs"
 
 
 def why_not_text(value: object) -> str | None:

@@ -68,6 +68,11 @@ class Document(QObject):
         return self.editor.history.position != self._saved_position
 
     @property
+    def is_kept(self) -> bool:
+        """Whether a journal keeps what is not saved yet."""
+        return self._journal is not None
+
+    @property
     def folder(self) -> Path:
         """Where the project's own files are."""
         return self.path.parent if self.path is not None else Path.cwd()

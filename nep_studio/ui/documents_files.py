@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
+from nep_studio import settings
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nep_studio.journal import Recoverable
+from nep_studio.problems import problem_of
 from nep_studio.settings import Settings
 from nep_studio.ui.documents import SUFFIX, Document, new_document
 from nep_studio.ui.documents_choosing import FileChooser
@@ -46,6 +49,7 @@ class Files(QObject):
         self._language, self._settings = language, settings
         self._messages, self._chooser, self._window = messages, chooser, window
         self._opening: Opening | None = None
+        self._is_warned = False
         self.document: Document | None = None
 
     # New, open, close
@@ -60,7 +64,7 @@ class Files(QObject):
 
     def open(self, path: Path) -> None:
         """Open a project; one inside a picture opens as a copy."""
-        on_opened = self._on_example_opened if path.suffix in PICTURES else self._on_opened
+        on_opened = self._on_example_opened if path.suffix.lower() in PICTURES else self._on_opened
         self.guard(lambda: self._read(path.absolute(), on_opened))
 
     def open_example(self, path: Path) -> None:
@@ -128,7 +132,8 @@ class Files(QObject):
             document.save(path)
         except ProjectFileError as error:
             other = Answer(tr("Save somewhere else…"), lambda: self.save_as(then), "primary")
-            self._messages.tell_error(error, other)
+            problem = replace(problem_of(error), title=tr("The project is not saved"))
+            self._messages.tell_problem(problem, other)
             return
         self._remember(path)
         self._messages.confirm(tr("“{name}” is saved.", name=document.title))
@@ -180,9 +185,22 @@ class Files(QObject):
     def _show(self, document: Document | None) -> None:
         old, self.document = self.document, document
         self.document_changed.emit(document)
+        if document is not None and not document.is_kept and not self._is_warned:
+            self._warn_of_loss()
         if old is not None:
             old.close()
             old.deleteLater()
+
+    def _warn_of_loss(self) -> None:
+        """Say once that nothing is kept between saves."""
+        self._is_warned = True
+        title = tr("Save often")
+        sentence = tr(
+            "The program cannot write into its own folder, so work that is not saved is lost"
+            " if the computer stops."
+        )
+        folder = str(settings.user_folder())
+        self._messages.tell(Message("warning", title, sentence, details=folder))
 
     def _end_opening(self) -> None:
         if self._opening is not None:

@@ -80,7 +80,9 @@ class Opening(QObject):
 def _result(path: Path, language: Language) -> Project | BlocksError:
     try:
         return (
-            _project_in_picture(path, language) if path.suffix in PICTURES else load(path, language)
+            _project_in_picture(path, language)
+            if path.suffix.lower() in PICTURES
+            else load(path, language)
         )
     except BlocksError as error:
         return error

@@ -120,8 +120,9 @@ def free_place(canvas: Canvas, clip: Clip) -> QPointF:
 def _is_taken(canvas: Canvas, x: float, y: float, width: float) -> bool:
     side = -1.0 if canvas.measures.is_mirrored else 1.0
     return any(
-        canvas.page_layout.hit(x + side * width * part, y + STEP / 2) is not None
+        canvas.page_layout.hit(x + side * width * part, y + down) is not None
         for part in (0.05, 0.5, 0.95)
+        for down in (-STEP / 4, STEP / 2, STEP)
     )
 
 

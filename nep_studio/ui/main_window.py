@@ -281,4 +281,4 @@ class MainWindow(QMainWindow):
 def _project_in(event: QDropEvent) -> Path | None:
     """The project among what is dragged."""
     files = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
-    return next((file for file in files if file.suffix in (SUFFIX, *PICTURES)), None)
+    return next((file for file in files if file.suffix.lower() in (SUFFIX, *PICTURES)), None)

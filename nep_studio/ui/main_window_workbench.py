@@ -34,9 +34,6 @@ from nep_studio.ui.words import is_right_to_left, tr
 BLOCK_FONT_PIXELS = 14
 WIDEST = 16777215  # Qt's own
 
-MARGIN = 28.0
-"""How far from the view's corner the blocks begin, in pixels."""
-
 
 class Workbench(QWidget):
     """Where a project is worked on. ``problems_found`` gives what is not right yet."""

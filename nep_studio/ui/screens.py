@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRect
+from PySide6.QtCore import QPoint, QRect
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QWidget
 
 
-def room_around(widget: QWidget) -> QRect:
-    """The screen that a widget is on, without the system's own bars.
+def room_around(widget: QWidget | None) -> QRect:
+    """The screen that a widget is on (without one, the main screen), without the system's own bars.
 
     WORKAROUND for ``QWidget.screen()`` of PySide6 6.11: it makes the screen a child of the
     widget in Python's eyes. When the widget is collected as garbage, Qt's only screen is
     deleted with it, and the next widget that is made crashes the program.
     """
-    middle = widget.mapToGlobal(widget.rect().center())
+    middle = widget.mapToGlobal(widget.rect().center()) if widget is not None else QPoint()
     screen = QGuiApplication.screenAt(middle) or QGuiApplication.primaryScreen()
     return screen.availableGeometry()

@@ -99,3 +99,10 @@ def refused_block(editor, language):
 def too_deep_block(editor, language):
     problems = check(editor.project, language)
     return next((p.block for p in problems if p.kind == "too_deep"), None)
+
+
+def test_going_on_with_the_next_round_is_no_pause(language):
+    again = B("control.if", bodies={"do": [B("control.next_round")]})
+    editor = sound(language, [B("event.started"), B("control.forever", bodies={"do": [again]})])
+
+    assert "no_pause" in kinds(editor, language)

@@ -58,4 +58,6 @@ def test_a_calculation_inside_another_is_told_in_parentheses(language):
     editor = build(language, [B("event.started"), B("control.wait", inputs={"seconds": product})])
     wait = next(b.id for b in editor.project.blocks.values() if b.type == "control.wait")
 
-    assert sentence(editor.project, language, wait) == "wait (1 + 2) × 3 seconds"
+    times = language.choices[language.definitions["math.arithmetic"].slots["operation"].table]
+    said = sentence(editor.project, language, wait)
+    assert said == f"wait (1 + 2) {times['multiply']} 3 seconds"

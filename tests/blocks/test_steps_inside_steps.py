@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 from block_building import B, build
+from msgspec.structs import replace
 
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits import AddNote, ChangeNote, SetField
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import Note, Project
 from nep_studio.blocks.reading import from_bytes
 from nep_studio.blocks.writing import to_bytes
 
@@ -52,3 +53,19 @@ def test_a_project_of_version_1_has_pages_and_no_own_blocks(language):
 
     assert list(project.pages) == ["behaviour", "robots", "nodes"]
     assert not project.procedures and not project.notes
+
+
+def test_typing_in_a_note_and_moving_it_are_two_steps(language):
+    editor = build(language)
+    note = Note("n1", "behaviour", 0.0, 0.0, 100.0, 50.0)
+    editor.apply(AddNote(note))
+    editor.history.seal()
+    for text in ("h", "hi"):
+        editor.apply(ChangeNote(replace(note, text=text)))
+    editor.apply(ChangeNote(replace(note, text="hi", x=50.0)))
+
+    editor.history.undo()
+
+    assert editor.project.notes["n1"] == replace(note, text="hi")
+    editor.history.undo()
+    assert editor.project.notes["n1"] == note

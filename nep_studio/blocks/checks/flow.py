@@ -50,7 +50,9 @@ def _loops_without_pause(
 
 def _ends(language: Language, block: Block) -> bool:
     definition = language.definitions.get(block.type)
-    return definition is None or definition.shape == "cap"
+    if definition is None:
+        return True
+    return definition.shape == "cap" and definition.generator != "next_round"
 
 
 def _never_reached(

@@ -48,7 +48,20 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
     for name in [*assigned, *_shared(tree)]:
         if name not in names.robots and name not in names.variables and name not in RESERVED:
             names.variables[name] = editor.add_variable(_free(editor.project, name))
+    _require_variables(names, tree)
     return names
+
+
+def _require_variables(names: SourceNames, tree: ast.Module) -> None:
+    """What is global must be a variable: a robot, a function and “wait” cannot become one."""
+    said = [node for node in ast.walk(tree) if isinstance(node, ast.Global)]
+    for node, name in [(node, name) for node in said for name in node.names]:
+        if name not in names.variables:
+            raise CodeUnread(
+                f"“{name}” has a meaning in the program already, and cannot be a variable.",
+                node.lineno,
+                checklist=("Give the variable another name.",),
+            )
 
 
 def _known(editor: Editor) -> SourceNames:

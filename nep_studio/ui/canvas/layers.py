@@ -86,8 +86,9 @@ class StaticLayer:
         if self.is_sharp(camera):
             ratio = self._ratio
             if ratio == int(ratio):  # whole pixels: nothing to resample
-                corner = exposed.topLeft() * int(ratio)
-                source_rect = QRect(corner, exposed.size() * int(ratio))
+                times = int(ratio)
+                first = QPoint(exposed.x() * times, exposed.y() * times)
+                source_rect = QRect(first, exposed.size() * times)
                 painter.drawPixmap(exposed.topLeft(), self._pixmap, source_rect)
                 return
             source = QRectF(

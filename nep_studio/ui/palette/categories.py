@@ -14,7 +14,6 @@ from nep_studio.ui.words import tr
 from .entries import Drawer
 from .shelf_painter import paint_badge
 
-
 WORDS_SCALE = 0.9
 SIGN_LINES = 1.15
 """How large the words are beside those of the window, and the signs in lines of text."""

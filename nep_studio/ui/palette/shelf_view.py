@@ -119,6 +119,7 @@ class ShelfView(QAbstractScrollArea):
         self._painter = ShelfPainter(self._canvas, self._layout)
         bar = self.verticalScrollBar()
         bar.setRange(0, self._layout.lowest_top(self.viewport().height()))
+        bar.setEnabled(bar.maximum() > 0)
         bar.setPageStep(self.viewport().height())
         bar.setSingleStep(round(self._layout.line * WHEEL_LINES))
         self.viewport().update()

@@ -105,3 +105,18 @@ def test_an_update_inside_another_step_is_taken_back_alone(language):
         assert to_bytes(editor.project) == before
 
     assert to_bytes(editor.project) == before
+
+
+@pytest.mark.parametrize("name", ["answer", "wait", "nao"])
+def test_a_name_of_the_program_cannot_become_a_variable(language, name):
+    editor = build(language, [B("event.started"), B("robot.say")])
+    text = generate_program(editor.project, language).text
+    before = to_bytes(editor.project)
+
+    with pytest.raises(CodeUnread, match=name) as raised:
+        update_from_python(
+            editor, text + f"\n\n@behavior.when_started\ndef b():\n    global {name}\n"
+        )
+
+    assert raised.value.line > 10
+    assert to_bytes(editor.project) == before

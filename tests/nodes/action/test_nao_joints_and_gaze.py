@@ -212,3 +212,14 @@ def test_tracking_with_the_body_turns_it_to_the_sound() -> None:
 
     assert stage.robot.base[2] == pytest.approx(math.pi / 2, abs=0.02)
     assert angle_deg(stage, "HeadYaw") == pytest.approx(0, abs=1)
+
+
+def test_what_is_no_text_is_refused_in_plain_words() -> None:
+    stage = Stage()
+
+    stage.ask("1", "track", thing={"x": 1})
+    stage.ask("2", "track", thing=["face"])
+
+    said = [result.description for result in stage.results]
+    assert "thing should be text, not a group of values" in said[0]
+    assert "thing should be text, not a list" in said[1]

@@ -53,7 +53,7 @@ def test_a_block_has_the_blocks_inside_it_as_children(view: ScrollingView) -> No
 
     inside = [repeat.child(number) for number in range(repeat.childCount())]
 
-    assert [child.text(NAME) for child in inside][0] == "4 + 6"
+    assert next(child.text(NAME) for child in inside) == "4 + 6"
     assert [repeat.indexOfChild(child) for child in inside] == [0, 1, 2, 3]
     assert all(child.parent() is repeat for child in inside)
     assert repeat.parent() is tree

@@ -69,6 +69,7 @@ def test_the_running_blocks_glow_in_small_rectangles(person: Person) -> None:
     plain = [person.seen("glow", person.rect(block)) for block in (first, second)]
     with person.qtbot.waitSignal(person.window.workbench.checks.found):
         person.window.workbench.checks.start()  # it draws badges when it is done
+    person.qtbot.waitUntil(lambda: not person.canvas.sharpen.isActive())
     QApplication.processEvents()
     view, painted = person.canvas.viewport(), PaintedPixels()
     view.installEventFilter(painted)

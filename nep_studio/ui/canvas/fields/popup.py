@@ -53,6 +53,7 @@ class FieldPopup(QFrame):
         self.column.addWidget(self.reason)
         self.follow()
         self.show()
+        self.follow()  # its widgets know how large they are only now
         self.first().setFocus(Qt.FocusReason.PopupFocusReason)
 
     def follow(self) -> None:

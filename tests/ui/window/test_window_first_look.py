@@ -1,0 +1,181 @@
+"""What a person sees first: room for the canvas, an empty page that says how to begin."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.theme import category_icon_name
+from nep_studio.ui.words import use_language
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def fresh(window: MainWindow, qtbot) -> MainWindow:
+    """The window with a new project, begun by the button of the start page."""
+    QTest.mouseClick(window.start_page.new_button, LEFT)
+    qtbot.waitUntil(window.workbench.canvas.isVisible)
+    return window
+
+
+def hint(window: MainWindow):
+    return window.workbench.helpers.empty_hint
+
+
+def insert(window: MainWindow, words: str) -> None:
+    """Search a block in the palette and press Enter."""
+    palette = window.workbench.helpers.palette
+    palette.start_search()
+    QTest.keyClicks(palette.search, words)
+    QTest.keyClick(palette.search, Qt.Key.Key_Return)
+
+
+def test_an_empty_page_says_how_one_begins(fresh: MainWindow) -> None:
+    assert hint(fresh).isVisible()
+    assert "/" in hint(fresh).text()
+
+
+def test_the_words_on_the_empty_page_go_with_the_first_block_and_come_back(
+    fresh: MainWindow, qtbot
+) -> None:
+    insert(fresh, "says")
+
+    qtbot.waitUntil(lambda: not hint(fresh).isVisible())
+
+    fresh.actions_by_name["undo"].trigger()
+    qtbot.waitUntil(hint(fresh).isVisible)
+
+
+def test_the_robots_page_says_what_belongs_there(fresh: MainWindow) -> None:
+    fresh.workbench.canvas.show_page("robots")
+
+    assert "robots" in hint(fresh).text()
+
+
+def test_a_click_goes_through_the_words_on_the_empty_page(fresh: MainWindow) -> None:
+    view = fresh.workbench.canvas.viewport()
+    place = hint(fresh).geometry().center()
+
+    assert view.childAt(place) is None
+    QTest.mouseDClick(view, LEFT, pos=place)
+
+    assert fresh.workbench.helpers.insert_bar.isVisible()
+
+
+def test_an_empty_page_has_nothing_to_scroll(fresh: MainWindow) -> None:
+    canvas = fresh.workbench.canvas
+
+    bars = (canvas.horizontalScrollBar(), canvas.verticalScrollBar())
+
+    assert all(bar.minimum() == bar.maximum() for bar in bars)
+
+
+def test_an_empty_project_has_no_problems_to_tell_of(fresh: MainWindow, qtbot) -> None:
+    check = fresh.actions_by_name["check"]
+    with qtbot.waitSignal(fresh.workbench.problems_found):
+        fresh.workbench.checks.start()
+
+    assert check.iconText() == "Check"
+
+    insert(fresh, "says")
+    qtbot.waitUntil(lambda: "problem" in check.iconText())
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1024, 700)])
+def test_the_canvas_is_the_widest_part_of_the_window(karate: MainWindow, size) -> None:
+    karate.resize(*size)
+    karate.workbench.panels.restore(karate.fontMetrics().height())
+
+    workbench = karate.workbench
+    others = (workbench.helpers.palette.width(), workbench.code.width())
+    assert workbench.canvas.width() > max(others)
+
+
+def test_the_trash_is_where_lines_end_and_the_minimap_above_it(karate: MainWindow) -> None:
+    helpers, view = karate.workbench.helpers, karate.workbench.canvas.viewport()
+
+    helpers.show_minimap(True)
+
+    assert helpers.trash.geometry().right() > view.width() - 30
+    assert not helpers.trash.geometry().intersects(helpers.minimap.geometry())
+
+
+def test_a_narrow_palette_shows_the_signs_of_its_categories_alone(karate: MainWindow, qtbot):
+    palette = karate.workbench.helpers.palette
+    wide = palette.categories.width()
+
+    karate.workbench.panels.row.setSizes([200, 800, 280])
+
+    qtbot.waitUntil(lambda: palette.categories.width() < wide / 2)
+    assert palette.shelf.isVisible()
+    karate.workbench.panels.row.setSizes([400, 600, 280])
+    qtbot.waitUntil(lambda: palette.categories.width() == wide)
+
+
+def test_larger_text_makes_the_blocks_of_the_palette_larger(karate: MainWindow) -> None:
+    shelf = karate.workbench.helpers.palette.shelf
+    karate.workbench.panels.row.setSizes([800, 300, 180])
+    before = shelf.rect_of(1).height()
+
+    karate.studio.choose_text_scale(2.0)
+
+    assert shelf.rect_of(1).height() > 1.7 * before
+
+
+def test_every_category_of_the_page_has_a_sign_of_its_own(karate: MainWindow) -> None:
+    categories = [c for c in karate.studio.language.categories if c.page == "behaviour"]
+
+    signs = [category_icon_name(category.colour, category.id) for category in categories]
+
+    assert len(set(signs)) == len(signs)
+
+
+def test_categories_come_in_the_order_in_which_one_needs_them(karate: MainWindow) -> None:
+    ids = [category.id for category in karate.studio.language.categories]
+
+    assert ids[:3] == ["event", "robot_events", "robot"]
+    assert ids.index("robot_camera") < ids.index("control") < ids.index("logic")
+
+
+def test_a_narrow_code_pane_has_signs_with_tips_instead_of_words(karate: MainWindow) -> None:
+    code = karate.workbench.code
+    karate.workbench.panels.row.setSizes([400, 600, 280])
+    words = code.edit_button.text()
+
+    karate.studio.choose_text_scale(2.0)
+    karate.workbench.panels.row.setSizes([400, 700, 100])
+
+    assert words == "Edit"
+    assert code.edit_button.text() == "" and code.edit_button.toolTip() == "Edit"
+    assert code.edit_button.accessibleName() == "Edit"
+
+
+def test_a_block_without_a_place_lands_beside_the_others(fresh: MainWindow) -> None:
+    canvas = fresh.workbench.canvas
+    for words in ("says", "set variable", "repeat"):
+        canvas.selection.set([])
+        insert(fresh, words)
+
+    rects = [
+        canvas.view_rect_of(stack.body[0])
+        for stack in fresh.files.document.project.pages[canvas.page]
+    ]
+    apart = [not one.intersects(other) for n, one in enumerate(rects) for other in rects[n + 1 :]]
+    assert len(rects) >= 2 and all(apart)
+
+
+@pytest.fixture(autouse=True)
+def english():
+    yield
+    use_language("en")
+
+
+def test_a_tiny_window_still_shows_its_canvas(karate: MainWindow, qtbot) -> None:
+    karate.resize(300, 200)
+
+    canvas = karate.workbench.canvas
+    assert canvas.width() > 60 and canvas.grab(canvas.rect()).size() == canvas.size()
+    assert canvas.rect().contains(QPoint(10, 10))
