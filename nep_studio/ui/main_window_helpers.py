@@ -19,13 +19,14 @@ class CanvasHelpers(QObject):
 
     def __init__(self, canvas: Canvas, settings: Settings) -> None:
         super().__init__(canvas)
-        self._settings = settings
+        self._canvas, self._settings = canvas, settings
         self.palette = Palette(canvas, settings)
         self.find_bar = FindBar(canvas)
         self.insert_bar = InsertBar(canvas, settings)
         self.minimap = Minimap(canvas)
         self.trash = TrashButton(canvas)
         self.empty_hint = EmptyHint(canvas)
+        canvas.layout_changed.connect(self._on_layout_changed)
         self.find_bar.hide()
         self._stack_corner()
         self.minimap.setVisible(self.is_minimap_shown)
@@ -47,6 +48,11 @@ class CanvasHelpers(QObject):
         for helper in helpers:
             helper.refresh()
         self._stack_corner()
+
+    def _on_layout_changed(self) -> None:
+        """Begin or end to scroll where blocks leave the view; not while some are carried."""
+        if self._canvas.gesture is None:
+            self._canvas.update_scroll_bars()
 
     def _stack_corner(self) -> None:
         """The minimap is above the trash."""

@@ -102,7 +102,7 @@ class Messages(QObject):
 
     def refuse(self, reason: str, checklist: tuple[str, ...] = ()) -> None:
         """Say why something did not go; the program is as it was."""
-        message = Message("warning", tr("This does not fit"), tr(reason), checklist)
+        message = Message("warning", tr("This does not fit"), tr(reason), tuple(map(tr, checklist)))
         self.tell(replace(message, passes=True))
 
     def confirm(self, title: str, *answers: Answer) -> None:

@@ -7,9 +7,11 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 from nep_studio import paths
+from nep_studio.ui.message_templates import MessageTemplates
 
 log = logging.getLogger(__name__)
 
@@ -26,6 +28,7 @@ _ACCENTED = str.maketrans("aeiouyAEIOUYcnCN", "àéîôûýÀÉÎÔÛÝçñÇÑ"
 class _Catalogue:
     code: str = ENGLISH
     words: Mapping[str, str] = field(default_factory=dict)
+    messages: MessageTemplates = field(default_factory=lambda: MessageTemplates({}))
 
 
 _used = _Catalogue()
@@ -34,11 +37,13 @@ _used = _Catalogue()
 def tr(text: str, /, **values: object) -> str:
     """Return the words in the language in use, with ``{name}`` filled in from the values.
 
-    The English text is the key. Words that are not translated yet are given in English.
+    The English text is the key. A sentence that comes with its values filled in, as problems and
+    refusals do, is told from the templates in [messages]; what people wrote in it is kept.
+    Words that are not translated yet are given in English.
     """
-    words = _pseudo(text) if _used.code == PSEUDO else _used.words.get(text, text)
     if not values:
-        return words
+        return _used.words.get(text) or _message(text)
+    words = _pseudo(text) if _used.code == PSEUDO else _used.words.get(text, text)
     try:
         return words.format_map(values)
     except (KeyError, IndexError, ValueError, AttributeError):
@@ -58,7 +63,8 @@ def count_words(count: int, one: str, many: str, /, **values: object) -> str:
 def use_language(code: str) -> None:
     """Take the words from the table of this language; unknown ones leave the window English."""
     global _used
-    _used = _Catalogue(code, _window_words(code)) if code in _known() else _Catalogue()
+    _used = _catalogue(code) if code in _known() else _Catalogue()
+    _message.cache_clear()
 
 
 def language_code() -> str:
@@ -89,11 +95,36 @@ def _table(code: str) -> dict[str, Any]:
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
-def _window_words(code: str) -> Mapping[str, str]:
-    if code in (ENGLISH, PSEUDO):
-        return {}
-    words: dict[str, str] = _table(code).get("window", {})
-    return words
+def _catalogue(code: str) -> _Catalogue:
+    if code == ENGLISH:
+        return _Catalogue()
+    if code == PSEUDO:
+        said = {words: _pseudo(words) for each in _codes() for words in _messages(_table(each))}
+        return _Catalogue(code, {}, MessageTemplates(said))
+    table = _table(code)
+    messages = _messages(table)
+    return _Catalogue(code, {**messages, **table.get("window", {})}, MessageTemplates(messages))
+
+
+def _messages(table: Mapping[str, Any]) -> Mapping[str, str]:
+    """The sentences of problems and refusals, with places for what is filled in."""
+    messages: dict[str, str] = table.get("messages", {})
+    return messages
+
+
+@lru_cache(maxsize=2048)
+def _message(text: str) -> str:
+    """Words without a translation of their own: a filled sentence, or words left in English."""
+    if not text or _used.code == ENGLISH:
+        return text
+    try:
+        said = _used.messages.translated(text, tr)
+    except (KeyError, IndexError, ValueError, AttributeError):
+        log.warning("A message in %s cannot be filled in: %r", _used.code, text)
+        said = None
+    if said is None:
+        return _pseudo(text) if _used.code == PSEUDO else text
+    return said
 
 
 def _filled(text: str, values: Mapping[str, object]) -> str:

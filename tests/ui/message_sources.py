@@ -40,18 +40,52 @@ STILL_SAID = {"This place takes {noun}, not a value that is typed."}
 
 NO_SENTENCES = re.compile(r"Made with NEP Studio|^[^A-Za-z]*$|^\{\w+\}\. ?$|^range\(")
 ENDINGS = re.compile(r"[.?]$|\{(reason|sentence|fault)\}$")
-SAID_IN_PARTS = {
-    "values.py": {"_told"},
-    "file_text.py": {"_WORDS", "_what_in_words", "_place", "refused", "not_readable", "_line_told"},
-    "reading.py": {"_place"},
-    "slots.py": {"RESULTS"},
-    "own_block_changes.py": {"why_not_remove"},
+PARTS = {
+    "nep_studio/blocks/values.py": [
+        "nothing",
+        "the number {value}",
+        "a very large number",
+        "the text {value}",
+        "a list or a group of values",
+    ],
+    "nep_studio/blocks/file_text.py": [
+        " at line {number}",
+        " at line {line}, block {block}",
+        " at block {block}",
+        "its beginning",
+        "a whole number",
+        "a group of values",
+        "at {place}: “{missing}” is missing.",
+        "at {place}: this is not what belongs here.",
+        "at {place}: {wanted} belongs here, not {told}.",
+    ],
+    "nep_studio/blocks/reading.py": ["in no stack", "inside itself"],
+    "nep_studio/blocks/files.py": [
+        "the system gives no reason",
+        "a text in it cannot be written",
+    ],
+    "nep_studio/blocks/own_block_changes.py": ["1 place", "{count} places"],
+    "nep_studio/blocks/operations/copying.py": ["The clipboard"],
+    "nep_studio/blocks/checks/flow.py": ["A robot cannot walk after the posture “{label}”."],
+    "nep_core/manifest.py": [
+        'a text, such as "karate"',
+        "a number, such as 0.5",
+        "a whole number, such as 50",
+        "true or false",
+        "one of the choices",
+        "the name of a file",
+        'The node {id} needs the setting "{name}": {help}',
+    ],
 }
+"""What is put together from pieces: no one text of the source has all of it."""
+OF_THE_SYSTEM = ["no such file or directory", "permission denied", "no space left on device"]
+"""Why a file cannot be opened, as the operating system says it."""
 
 
 def templates() -> set[str]:
     """Every sentence of the sources, with a readable name at each place that is filled in."""
-    return {words for path in _files() for words in _of_file(path)}
+    found = {words for path in _files() for words in _of_file(path)}
+    return found.union(*PARTS.values(), OF_THE_SYSTEM)
 
 
 def _files() -> Iterator[Path]:
@@ -62,12 +96,8 @@ def _files() -> Iterator[Path]:
 def _of_file(path: Path) -> Iterator[str]:
     tree = ast.parse(path.read_text(encoding="utf-8"))
     silent = {id(part) for node in ast.walk(tree) for part in _silent(node)}
-    parts = SAID_IN_PARTS.get(path.name, set())
     for node in ast.walk(tree):
-        told = {id(part) for part in _told(node, parts)}
-        for part in ast.walk(node) if told else ():
-            if id(part) in told and id(part) not in silent and (words := template(part)):
-                yield words
+        yield from filter(None, map(template, _told(node)))
     for node in ast.walk(tree):
         words = "" if id(node) in silent else template(node)
         if ENDINGS.search(words) and " " in words and not NO_SENTENCES.search(words):
@@ -89,8 +119,8 @@ def _silent(node: ast.AST) -> Iterator[ast.AST]:
         yield from ast.walk(node)
 
 
-def _told(node: ast.AST, names: set[str]) -> Iterator[ast.AST]:
-    """Titles of errors, labels of fixes, and what is put together from parts."""
+def _told(node: ast.AST) -> Iterator[ast.AST]:
+    """Titles of errors and labels of fixes."""
     if isinstance(node, ast.ClassDef):
         for line in node.body:
             if isinstance(line, ast.Assign) and ast.unparse(line.targets[0]) == "title":

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from message_sources import OF_THE_SYSTEM, PARTS, ROOT, templates
 
 from nep_studio import paths
 from nep_studio.blocks.slots import KINDS
@@ -173,6 +174,49 @@ def test_a_translation_has_the_places_of_the_english_words(table) -> None:
     wrong = [w for w, told in table.get("window", {}).items() if places(w) != places(told)]
 
     assert wrong == []
+
+
+def messages() -> set[str]:
+    """The sentences of problems, refusals and errors, with places for their values."""
+    return templates() - window_words()
+
+
+def test_the_sentences_of_checks_and_refusals_are_found() -> None:
+    found = messages()
+
+    assert {
+        "No node of the Nodes page recognises the gesture “{gesture}”.",
+        "This place needs {noun}, and “{block_name}” gives {result}.",
+        "{file_name} is not a NEP Studio project.",
+        "Recognise “{gesture}”",
+        "This project cannot be used",
+    } <= found
+
+
+def test_what_is_put_together_from_pieces_is_still_in_the_sources() -> None:
+    gone = [
+        (place, piece)
+        for place, told in PARTS.items()
+        for piece in (re.split(r"\{\w+\}", words) for words in told)
+        if not any(part.strip(" .,:“”") in (ROOT / place).read_text("utf-8") for part in piece)
+    ]
+
+    assert gone == []
+    assert all(words.islower() for words in OF_THE_SYSTEM)
+
+
+def test_a_table_has_exactly_the_sentences_of_checks_and_refusals(table) -> None:
+    told = table.get("messages", {})
+
+    assert sorted(messages() - told.keys()) == []
+    assert sorted(told.keys() - messages()) == []
+
+
+def test_a_sentence_has_the_places_of_the_english_one_and_is_not_empty(table) -> None:
+    wrong = [w for w, told in table.get("messages", {}).items() if places(w) != places(told)]
+
+    assert wrong == []
+    assert all(told.strip() for told in table.get("messages", {}).values())
 
 
 def test_no_translation_is_empty_and_each_table_has_a_name(table) -> None:

@@ -73,6 +73,19 @@ def test_an_empty_page_has_nothing_to_scroll(fresh: MainWindow) -> None:
     assert all(bar.minimum() == bar.maximum() for bar in bars)
 
 
+def test_blocks_that_leave_the_view_can_be_scrolled_to(fresh: MainWindow, qtbot) -> None:
+    canvas = fresh.workbench.canvas
+    insert(fresh, "says")
+
+    for _ in range(30):
+        QTest.keyClick(canvas, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
+
+    bar = canvas.verticalScrollBar()
+    bounds = canvas.page_layout.bounds()
+    assert bounds is not None
+    assert (bar.maximum() + canvas.viewport().height()) / canvas.camera.scale >= bounds.bottom
+
+
 def test_an_empty_project_has_no_problems_to_tell_of(fresh: MainWindow, qtbot) -> None:
     check = fresh.actions_by_name["check"]
     with qtbot.waitSignal(fresh.workbench.problems_found):

@@ -143,7 +143,7 @@ class BlockInterface(QAccessibleInterface):
             return ""
         if kind == QAccessible.Text.Name:
             problem = view.problems.problems.get(self.block_id)
-            told = problem.sentence if problem is not None else ""
+            told = tr(problem.sentence) if problem is not None else ""
             return described(view.editor, self.block_id, told)
         if kind == QAccessible.Text.Description:
             project = view.editor.project

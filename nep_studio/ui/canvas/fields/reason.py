@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 
 from nep_studio.ui.theme import Theme, icon_pixmap
+from nep_studio.ui.words import tr
 
 
 class ReasonBubble(QFrame):
@@ -39,6 +40,7 @@ class ReasonBubble(QFrame):
 
     def tell(self, reason: str) -> None:
         """Show a sentence; an empty one takes the bubble away."""
+        reason = tr(reason)
         self.words.setText(reason)
         self.setAccessibleName(reason)
         self.setVisible(bool(reason))
