@@ -77,7 +77,7 @@ def parse(sentence: str) -> tuple[Part, ...]:
     parts: list[Part] = []
     inside: list[str | Slot] = []
     group = ""
-    for token in _tokens(sentence):
+    for token in tokens(sentence):
         if token["group"]:
             if group:
                 raise SentenceError(f"group “{token['group']}” is inside group “{group}”")
@@ -94,10 +94,11 @@ def parse(sentence: str) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def _tokens(sentence: str) -> Iterator[re.Match[str]]:
+def tokens(sentence: str, pattern: re.Pattern[str] = _TOKEN) -> Iterator[re.Match[str]]:
+    """Take a sentence apart; raises SentenceError where the pattern does not fit."""
     position = 0
     while position < len(sentence):
-        token = _TOKEN.match(sentence, position)
+        token = pattern.match(sentence, position)
         if token is None:
             raise SentenceError(f"“{sentence[position : position + 30]}” cannot be understood")
         position = token.end()

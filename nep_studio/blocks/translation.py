@@ -23,7 +23,7 @@ from typing import Any
 
 from .definitions import Category, Definition
 from .language import Language
-from .sentence import Group, Part, SentenceError, Slot, groups_of
+from .sentence import Group, Part, SentenceError, Slot, tokens, groups_of
 
 Table = Mapping[str, Any]
 
@@ -63,7 +63,7 @@ def translated_parts(definition: Definition, sentence: str) -> tuple[Part, ...]:
     parts: list[Part] = []
     inside: list[str | Slot] = []
     group = ""
-    for token in _tokens(sentence):
+    for token in tokens(sentence, _TOKEN):
         if token["group"]:
             if group or token["group"] not in definition.groups:
                 raise SentenceError(f"there is no place for the group “{token['group']}”")
@@ -97,16 +97,6 @@ def faults(language: Language, table: Table) -> Iterator[Fault]:
     for name, known in language.choices.items():
         labels = _labels(name, table)
         yield from (Fault(f"{name}.{v}", "is not translated") for v in known if v not in labels)
-
-
-def _tokens(sentence: str) -> Iterator[re.Match[str]]:
-    position = 0
-    while position < len(sentence):
-        token = _TOKEN.match(sentence, position)
-        if token is None:
-            raise SentenceError(f"“{sentence[position : position + 30]}” cannot be understood")
-        position = token.end()
-        yield token
 
 
 def _word_or_slot(token: re.Match[str], definition: Definition) -> str | Slot:

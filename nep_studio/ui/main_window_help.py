@@ -104,6 +104,7 @@ def on_the_canvas() -> list[tuple[str, str]]:
         (tr("Select several blocks"), tr("Drag on the empty page, or Shift and click")),
         (tr("Move the page"), tr("Wheel, or drag with the middle button")),
         (tr("Zoom"), tr("Ctrl and wheel")),
+        (tr("What the selected block does"), "F1"),
     ]
 
 

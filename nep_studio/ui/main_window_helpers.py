@@ -8,6 +8,7 @@ from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.empty_hint import EmptyHint
 from nep_studio.ui.find_bar import FindBar
+from nep_studio.ui.help_card import BlockOpening
 from nep_studio.ui.insert_bar import InsertBar
 from nep_studio.ui.minimap import MARGIN, Minimap
 from nep_studio.ui.palette.palette import Palette
@@ -19,14 +20,15 @@ class CanvasHelpers(QObject):
 
     def __init__(self, canvas: Canvas, settings: Settings) -> None:
         super().__init__(canvas)
-        self._canvas, self._settings = canvas, settings
+        self._settings = settings
         self.palette = Palette(canvas, settings)
         self.find_bar = FindBar(canvas)
+        self.opening = BlockOpening(canvas, self.find_bar)
         self.insert_bar = InsertBar(canvas, settings)
         self.minimap = Minimap(canvas)
         self.trash = TrashButton(canvas)
         self.empty_hint = EmptyHint(canvas)
-        canvas.layout_changed.connect(self._on_layout_changed)
+        canvas.layout_changed.connect(canvas.update_scroll_bars)
         self.find_bar.hide()
         self._stack_corner()
         self.minimap.setVisible(self.is_minimap_shown)
@@ -48,11 +50,6 @@ class CanvasHelpers(QObject):
         for helper in helpers:
             helper.refresh()
         self._stack_corner()
-
-    def _on_layout_changed(self) -> None:
-        """Begin or end to scroll where blocks leave the view; not while some are carried."""
-        if self._canvas.gesture is None:
-            self._canvas.update_scroll_bars()
 
     def _stack_corner(self) -> None:
         """The minimap is above the trash."""

@@ -25,6 +25,8 @@ _WORDS_OF_OURS = {
     "where",
 }
 """Places for words of the program, which are translated too; the others have people's words."""
+_NOUNS = {"noun", "page", "result"}
+"""Places for a few words, never for a sentence with quotes in it."""
 _QUOTE = "“"
 
 
@@ -82,7 +84,8 @@ def _template(english: str, translation: str) -> _Template:
     literals, names = parts[::2], parts[1::2]
     pattern = re.escape(literals[0])
     for name, literal in zip(names, literals[1:], strict=True):
-        pattern += f"(?P<{name}>.*?){re.escape(literal)}"
+        filled = "[^“”:]" if name in _NOUNS and not pattern.endswith(_QUOTE) else "."
+        pattern += f"(?P<{name}>{filled}*?){re.escape(literal)}"
     ours = {
         name
         for before, name in zip(literals, names, strict=False)

@@ -216,3 +216,22 @@ def test_names_of_projects_variables_and_robots_never_become_code(project, varia
     told = constants(tree)
     assert constant_of(editor.project.name) in told
     assert robot == "*" or constant_of(robot) in told
+
+
+@pytest.mark.parametrize(
+    "name", ["今日は\u3000世界", "👩\u200d👩\u200d👧", "\u0645\u06cc\u200c\u062e", "deux\u00a0: 2"]
+)
+def test_a_name_may_have_the_spaces_and_joiners_of_its_script(name: str) -> None:
+    editor = Editor(build(LANGUAGE, [B("event.started")]).project, LANGUAGE)
+
+    editor.apply(RenameProject(name))
+
+    assert from_bytes(to_bytes(editor.project), "a.nep", LANGUAGE).name == name
+    ast.parse(generate_program(editor.project, LANGUAGE).text)
+
+
+@pytest.mark.parametrize("name", ["a\u202eb", "a\nb", "a\u2028b", "a\x00b", "\u3000"])
+def test_a_name_has_no_letters_that_turn_or_break_its_line(name: str) -> None:
+    editor = Editor(build(LANGUAGE, [B("event.started")]).project, LANGUAGE)
+
+    assert editor.why_not(RenameProject(name)) is not None

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import queue
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
+from nep_core import tasks
 from nep_core.launcher import Launcher
 from nep_core.p2p import PeerNetwork
 from tests.nep_core.launching import WAIT, Ends
 from tests.nep_core.node_making import write_node
+from tests.nep_core.outside import Outside
 
 
 @pytest.fixture
@@ -30,3 +32,19 @@ def launcher(network: PeerNetwork, tmp_path: Path, ends: Ends) -> Iterator[Launc
         launcher.hear(network)
         write_node(tmp_path / "nodes", "waiter", WAIT)
         yield launcher
+
+
+@pytest.fixture
+def own_program() -> Iterator[None]:
+    """A program of its own for a test: PROGRAM is one a process."""
+    tasks.PROGRAM.cancelled.clear()
+    tasks.PROGRAM._children.clear()
+    tasks.PROGRAM.undo.clear()
+    yield
+    tasks.PROGRAM.cancel()
+
+
+@pytest.fixture
+def outside(network: PeerNetwork, join: Callable[[str], PeerNetwork]) -> Outside:
+    """What is around a program: its robot and its person, on a network of their own."""
+    return Outside(network, join("outside"))

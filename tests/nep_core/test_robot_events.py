@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
 
 import pytest
 
@@ -13,22 +12,7 @@ from nep_core.p2p import PeerNetwork
 from nep_core.tasks import wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
-Join = Callable[[str], PeerNetwork]
-
-
-@pytest.fixture(autouse=True)
-def _own_program() -> Iterator[None]:
-    """A program of its own for each test: PROGRAM is one a process."""
-    tasks.PROGRAM.cancelled.clear()
-    tasks.PROGRAM._children.clear()
-    tasks.PROGRAM.undo.clear()
-    yield
-    tasks.PROGRAM.cancel()
-
-
-@pytest.fixture
-def outside(network: PeerNetwork, join: Join) -> Outside:
-    return Outside(network, join("outside"))
+pytestmark = pytest.mark.usefixtures("own_program")
 
 
 class Running:

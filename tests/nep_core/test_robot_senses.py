@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
 
 import pytest
 
-from nep_core import errors, human, robot_states, tasks
+from nep_core import errors, human, robot_states
 from nep_core.choosing import in_turn, one_of
 from nep_core.human import (
     heard_word,
@@ -17,26 +16,10 @@ from nep_core.human import (
     until_state,
     was_seen,
 )
-from nep_core.p2p import PeerNetwork
 from nep_core.tasks import wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
-Join = Callable[[str], PeerNetwork]
-
-
-@pytest.fixture(autouse=True)
-def _own_program() -> Iterator[None]:
-    """A program of its own for each test: PROGRAM is one a process."""
-    tasks.PROGRAM.cancelled.clear()
-    tasks.PROGRAM._children.clear()
-    tasks.PROGRAM.undo.clear()
-    yield
-    tasks.PROGRAM.cancel()
-
-
-@pytest.fixture
-def outside(network: PeerNetwork, join: Join) -> Outside:
-    return Outside(network, join("outside"))
+pytestmark = pytest.mark.usefixtures("own_program")
 
 
 def test_sensors_are_told_in_units_that_people_use(outside: Outside) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 from nep_studio import paths
@@ -82,10 +83,11 @@ OF_THE_SYSTEM = ["no such file or directory", "permission denied", "no space lef
 """Why a file cannot be opened, as the operating system says it."""
 
 
-def templates() -> set[str]:
+@cache
+def templates() -> frozenset[str]:
     """Every sentence of the sources, with a readable name at each place that is filled in."""
     found = {words for path in _files() for words in _of_file(path)}
-    return found.union(*PARTS.values(), OF_THE_SYSTEM)
+    return frozenset(found.union(*PARTS.values(), OF_THE_SYSTEM))
 
 
 def _files() -> Iterator[Path]:
@@ -100,9 +102,10 @@ def _of_file(path: Path) -> Iterator[str]:
         yield from filter(None, map(template, _told(node)))
     for node in ast.walk(tree):
         words = "" if id(node) in silent else template(node)
-        if ENDINGS.search(words) and " " in words and not NO_SENTENCES.search(words):
-            if path.name not in LEFT_OUT or words in STILL_SAID:
-                yield words
+        is_said = path.name not in LEFT_OUT or words in STILL_SAID
+        is_sentence = " " in words and ENDINGS.search(words) and not NO_SENTENCES.search(words)
+        if is_said and is_sentence:
+            yield words
 
 
 def _silent(node: ast.AST) -> Iterator[ast.AST]:

@@ -6,6 +6,7 @@ import ast
 import re
 import tomllib
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -107,6 +108,7 @@ def words_of_slots() -> Iterator[str]:
     yield from (kind.noun for kind in KINDS.values())
 
 
+@cache
 def window_words() -> set[str]:
     titles = {load_theme(name).title for name in themes()}
     found = {*words_of_calls(), *words_of_edits(), *words_of_data(), *words_of_slots(), *titles}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import hypot
 from typing import NamedTuple
 
 SQUARE = 512.0
@@ -42,6 +43,11 @@ class Rect(NamedTuple):
     def holds(self, x: float, y: float) -> bool:
         """Whether a point is inside."""
         return self.x <= x <= self.right and self.y <= y <= self.bottom
+
+    def distance(self, x: float, y: float) -> float:
+        """How far a point is from it: 0 inside."""
+        dx, dy = max(self.x - x, 0.0, x - self.right), max(self.y - y, 0.0, y - self.bottom)
+        return hypot(dx, dy)
 
     def grown(self, by: float) -> Rect:
         """This rectangle with a margin on all sides."""

@@ -88,7 +88,7 @@ def finding(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
             entries.append(
                 MenuEntry("definition", tr("Go to its definition"), lambda: _go(canvas, where))
             )
-    if definition is not None and definition.help:
+    if definition is not None:
         help_page = definition.help
         entries.append(
             MenuEntry(

@@ -34,17 +34,19 @@ class Ends:
     """Where carried blocks can be joined to others: points of the page, None where they cannot.
 
     ``top`` goes below another block, ``bottom`` onto the head of a stack, ``mouth`` (an empty one)
-    around blocks, ``output`` into a slot.
+    around blocks, ``output`` into a slot; ``inner`` is the middle of what is seen behind the output,
+    which may be held over the slot instead.
     """
 
     top: Point | None = None
     bottom: Point | None = None
     mouth: Point | None = None
     output: Point | None = None
+    inner: Point | None = None
 
     def moved(self, dx: float, dy: float) -> Ends:
         """The same ends elsewhere on the page."""
-        points = (self.top, self.bottom, self.mouth, self.output)
+        points = (self.top, self.bottom, self.mouth, self.output, self.inner)
         return Ends(*(point and (point[0] + dx, point[1] + dy) for point in points))
 
 
@@ -119,9 +121,9 @@ class Ground:
         if stack_id in self._page.chains:
             self._plain.setdefault(stack_id, self._page.chains[stack_id])
 
-    def near(self, point: Point, radius: float) -> Iterator[tuple[str, Chain]]:
-        """The stacks around a point of the page."""
-        for stack_id in self._page.index.near(_around(point, radius)):
+    def near(self, around: Rect) -> Iterator[tuple[str, Chain]]:
+        """The stacks that touch a rectangle of the page."""
+        for stack_id in self._page.index.near(around):
             yield stack_id, self._plain.get(stack_id) or self._page.chains[stack_id]
 
 
@@ -129,7 +131,10 @@ def ends_of(chain: Chain) -> Ends:
     """The ends of a chain of blocks whose x and y are on the page."""
     first, last = chain.boxes[0], chain.boxes[-1]
     if first.outline not in ("statement", "hat", "cap"):
-        return Ends(output=(chain.x, chain.y + first.height / 2))
+        middle = chain.y + first.height / 2
+        inside = min(first.width, 2 * first.height) / 2
+        inner = chain.x + (-inside if chain.is_mirrored else inside)
+        return Ends(output=(chain.x, middle), inner=(inner, middle))
     return Ends(
         top=(chain.x, chain.y) if first.outline != "hat" else None,
         bottom=(chain.x, chain.y + chain.height) if last.outline != "cap" else None,
@@ -150,10 +155,11 @@ def search(
     radius, preference = RADIUS_PX / scale, PREFERENCE_PX / max(scale, 1.0)
     found: list[tuple[float, int, Target]] = []
     for target, distance in targets(ground, ends, radius + preference, run):
+        is_input, number = target.join == "input", len(found)
         if target.is_same(current):
-            distance -= preference
-        if distance <= radius:
-            found.append((distance, len(found), target))
+            distance -= preference if not is_input else min(preference, distance)
+        if distance <= radius:  # over a slot inside another, the inner one counts: it comes later
+            found.append((distance, -number if is_input else number, target))
     found.sort(key=lambda each: each[:2])
     return _first_that_fits((target for _, _, target in found), why_not)
 
@@ -163,7 +169,7 @@ def targets(
 ) -> Iterator[tuple[Target, float]]:
     """All places within a distance of the ends, fitting or not, each with how far it is."""
     if ends.output is not None:
-        yield from _near_slots(ground, ends.output, radius)
+        yield from _near_slots(ground, ends, radius)
     if ends.top is not None:
         for joint, distance in _near_joints(ground, ends.top, radius):
             if run is not None and ends.mouth is not None and joint.below == run.first:
@@ -176,7 +182,7 @@ def targets(
                 inner = run if run is not None and joint.below == run.first else None
                 yield Target(joint.place, "around", joint.x, joint.y, inner), distance
     if ends.bottom is not None:
-        for stack_id, chain in ground.near(ends.bottom, radius):
+        for stack_id, chain in ground.near(_around(ends.bottom, radius)):
             distance = _distance(ends.bottom, chain.x, chain.y)
             if distance <= radius:
                 yield Target(InStack(stack_id, 0), "above", chain.x, chain.y), distance
@@ -210,23 +216,27 @@ def slots(placed: Placed) -> Iterator[tuple[str, Rect]]:
 
 
 def _near_joints(ground: Ground, point: Point, radius: float) -> Iterator[tuple[Joint, float]]:
-    for stack_id, chain in ground.near(point, radius):
+    for stack_id, chain in ground.near(_around(point, radius)):
         for joint in joints(stack_id, chain, point[1] - radius, point[1] + radius):
             distance = _distance(point, joint.x, joint.y)
             if distance <= radius:
                 yield joint, distance
 
 
-def _near_slots(ground: Ground, point: Point, radius: float) -> Iterator[tuple[Target, float]]:
-    around = _around(point, radius)
-    for _, chain in ground.near(point, radius):
+def _near_slots(ground: Ground, ends: Ends, radius: float) -> Iterator[tuple[Target, float]]:
+    """The slots that carried blocks are held over (wherever over them), or beside."""
+    points = [point for point in (ends.output, ends.inner) if point is not None]
+    around = _around(points[0], radius)
+    for point in points[1:]:
+        around = around.united(_around(point, radius))
+    for _, chain in ground.near(around):
         for placed in boxes_of(chain, around):
             for key, rect in slots(placed):
-                x = rect.right if placed.box.is_mirrored else rect.x
-                y = rect.y + rect.height / 2
-                distance = _distance(point, x, y)
+                distance = min(rect.distance(*point) for point in points)
                 if distance <= radius:
-                    yield Target(InInput(placed.box.block, key), "input", x, y), distance
+                    x = rect.right if placed.box.is_mirrored else rect.x
+                    place, y = InInput(placed.box.block, key), rect.y + rect.height / 2
+                    yield Target(place, "input", x, y), distance
 
 
 def _first_that_fits(found: Iterable[Target], why_not: WhyNot) -> Snap:

@@ -6,62 +6,20 @@ import time
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
 
 from nep_studio.blocks.edits import RenameVariable
-from nep_studio.ui.palette.palette import Palette
-from nep_studio.ui.palette.shelf import Shelf
-from nep_studio.ui.palette.tips import tip
-from nep_studio.ui.theme import load_theme
-
-LEFT = Qt.MouseButton.LeftButton
-
-
-def type_of(palette: Palette, number: int) -> str:
-    sample = palette.shelf.entries[number].sample
-    return palette.shelf._stock.project.blocks[sample].type if sample else ""
-
-
-def listed(palette: Palette) -> list[str]:
-    return [name for n in range(len(palette.shelf.entries)) if (name := type_of(palette, n))]
-
-
-def number_of(palette: Palette, block_type: str) -> int:
-    count = len(palette.shelf.entries)
-    return next(n for n in range(count) if type_of(palette, n) == block_type)
-
-
-def grip(shelf: Shelf, number: int) -> QPoint:
-    """A place on the block of an entry, scrolled into view."""
-    shelf._go_to(number)
-    rect = shelf.rect_of(number)
-    return QPoint(rect.center().x(), rect.top() + 12)
-
-
-def click(palette: Palette, block_type: str) -> None:
-    place = grip(palette.shelf, number_of(palette, block_type))
-    QTest.mouseClick(palette.shelf.viewport(), LEFT, pos=place)
-
-
-def press_and_drag(palette: Palette, block_type: str, to_canvas: QPoint) -> None:
-    """Press a block of the palette and bring it over the canvas; the button stays down."""
-    viewport = palette.shelf.viewport()
-    start = grip(palette.shelf, number_of(palette, block_type))
-    end = viewport.mapFromGlobal(palette.canvas.viewport().mapToGlobal(to_canvas))
-    QTest.mousePress(viewport, LEFT, pos=start)
-    for step in (0.2, 0.6, 1.0):
-        QTest.mouseMove(viewport, start + (end - start) * step)
-
-
-def drop(palette: Palette, at_canvas: QPoint) -> None:
-    viewport = palette.shelf.viewport()
-    place = viewport.mapFromGlobal(palette.canvas.viewport().mapToGlobal(at_canvas))
-    QTest.mouseRelease(viewport, LEFT, pos=place)
-
-
-def types(palette: Palette) -> list[str]:
-    return [block.type for block in palette.canvas.editor.project.blocks.values()]
+from tests.ui.palette.palette_use import (
+    LEFT,
+    click,
+    drop,
+    grip,
+    listed,
+    number_of,
+    press_and_drag,
+    type_of,
+    types,
+)
 
 
 def test_the_palette_lists_every_block_of_the_page(palette):
@@ -259,115 +217,3 @@ def test_blocks_dropped_on_the_palette_are_deleted_and_it_says_so(palette, qtbot
 
     assert was_shown and not palette.shelf._is_delete
     assert say not in canvas.editor.project.blocks
-
-
-def test_what_was_used_last_comes_first_and_is_remembered(palette, qtbot, settings):
-    click(palette, "control.wait")
-
-    qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
-    assert type_of(palette, 1) == "control.wait"
-    assert settings.recent_blocks[0] == "control.wait"
-
-
-def test_the_list_stays_where_it_is_when_something_is_used(palette, qtbot):
-    click(palette, "math.number")
-    before = palette.shelf.shown_drawer().id
-
-    qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
-
-    assert palette.shelf.shown_drawer().id == before
-
-
-def test_arrows_choose_a_block_and_enter_inserts_it(palette, qtbot):
-    palette.canvas.selection.clear()
-    palette.shelf.setFocus()
-    qtbot.keyClick(palette.shelf, Qt.Key.Key_Home)
-    first = type_of(palette, palette.shelf.current_item())
-
-    qtbot.keyClick(palette.shelf, Qt.Key.Key_Down)
-    second = type_of(palette, palette.shelf.current_item())
-    before = types(palette).count(second)
-    qtbot.keyClick(palette.shelf, Qt.Key.Key_Return)
-
-    assert first != second
-    assert types(palette).count(second) == before + 1
-
-
-def test_letters_typed_on_the_list_go_to_the_search(palette, qtbot):
-    palette.shelf.setFocus()
-
-    qtbot.keyClick(palette.shelf, Qt.Key.Key_W)
-
-    assert palette.search.text() == "w"
-    qtbot.waitUntil(palette.search.hasFocus)
-
-
-def test_arrows_go_from_the_search_to_the_list_and_back(palette, qtbot):
-    palette.search.setFocus()
-    qtbot.keyClick(palette.search, Qt.Key.Key_Down)
-    went = palette.shelf.hasFocus() and palette.shelf.current is not None
-
-    qtbot.keyClick(palette.shelf, Qt.Key.Key_Up)
-
-    assert went
-    assert palette.search.hasFocus()
-
-
-def test_a_screen_reader_finds_the_blocks_by_their_sentences(palette):
-    found = QAccessible.queryAccessibleInterface(palette.shelf)
-
-    names = [found.child(n).text(QAccessible.Text.Name) for n in range(found.childCount())]
-
-    assert found.role() == QAccessible.Role.List
-    assert "when the program starts" in names
-    assert "Category Robot" in names
-
-
-def test_the_tip_says_what_a_block_does_and_its_python(palette):
-    stock = palette.shelf._stock
-
-    words = tip(stock, stock.sample("control.wait"))
-
-    assert "The program waits here" in words
-    assert "sleep" in words or "wait" in words.split("<pre>")[1]
-
-
-def test_the_palette_becomes_a_narrow_column_of_signs(palette, qtbot):
-    with qtbot.waitSignal(palette.narrowed):
-        qtbot.mouseClick(palette.fold, LEFT)
-
-    assert palette.shelf.isHidden() and palette.search.isHidden()
-    assert palette.maximumWidth() < 120
-
-
-def test_a_category_of_the_narrow_palette_opens_it(palette, qtbot):
-    palette.set_narrow(True)
-
-    qtbot.mouseClick(palette.categories.buttons["math"], LEFT)
-
-    assert not palette.is_narrow
-    assert palette.shelf.shown_drawer().id == "math"
-
-
-def test_the_palette_takes_another_theme_and_direction(palette):
-    canvas = palette.canvas
-    canvas.set_look(load_theme("dark"), canvas.block_font, is_mirrored=True)
-
-    palette.refresh()
-
-    rect = palette.shelf.rect_of(number_of(palette, "event.started"))
-    assert rect.right() > palette.shelf.viewport().width() - 30
-    image = palette.shelf.viewport().grab().toImage()
-    assert image.pixelColor(2, 2) == load_theme("dark").colour("panel")
-
-
-def test_blocks_are_as_narrow_as_the_palette(palette):
-    palette.setFixedWidth(340)
-
-    palette.shelf.refresh()
-
-    width = palette.shelf.viewport().width()
-    wide = [
-        n for n in range(len(palette.shelf.entries)) if palette.shelf.rect_of(n).width() > width
-    ]
-    assert wide == []

@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, Qt
 from nep_studio.blocks.operations.enclosing import without_hat
 from nep_studio.blocks.operations.selection import Run, runs
 from nep_studio.blocks.places import InBody, InInput, InStack
-from nep_studio.ui.words import count_words
+from nep_studio.ui.words import count_words, tr
 
 from ..layout import Gap
 from ..snapping import Ground, Snap, Target, search
@@ -133,7 +133,7 @@ class DragBlocks:
             return count_words(
                 self.cargo.count, "Let go to delete 1 block", "Let go to delete {n} blocks"
             )
-        return "" if self.snap.target is not None else self.snap.reason or self._page_reason
+        return "" if self.snap.target is not None else tr(self.snap.reason or self._page_reason)
 
     def _way(self, pointer: Pointer) -> tuple[float, float]:
         return pointer.page.x() - self._grabbed.x(), pointer.page.y() - self._grabbed.y()

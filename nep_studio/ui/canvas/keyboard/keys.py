@@ -100,6 +100,7 @@ class Keyboard:
             (Key.Key_Return, *plain): self._edit,
             (Key.Key_Enter, *plain): self._edit,
             (Key.Key_F2, *plain): self._edit,
+            (Key.Key_F1, *plain): self._help,
             (Key.Key_Delete, *plain): canvas.commands.delete,
             (Key.Key_Backspace, *plain): canvas.commands.delete,
             (Key.Key_A, False, True, False): canvas.commands.select_all,
@@ -151,6 +152,13 @@ class Keyboard:
             canvas.fields.open(cursor, field.key)
         else:
             canvas.block_opened.emit(cursor)
+
+    def _help(self) -> None:
+        """Ask for help about the block that the keyboard is at, when it is selected."""
+        editor, cursor = self._canvas.editor, self._canvas.selection.cursor
+        if cursor in self._canvas.selection and cursor in editor.project.blocks:
+            definition = editor.language.definitions.get(editor.project.blocks[cursor].type)
+            self._canvas.help_requested.emit(definition.help if definition else "")
 
     def _toggle(self) -> None:
         if cursor := self.walk.cursor():

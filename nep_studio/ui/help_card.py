@@ -1,0 +1,130 @@
+"""A small card beside a block that says what it is; and what opening a block does."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, QRect, QSize, Qt
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QFrame, QTextBrowser, QVBoxLayout
+
+from nep_studio.blocks.operations.subjects import Subject, subjects_of
+from nep_studio.blocks.procedures import CALL, header_of, procedure_of
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.fields.places import beside
+from nep_studio.ui.find_bar import FindBar
+from nep_studio.ui.screens import room_around
+from nep_studio.ui.words import tr
+
+from .help_card_words import card_text
+
+WIDTH_LETTERS = 46
+
+
+class HelpCard(QFrame):
+    """Tells about one block; a press elsewhere or Esc takes it away."""
+
+    def __init__(self, canvas: Canvas, block: str) -> None:
+        super().__init__(canvas, Qt.WindowType.Popup)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setObjectName("help_card")
+        direction = Qt.LayoutDirection
+        mirrored = canvas.measures.is_mirrored
+        self.setLayoutDirection(direction.RightToLeft if mirrored else direction.LeftToRight)
+        self._canvas, self._block = canvas, block
+        self.text = QTextBrowser()
+        self.text.setFrameShape(QFrame.Shape.NoFrame)
+        self.text.setHtml(card_text(canvas.editor, block))
+        told = self.text.toPlainText()
+        self.setAccessibleName(tr("Help"))
+        self.setAccessibleDescription(told)
+        self.text.setAccessibleName(told)
+        theme = canvas.theme
+        self.setStyleSheet(
+            f"#help_card {{ background: {theme.colour('menu').name()};"
+            f" border: 1px solid {theme.colour('field_line').name()}; }}"
+            f" QTextBrowser {{ background: {theme.colour('menu').name()};"
+            f" color: {theme.colour('text').name()}; }}"
+        )
+        box = QVBoxLayout(self)
+        box.setContentsMargins(*(self.fontMetrics().height() // 2,) * 4)
+        box.addWidget(self.text)
+
+    def show_beside(self) -> None:
+        """Show it beside its block, inside the screen; what is too long scrolls."""
+        rect = self._canvas.view_rect_of(self._block)
+        if rect is None:
+            self.deleteLater()
+            return
+        viewport = self._canvas.viewport()
+        visible = rect.toAlignedRect() & viewport.rect()
+        head = QRect(visible.topLeft(), QSize(visible.width(), min(visible.height(), 60)))
+        head.moveTopLeft(viewport.mapToGlobal(head.topLeft()))
+        room = room_around(self._canvas)
+        self.resize(self._size(room.height() * 2 // 3))
+        mirrored = self._canvas.measures.is_mirrored
+        self.move(beside(head, self.size(), room, is_mirrored=mirrored))
+        self.show()
+        self.text.setFocus(Qt.FocusReason.PopupFocusReason)
+
+    def _size(self, most: int) -> QSize:
+        line = self.fontMetrics().height()
+        width = self.fontMetrics().averageCharWidth() * WIDTH_LETTERS
+        document = self.text.document()
+        document.setTextWidth(width - 2 * line)
+        wanted = round(document.size().height()) + 2 * line
+        return QSize(width, min(wanted, most))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc takes it away."""
+        if event.key() == Qt.Key.Key_Escape:
+            self.close()
+        else:
+            super().keyPressEvent(event)
+
+
+class BlockOpening(QObject):
+    """What opening a block of a canvas shows: a definition, uses, or what the block is."""
+
+    def __init__(self, canvas: Canvas, find_bar: FindBar) -> None:
+        super().__init__(canvas)
+        self._canvas, self._find_bar = canvas, find_bar
+        canvas.block_opened.connect(self.open)
+        canvas.help_requested.connect(self._on_help_requested)
+
+    def open(self, block: str) -> None:
+        """Show what there is to see of a block without a field."""
+        canvas = self._canvas
+        project = canvas.editor.project
+        if block not in project.blocks:
+            return
+        block_type = project.blocks[block].type
+        header = header_of(project, procedure_of(block_type))
+        subject = self._value_subject(block)
+        if block_type.startswith(CALL) and header:
+            canvas.show_block(header)
+            canvas.selection.set([header])
+        elif subject is not None:
+            self._find_bar.show_uses(subject)
+        else:
+            self.show_card(block)
+
+    def show_card(self, block: str) -> None:
+        """Tell about a block, beside it."""
+        editor = self._canvas.editor
+        if block in editor.project.blocks:
+            if editor.project.blocks[block].type in editor.language.definitions:
+                HelpCard(self._canvas, block).show_beside()
+
+    def _value_subject(self, block: str) -> Subject | None:
+        """The variable or parameter that a block stands for, and nothing else."""
+        editor = self._canvas.editor
+        definition = editor.language.definitions.get(editor.project.blocks[block].type)
+        if definition is None or not definition.is_value:
+            return None
+        kinds = {slot.kind.name for slot in definition.slots.values()}
+        if kinds - {"variable"}:
+            return None
+        subject = next(iter(subjects_of(editor.project, editor.language, block)), None)
+        return subject if subject and subject.kind in ("variable", "parameter") else None
+
+    def _on_help_requested(self, page: str) -> None:
+        self.show_card(self._canvas.selection.cursor)

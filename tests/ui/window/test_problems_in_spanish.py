@@ -1,0 +1,96 @@
+"""A Spanish teacher reads problems, refusals and errors of files in Spanish."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
+from pytestqt.qtbot import QtBot
+
+from nep_studio import paths
+from nep_studio.blocks.edits import DeleteBlocks
+from nep_studio.ui.main_window import MainWindow
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def in_spanish(window: MainWindow, qtbot: QtBot) -> MainWindow:
+    """The window in Spanish, with the karate example."""
+    window.studio.choose_language("es")
+    window.files.open_example(paths.examples() / "karate_greeting.nep")
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+    qtbot.waitUntil(lambda: window.workbench.checks._check is None)
+    return window
+
+
+@pytest.fixture
+def spanish(in_spanish: MainWindow, qtbot: QtBot) -> MainWindow:
+    """The same, whose robot and nodes are deleted."""
+    window = in_spanish
+    editor = window.files.document.editor
+    for page in ("robots", "nodes"):
+        for stack in list(editor.project.pages[page]):
+            editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    qtbot.waitUntil(lambda: len(window.workbench.checks.problems) >= 2)
+    return window
+
+
+def shown_words(widget: QWidget) -> str:
+    return "\n".join(label.text() for label in widget.findChildren(QLabel))
+
+
+def test_the_problems_panel_is_spanish(spanish: MainWindow, qtbot: QtBot) -> None:
+    button = spanish.toolbar.widgetForAction(spanish.actions_by_name["check"])
+
+    qtbot.mouseClick(button, LEFT)
+
+    qtbot.waitUntil(lambda: len(spanish.workbench.problems.rows) >= 2)
+    rows = spanish.workbench.problems.rows
+    told = "\n".join(shown_words(row) for row in rows)
+    assert "NAO no está en la página Robots." in told
+    assert "Ningún nodo de la página Nodos reconoce el gesto “" in told
+    assert "O elige otro robot en este bloque." in told
+    assert "Añadir NAO" in [row.fix_button.text() for row in rows if row.fix_button]
+
+
+def test_the_bubble_of_a_badge_is_spanish(spanish: MainWindow, qtbot: QtBot) -> None:
+    canvas = spanish.workbench.canvas
+    missing = next(p for p in spanish.workbench.checks.problems if p.kind == "robot_missing")
+
+    canvas.problem_opened.emit(missing.block)
+
+    bubble = spanish.workbench.bubble
+    assert "NAO no está en la página Robots." in shown_words(bubble)
+    assert "Añadir NAO" in [button.text() for button in bubble.buttons]
+    qtbot.keyClick(bubble, Qt.Key.Key_Escape)
+
+
+def test_a_refused_paste_is_told_in_spanish(spanish: MainWindow, qtbot: QtBot) -> None:
+    canvas = spanish.workbench.canvas
+    QApplication.clipboard().setText('print("hello"')
+    canvas.setFocus()
+
+    qtbot.keyClick(canvas, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
+
+    qtbot.waitUntil(lambda: bool(spanish.message_area.cards))
+    [card] = spanish.message_area.cards
+    assert card.message.title == "Esto no encaja"
+    assert "Línea 1: Python no entiende esto" in card.message.sentence
+
+
+def test_a_file_that_is_no_project_is_told_in_spanish(
+    in_spanish: MainWindow, chooser, tmp_path: Path, qtbot: QtBot
+) -> None:
+    chooser.path = tmp_path / "cuento.nep"
+    chooser.path.write_text('{"format": "story"}', encoding="utf-8")
+
+    in_spanish.actions_by_name["open"].trigger()
+
+    qtbot.waitUntil(lambda: bool(in_spanish.message_area.cards))
+    told = in_spanish.message_area.cards[-1].message
+    assert told.title == "Este proyecto no se puede usar"
+    assert told.sentence == "cuento.nep no es un proyecto de NEP Studio."
+    assert told.checklist == ("Elige un archivo guardado por NEP Studio; su nombre acaba en .nep.",)
