@@ -23,7 +23,7 @@ from typing import Any
 
 from .definitions import Category, Definition
 from .language import Language
-from .sentence import Group, Part, SentenceError, Slot, tokens, groups_of
+from .sentence import Group, Part, SentenceError, Slot, groups_of, tokens
 
 Table = Mapping[str, Any]
 

@@ -120,7 +120,7 @@ def _in_texts_too(commands: Commands) -> tuple[Callable[[], object], ...]:
             return getattr(focus, name)()
         return getattr(commands, name)()
 
-    return tuple(lambda name=name: do(name) for name in ("cut", "copy", "paste"))  # type: ignore[misc]
+    return tuple(lambda name=name: do(name) for name in ("cut", "copy", "paste"))
 
 
 def update_edit_actions(window: MainWindow) -> None:

@@ -14,11 +14,17 @@ WIDENING = 1.3
 
 def fit_icons(root: QWidget) -> None:
     """Give the icons of all buttons and tabs inside a widget the size of their text."""
-    for kind in (QAbstractButton, QTabBar, QTabWidget):
-        for widget in root.findChildren(kind):
-            side = round(widget.fontMetrics().height() * ICON_LINES)
-            has_words = not isinstance(widget, QAbstractButton) or bool(widget.text())
-            widget.setIconSize(icon_room(side) if has_words else QSize(side, side))
+    for button in root.findChildren(QAbstractButton):
+        side = _side(button)
+        button.setIconSize(icon_room(side) if button.text() else QSize(side, side))
+    for bar in root.findChildren(QTabBar):
+        bar.setIconSize(icon_room(_side(bar)))
+    for tabs in root.findChildren(QTabWidget):
+        tabs.setIconSize(icon_room(_side(tabs)))
+
+
+def _side(widget: QWidget) -> int:
+    return round(widget.fontMetrics().height() * ICON_LINES)
 
 
 def icon_room(side: int) -> QSize:

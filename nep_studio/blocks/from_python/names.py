@@ -54,12 +54,17 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
 
 def _require_variables(names: SourceNames, tree: ast.Module) -> None:
     """What is global must be a variable: a robot, a function and “wait” cannot become one."""
-    said = [node for node in ast.walk(tree) if isinstance(node, ast.Global)]
-    for node, name in [(node, name) for node in said for name in node.names]:
+    lines = {
+        name: node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Global)
+        for name in node.names
+    }
+    for name, line in lines.items():
         if name not in names.variables:
             raise CodeUnread(
                 f"“{name}” has a meaning in the program already, and cannot be a variable.",
-                node.lineno,
+                line,
                 checklist=("Give the variable another name.",),
             )
 

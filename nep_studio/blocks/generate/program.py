@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from ..deployment import chains, robot_entries
@@ -61,8 +61,12 @@ class ProgramGenerator:
             if slot.kind.name == "robot"
         }
 
-    def generate(self) -> Code:
-        """The program as it is now; raises CodeRefused, which names the block."""
+    def generate(self, rest: Callable[[], None] = lambda: None) -> Code:
+        """The program as it is now; raises CodeRefused, which names the block.
+
+        ``rest`` is called often, so that long work can pause there, or end by what it raises:
+        the rules that are written then stay written.
+        """
         self._language = self._language.of(self._project)
         written = {
             self._project.parents[chain[0]].owner: chain
@@ -73,9 +77,9 @@ class ProgramGenerator:
         names = self._names(written, headers)
         functions = NameTable(names.taken())
         ordered = [*headers.values(), *(s for s in written if s not in set(headers.values()))]
-        self._rules = {
-            stack: self._rule(stack, written[stack], names, functions) for stack in ordered
-        }
+        for stack in ordered:
+            self._rules[stack] = self._rule(stack, written[stack], names, functions, rest)
+        self._rules = {stack: self._rules[stack] for stack in ordered}
         return self._assemble(names, list(self._rules.values()))
 
     def _headers(self, written: dict[str, list[str]]) -> dict[str, str]:
@@ -96,7 +100,12 @@ class ProgramGenerator:
         return {p: found[p] for p in self._project.procedures if p in found}
 
     def _rule(
-        self, stack: str, chain: list[str], names: ProgramNames, functions: NameTable
+        self,
+        stack: str,
+        chain: list[str],
+        names: ProgramNames,
+        functions: NameTable,
+        rest: Callable[[], None],
     ) -> _Rule:
         """Write the rule of a stack, unless it is written already."""
         code = Expressions(self._project, self._language, names, REPORTERS)
@@ -111,7 +120,7 @@ class ProgramGenerator:
         known = self._rules.get(stack)
         if known is not None and known.made_for == made_for:
             return known
-        return _write(made_for, code, function, hat, chain)
+        return _write(made_for, RuleWriter(code, rest), function, hat, chain)
 
     def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> ProgramNames:
         """Names for the robots of the Robots page, others that rules use, variables, own blocks."""
@@ -193,10 +202,10 @@ def generate_program(project: Project, language: Language) -> Code:
 
 
 def _write(
-    made_for: tuple[object, ...], code: Expressions, function: str, hat: Hat, chain: list[str]
+    made_for: tuple[object, ...], writer: RuleWriter, function: str, hat: Hat, chain: list[str]
 ) -> _Rule:
-    writer = RuleWriter(code)
     writer.write(function, hat, chain)
+    code = writer.code
     return _Rule(
         made_for,
         writer.lines,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain as chain_of
 
@@ -63,10 +63,11 @@ class _Frame:
 class RuleWriter:
     """Writes one rule; ``blocks[i]`` is the block that made ``lines[i]``."""
 
-    def __init__(self, code: Expressions) -> None:
+    def __init__(self, code: Expressions, rest: Callable[[], None] = lambda: None) -> None:
         self.lines: list[str] = []
         self.blocks: list[str] = []
-        self._code = code
+        self.code = self._code = code
+        self._rest = rest
         self._has_code_blocks = False
 
     def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> None:
@@ -78,6 +79,7 @@ class RuleWriter:
         self._line(f"def {function_name}({', '.join(hat.arguments)}):", hat_block.id)
         frames = [self._function(stack[1:], hat_block.id, 1)]
         while frames:
+            self._rest()
             frame = frames[-1]
             item = next(frame.left, None)
             if item is None:

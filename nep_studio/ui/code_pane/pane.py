@@ -75,6 +75,7 @@ class CodePane(QWidget):
         self.text.setStyleSheet("QPlainTextEdit { border: none; border-radius: 0; }")
 
     def _connect(self) -> None:
+        self.live.began.connect(self._on_code_began)
         self.live.made.connect(self._on_code_made)
         self.live.refused.connect(self._on_code_refused)
         self.text.line_clicked.connect(self._on_line_clicked)
@@ -140,9 +141,15 @@ class CodePane(QWidget):
             block = project.parents[block].owner
         return ()
 
+    def _on_code_began(self) -> None:
+        self.title.set_words(tr("Making the Python…"))
+        if self.live.code is None and not self.is_editing:
+            self.text.show_text("")  # not that of another project
+
     def _on_code_made(self, code: Code) -> None:
         if self.is_editing:
             return
+        self._show_buttons()
         self.note.hide()
         self.text.show_text(code.text)
         self._mark()
@@ -150,6 +157,7 @@ class CodePane(QWidget):
     def _on_code_refused(self, refusal: CodeRefused) -> None:
         if self.is_editing:
             return
+        self._show_buttons()
         show = Answer(tr("Show the block"), lambda: self.block_asked.emit(refusal.block), "primary")
         self._tell(refusal, *([show] if refusal.block else []))
 
@@ -202,7 +210,7 @@ class CodePane(QWidget):
         self.text.set_editable(False)
         self._show_buttons()
         self.live.show_page(self._kind)
-        self.live.make()
+        self.live.start()
         self.live.set_awake(self.isVisible())
 
     def _tell(self, error: BlocksError, *answers: Answer) -> None:
@@ -210,7 +218,8 @@ class CodePane(QWidget):
         box = self.note.layout()
         assert box is not None
         while (item := box.takeAt(0)) is not None:
-            item.widget().deleteLater()
+            if (widget := item.widget()) is not None:
+                widget.deleteLater()
         words = Message(
             "error", tr(error.title), tr(error.sentence), tuple(map(tr, error.checklist))
         )

@@ -161,9 +161,9 @@ class CodeText(QPlainTextEdit):
 
     def _mark(self, line: int, colour: QColor) -> QTextEdit.ExtraSelection:
         mark = QTextEdit.ExtraSelection()
-        mark.format.setBackground(colour)  # type: ignore[attr-defined]  # the stubs miss it
-        mark.format.setProperty(QTextFormat.Property.FullWidthSelection, True)  # type: ignore[attr-defined]
-        mark.cursor = QTextCursor(self.document().findBlockByNumber(line - 1))  # type: ignore[attr-defined]
+        mark.format.setBackground(colour)
+        mark.format.setProperty(QTextFormat.Property.FullWidthSelection, True)
+        mark.cursor = QTextCursor(self.document().findBlockByNumber(line - 1))
         return mark
 
     def _is_in_view(self, line: int) -> bool:

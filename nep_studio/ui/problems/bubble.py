@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QStyle, QStyleOption, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QPushButton,
+    QStyle,
+    QStyleOption,
+    QVBoxLayout,
+    QWidget,
+)
 
 from nep_studio.blocks.checks import Problem
 from nep_studio.ui.messages import Message
@@ -29,8 +37,8 @@ class ProblemBubble(QFrame):
         self.setProperty("kind", problems[0].severity)
         self.setAccessibleName(" ".join(tr(problem.sentence) for problem in problems))
         self.setFixedWidth(self.fontMetrics().averageCharWidth() * WIDTH_LETTERS)
-        self.buttons = []
-        box = QVBoxLayout(self)
+        self.buttons: list[QPushButton] = []
+        box = self._box = QVBoxLayout(self)
         for problem in problems:
             checklist = tuple(map(tr, problem.checklist))
             box.addWidget(
@@ -41,7 +49,7 @@ class ProblemBubble(QFrame):
     def show_at(self, badge: QRect) -> None:
         """Show it below a badge, given on the screen, but never outside of the screen."""
         width = self.width()
-        height = max(self.layout().totalHeightForWidth(width), self.minimumSizeHint().height())
+        height = max(self._box.totalHeightForWidth(width), self.minimumSizeHint().height())
         self.resize(width, height)
         room = room_around(self.parentWidget())
         x = min(max(badge.left(), room.left()), room.right() - width)

@@ -342,7 +342,7 @@ def test_all_of_a_wide_empty_hole_takes_a_condition(is_mirrored, share):
 
 @pytest.mark.parametrize("is_mirrored", [False, True])
 def test_a_slot_takes_what_is_held_over_it_with_its_body(is_mirrored):
-    page = page_of([B("control.if")], [B("math.compare")], is_mirrored=is_mirrored)
+    page = page_of([B("control.if")], [B("logic.compare")], is_mirrored=is_mirrored)
     block, side = stack(page).body[0], -1 if is_mirrored else 1
     rect = dict(slots(page.placed(block)))["condition"]
     ends = ends_of(page.chains[stack(page, 1).id])

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication, QTextCursor
 from pytestqt.qtbot import QtBot
@@ -149,16 +147,3 @@ def test_hidden_code_is_not_computed(karate: MainWindow, qtbot: QtBot) -> None:
     assert not was_busy
     assert len(made) == 1  # when it was shown again
     assert "Quiet" in code.text.toPlainText()
-
-
-def test_an_edit_of_a_typical_program_takes_little_time(karate: MainWindow) -> None:
-    editor, code = karate.files.document.editor, karate.workbench.code
-    block, spent = say_block(karate), []
-
-    for number in range(20):
-        editor.apply(SetField(block, "text", f"number {number}"))
-        start = time.process_time()
-        code.live.make()
-        spent.append(time.process_time() - start)
-
-    assert sorted(spent)[10] < 0.004

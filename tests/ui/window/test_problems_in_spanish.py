@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
 from nep_studio.blocks.edits import DeleteBlocks
+from nep_studio.ui.canvas.overlay import badge_rect
 from nep_studio.ui.main_window import MainWindow
 
 LEFT = Qt.MouseButton.LeftButton
@@ -58,9 +59,12 @@ def test_the_problems_panel_is_spanish(spanish: MainWindow, qtbot: QtBot) -> Non
 
 def test_the_bubble_of_a_badge_is_spanish(spanish: MainWindow, qtbot: QtBot) -> None:
     canvas = spanish.workbench.canvas
+    canvas.show_page("behaviour")
     missing = next(p for p in spanish.workbench.checks.problems if p.kind == "robot_missing")
 
-    canvas.problem_opened.emit(missing.block)
+    badge = badge_rect(canvas.page_layout.placed(missing.block), canvas)
+    at = canvas.camera.to_view(badge.center().x() + 4, badge.center().y())
+    qtbot.mouseClick(canvas.viewport(), LEFT, pos=at.toPoint())
 
     bubble = spanish.workbench.bubble
     assert "NAO no está en la página Robots." in shown_words(bubble)
