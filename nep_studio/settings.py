@@ -142,6 +142,10 @@ class Settings:
         """Whether a person left a panel open."""
         return self._text(f"panels/{panel}", "yes" if default else "no") == "yes"
 
+    def is_chosen(self, panel: str) -> bool:
+        """Whether a person has ever shown or hidden a panel."""
+        return bool(self._text(f"panels/{panel}", ""))
+
     def set_shown(self, panel: str, is_shown: bool) -> None:
         """Remember whether a panel is open."""
         self._values.setValue(f"panels/{panel}", "yes" if is_shown else "no")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QMenu
 
+from nep_studio.ui.comparing import compare_with_saved
 from nep_studio.ui.start_page_examples import example_files, example_title
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
@@ -39,7 +40,13 @@ def add_file_menu(window: MainWindow) -> QMenu:
         icon_name="save-all",
         keys=(Key.SaveAs, "Ctrl+Shift+S"),
     )
-    menu.addActions([save, save_as])
+    compare = actions.add(
+        "compare",
+        tr("Compare with the saved version…"),
+        lambda: compare_with_saved(window),
+        icon_name="file-text",
+    )
+    menu.addActions([save, save_as, compare])
     picture = actions.add(
         "picture", tr("Export picture…"), window.export_picture, icon_name="image"
     )

@@ -50,7 +50,7 @@ class Document(QObject):
         self._flush.timeout.connect(self.flush)
         self._flush.start()
         editor.history.listen(self._on_changes)
-        self._shown = (self.title, self.is_modified)
+        self._shown = (self.path, self.title, self.is_modified)
 
     @property
     def project(self) -> Project:
@@ -123,7 +123,7 @@ class Document(QObject):
         self._tell()
 
     def _tell(self) -> None:
-        shown = (self.title, self.is_modified)
+        shown = (self.path, self.title, self.is_modified)
         if shown != self._shown:
             self._shown = shown
             self.changed.emit()

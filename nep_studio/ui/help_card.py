@@ -110,9 +110,9 @@ class BlockOpening(QObject):
     def show_card(self, block: str) -> None:
         """Tell about a block, beside it."""
         editor = self._canvas.editor
-        if block in editor.project.blocks:
-            if editor.project.blocks[block].type in editor.language.definitions:
-                HelpCard(self._canvas, block).show_beside()
+        found = editor.project.blocks.get(block)
+        if found is not None and found.type in editor.language.definitions:
+            HelpCard(self._canvas, block).show_beside()
 
     def _value_subject(self, block: str) -> Subject | None:
         """The variable or parameter that a block stands for, and nothing else."""

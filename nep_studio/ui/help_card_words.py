@@ -32,7 +32,8 @@ def card_text(editor: Editor, block_id: str) -> str:
         parts.append(f"<p>{escape(tr('Its places:'))}</p><ul>{places}</ul>")
     code = _python(editor, block_id)
     if code:
-        parts.append(f"<p>{escape(tr('In Python:'))}</p><pre dir='ltr'>{escape(code)}</pre>")
+        parts.append(f"<p>{escape(tr('In Python:'))}</p>")
+        parts.append(f"<pre dir='ltr' style='white-space: pre-wrap'>{escape(code)}</pre>")
     return "".join(parts)
 
 

@@ -100,7 +100,7 @@ class MainWindow(QMainWindow):
 
     def start(self, path: Path | None) -> None:
         """Begin with a project, or with the start page; offer what was lost the last time."""
-        self.workbench.panels.restore(self.fontMetrics().height())
+        self.workbench.restore(self.fontMetrics().height())
         if path is not None:
             self.files.open(path)
         self.offer_recovery()
@@ -181,6 +181,9 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{document.title}[*]" if document is not None else tr("Start"))
         self.setWindowModified(document is not None and document.is_modified)
         self.setWindowFilePath("" if document is None else str(document.path or ""))
+        self.workbench.show_folder(document)
+        can_compare = document is not None and document.path is not None and document.is_modified
+        self.actions_by_name.enable(can_compare, "compare")
 
     def _on_problems_found(self, problems: Sequence[Problem]) -> None:
         document = self.files.document
@@ -227,7 +230,7 @@ class MainWindow(QMainWindow):
         self.actions_by_name.retire()
         self._build()
         self._on_document_changed(self.files.document)
-        self.workbench.panels.restore(self.fontMetrics().height())
+        self.workbench.restore(self.fontMetrics().height())
         canvas = self.workbench.canvas
         if self.files.document is not None:
             canvas.show_page(page)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QVBoxLayout, QWidget
 
@@ -115,6 +115,14 @@ class Panels(QObject):
             if panel.widget is widget:
                 panel.action.setChecked(True)
                 panel.area.setCurrentWidget(widget)
+
+    def hide_at_first(self, area: AreaName) -> None:
+        """Hide the panels of an area that the person has not shown or hidden yet."""
+        for panel in self.all:
+            if panel.area is self.areas[area] and not self._settings.is_chosen(panel.name):
+                with QSignalBlocker(panel.action):  # this is not the person's choice
+                    panel.action.setChecked(False)
+                panel.area.show_panel(panel.widget, False)
 
     def restore(self, line: int) -> None:
         """Give the areas the sizes that they had, or good ones; ``line`` is a line of text."""

@@ -33,6 +33,10 @@ from nep_studio.ui.words import is_right_to_left, tr
 
 BLOCK_FONT_PIXELS = 14
 WIDEST = 16777215  # Qt's own
+LEAST_LINES = 60
+"""In a window that is narrower, in lines of text, not all panels have room at first."""
+
+NARROW_PALETTE = "NarrowPalette"
 
 
 class Workbench(QWidget):
@@ -101,8 +105,25 @@ class Workbench(QWidget):
         editor = self._no_editor() if document is None else document.editor
         folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
         self._set_editor(editor)
-        self.canvas.fields.project_folder = folder() if document and document.path else None
+        self.show_folder(document)
         self.checks.follow(None if document is None else editor, folder)
+
+    def show_folder(self, document: Document | None) -> None:
+        """Choose files from where the project is now; it has a folder once it is saved."""
+        is_saved = document is not None and document.path is not None
+        self.canvas.fields.project_folder = document.folder if document and is_saved else None
+
+    def restore(self, line: int) -> None:
+        """Lay the panels out as the person left them; ``line`` is a line of text.
+
+        A narrow window that nobody has arranged yet leaves the room to the page.
+        """
+        palette, is_small = self.helpers.palette, self.window().width() < LEAST_LINES * line
+        palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
+        if is_small:
+            self.panels.hide_at_first("right")
+        self.panels.restore(line)
+        palette.narrowed.connect(self._on_palette_chosen)
 
     def retire(self) -> None:
         """Let go of the project, before this workbench is thrown away."""
@@ -196,6 +217,9 @@ class Workbench(QWidget):
     def _on_palette_narrowed(self, is_narrow: bool) -> None:
         width = self.helpers.palette.maximumWidth() if is_narrow else WIDEST
         self.panels.areas["left"].setMaximumWidth(width)
+
+    def _on_palette_chosen(self, is_narrow: bool) -> None:
+        self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
 
 
 def block_font(studio: Studio) -> QFont:

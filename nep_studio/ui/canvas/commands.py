@@ -96,15 +96,15 @@ class Commands:
             canvas.selection.set(canvas.editor.project.stack_of(cursor).body, cursor)
 
     def undo(self) -> None:
-        """Take the last step back."""
+        """Take the last step back; blocks that come back by it are selected."""
         history, label = self._canvas.editor.history, self._canvas.editor.history.undo_label
-        if history.undo():
+        if self._step(history.undo):
             self._canvas.announced.emit(tr("undone: {step}", step=tr(label)))
 
     def redo(self) -> None:
-        """Do the step again that was taken back last."""
+        """Do the step again that was taken back last; blocks that come back are selected."""
         history, label = self._canvas.editor.history, self._canvas.editor.history.redo_label
-        if history.redo():
+        if self._step(history.redo):
             self._canvas.announced.emit(tr("done again: {step}", step=tr(label)))
 
     def tidy(self, *, columns: bool = False) -> bool:
@@ -119,6 +119,20 @@ class Commands:
         return canvas.attempt(
             lambda: tidy(canvas.editor, canvas.page, sizes, align=align, is_mirrored=is_mirrored)
         )
+
+    def _step(self, step: Callable[[], bool]) -> bool:
+        """Go one step back or forth, and select the blocks that this brings to the page."""
+        project = self._canvas.editor.project
+        before = set(project.blocks)
+        if not step():
+            return False
+        back = [block for block in project.blocks if block not in before]
+        came = set(back)
+        outer = [block for block in back if project.parents[block].owner not in came]
+        here = {stack.id for stack in project.pages.get(self._canvas.page, [])}
+        if outer and all(project.stack_of(block).id in here for block in outer):
+            self._canvas.selection.set(outer)
+        return True
 
     def _make(self, change: Callable[[], Iterable[str]], told: str) -> bool:
         """Make blocks, select them and show the first."""

@@ -154,7 +154,7 @@ class Layout:
         self, box: Box, block: Block, definition: Definition | None, sections: list[Section]
     ) -> None:
         measures = self.measures
-        rows = [flow(section.items, measures) for section in sections]
+        rows = [section.rows(measures) for section in sections]
         widest = max(row.width for section_rows in rows for row in section_rows)
         box.width = max(widest + 2 * measures.pad, measures.narrowest)
         y = measures.hat if box.outline == "hat" else 0.0

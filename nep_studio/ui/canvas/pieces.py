@@ -10,7 +10,7 @@ from nep_studio.blocks.sentence import Slot
 
 from .boxes import Piece
 from .measures import Measures
-from .rows import PUNCTUATION
+from .rows import PUNCTUATION, UNITS
 from .slot_looks import (
     LEADS,
     MOST_LINES,
@@ -130,11 +130,15 @@ class Pieces:
         return Piece("field", 0, 0, width, measures.field_height, text, key, "parameter", shape)
 
     def _parts(self, words: str) -> Iterator[str]:
-        """Words in parts that fit into rows; a comma at their beginning stands by itself."""
+        """Words in parts that fit into rows; a comma or a unit at their beginning is apart."""
         width, widest = self._measures.text_width, self._measures.widest
         if words[:1] in PUNCTUATION and len(words) > 1:
             yield words[0]
             words = words[1:].lstrip()
+        unit, _, following = words.partition(" ")
+        if unit in UNITS and following:
+            yield unit
+            words = following.lstrip()
         if width(words) <= widest / 2:
             if words:
                 yield words

@@ -11,7 +11,13 @@ from .measures import Measures
 Item = Piece | Plug
 
 PUNCTUATION = frozenset(",.;:?!°%、。，：？！")  # noqa: RUF001 signs of Japanese sentences too
-"""Words that begin with one of these (a unit too) stand close to what is before them."""
+"""Words that begin with one of these (a sign of a unit too) stand close to what is before them."""
+
+UNITS = frozenset({"m", "cm", "mm", "km", "s", "ms", "kg", "m/s", "Hz", "秒", "メートル"})
+"""Words that belong to the number before them."""
+
+WIDE_PUNCTUATION = frozenset("、。，：？！")  # noqa: RUF001 signs of Japanese sentences
+"""Signs that bring the room after them along."""
 
 TIGHT = 0.34
 """The share of the usual gap that is before what belongs to the item in front of it."""
@@ -44,7 +50,7 @@ def is_tied(item: Item) -> bool:
     if not isinstance(item, Piece):
         return False
     if item.piece == "words":
-        return item.text[:1] in PUNCTUATION
+        return item.text[:1] in PUNCTUATION or item.text in UNITS
     return item.kind == "remove" and item.key != "" and item.shape == "tied"
 
 
@@ -53,6 +59,8 @@ def gap_share(before: Item, item: Item) -> float:
     if is_tied(item):
         return TIGHT
     are_words = all(isinstance(each, Piece) and each.piece == "words" for each in (before, item))
+    if are_words and isinstance(before, Piece) and before.text[-1:] in WIDE_PUNCTUATION:
+        return 0.0
     return SPACE if are_words else 1.0
 
 

@@ -15,15 +15,26 @@ from nep_studio.ui.words import count_words
 from .boxes import Box, Piece, Plug
 from .measures import Measures
 from .pieces import Pieces
-from .rows import Item
+from .rows import Item, Row, flow
 
 
 @dataclass(slots=True)
 class Section:
-    """Items that flow into rows; ``mouth`` is the slot of the body below them, if there is one."""
+    """Items that flow into rows; ``mouth`` is the slot of the body below them, if there is one.
+
+    ``header`` is the number of the item that begins a row of its own, 0 when none does.
+    """
 
     items: list[Item] = field(default_factory=list)
     mouth: str = ""
+    header: int = 0
+
+    def rows(self, measures: Measures) -> list[Row]:
+        """The items in rows."""
+        if not self.header:
+            return flow(self.items, measures)
+        before, after = self.items[: self.header], self.items[self.header :]
+        return [*flow(before, measures), *flow(after, measures)]
 
 
 class SectionWriter:
@@ -88,6 +99,8 @@ class SectionWriter:
         count = block.groups.get(group.name, 0)
         can_leave = count > definition.minimum[group.name]
         for number in range(1, count + 1):
+            if has_body:
+                sections[-1].header = len(sections[-1].items)
             for part in group.parts:
                 is_body = isinstance(part, Slot) and part.kind.name == "body"
                 if is_body and can_leave:

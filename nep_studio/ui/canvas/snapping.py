@@ -24,6 +24,9 @@ PREFERENCE_PX = 8.0
 Zoomed out it shrinks with the blocks, which are hardly higher than this then.
 """
 
+INNER_DISTANCE = 2.0
+"""How much farther than the output the inside of a reporter counts; with the output one aims."""
+
 Point = tuple[float, float]
 Join = Literal["below", "above", "around", "input"]
 WhyNot = Callable[["Target"], str | None]
@@ -34,8 +37,8 @@ class Ends:
     """Where carried blocks can be joined to others: points of the page, None where they cannot.
 
     ``top`` goes below another block, ``bottom`` onto the head of a stack, ``mouth`` (an empty one)
-    around blocks, ``output`` into a slot; ``inner`` is the middle of what is seen behind the output,
-    which may be held over the slot instead.
+    around blocks, ``output`` into a slot; ``inner`` is the middle of what is seen behind the
+    output, which may be held over the slot instead.
     """
 
     top: Point | None = None
@@ -225,14 +228,16 @@ def _near_joints(ground: Ground, point: Point, radius: float) -> Iterator[tuple[
 
 def _near_slots(ground: Ground, ends: Ends, radius: float) -> Iterator[tuple[Target, float]]:
     """The slots that carried blocks are held over (wherever over them), or beside."""
-    points = [point for point in (ends.output, ends.inner) if point is not None]
-    around = _around(points[0], radius)
-    for point in points[1:]:
-        around = around.united(_around(point, radius))
+    points = [
+        (point, more)
+        for point, more in ((ends.output, 0.0), (ends.inner, INNER_DISTANCE))
+        if point is not None
+    ]
+    around = _around(points[0][0], radius).united(_around(points[-1][0], radius))
     for _, chain in ground.near(around):
         for placed in boxes_of(chain, around):
             for key, rect in slots(placed):
-                distance = min(rect.distance(*point) for point in points)
+                distance = min(rect.distance(*point) + more for point, more in points)
                 if distance <= radius:
                     x = rect.right if placed.box.is_mirrored else rect.x
                     place, y = InInput(placed.box.block, key), rect.y + rect.height / 2

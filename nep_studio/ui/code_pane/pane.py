@@ -168,6 +168,7 @@ class CodePane(QWidget):
             self.block_asked.emit(block)
 
     def _on_copy_clicked(self) -> None:
+        self.text.show_rest()
         QGuiApplication.clipboard().setText(self.text.toPlainText() + "\n")
 
     # Changing it

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
+    QKeyEvent,
     QMouseEvent,
     QPainter,
     QPaintEvent,
@@ -19,7 +20,13 @@ from PySide6.QtWidgets import QApplication, QPlainTextEdit, QTextEdit, QWidget
 from nep_studio.ui.theme import Look, code_font
 from nep_studio.ui.words import tr
 
+from .code_keys import press_code_key
 from .highlighter import PythonHighlighter
+
+CHUNK_LINES = 600
+"""So many lines are written and coloured within a frame of the screen."""
+
+BETWEEN_CHUNKS_MS = 4
 
 
 class CodeText(QPlainTextEdit):
@@ -32,7 +39,9 @@ class CodeText(QPlainTextEdit):
         self._look = look
         self._marked: tuple[int, ...] = ()
         self._wrong: tuple[int, ...] = ()
-        self._lines = [""]
+        self._lines = self._wanted = [""]
+        self._later = QTimer(self, singleShot=True, interval=BETWEEN_CHUNKS_MS)
+        self._later.timeout.connect(self._write_more)
         self._pressed = QPoint()
         self.numbers = _LineNumbers(self)
         self.highlighter = PythonHighlighter(self.document(), look.theme)
@@ -50,17 +59,34 @@ class CodeText(QPlainTextEdit):
         self._on_theme_changed()
 
     def show_text(self, text: str) -> None:
-        """Show a text; only the lines that differ are written, so that the view stays."""
-        old, new = self._lines, text.removesuffix("\n").split("\n")
+        """Show a text; only the lines that differ are written, so that the view stays.
+
+        Of a long text the beginning comes at once, the rest bit by bit.
+        """
+        self._wanted = text.removesuffix("\n").split("\n")
+        self._write_more()
+
+    def show_rest(self) -> None:
+        """Show all of a long text now."""
+        self._write_more(len(self._wanted))
+
+    def _write_more(self, most: int = CHUNK_LINES) -> None:
+        self._later.stop()
+        old, new = self._lines, self._wanted
         if old == new:
             return
         start, end = _difference(old, new)
+        written = new[start : len(new) - end][:most]
         document = self.document()
         last = document.findBlockByNumber(len(old) - end - 1)
         cursor = QTextCursor(document.findBlockByNumber(start))
         cursor.setPosition(last.position() + last.length() - 1, QTextCursor.MoveMode.KeepAnchor)
-        cursor.insertText("\n".join(new[start : len(new) - end]))
-        self._lines = new
+        cursor.insertText("\n".join(written))
+        self._lines = [*new[:start], *written, *new[len(new) - end :]]
+        if len(self._lines) < len(new):
+            self._later.start()
+        elif self._marked:
+            self._show_marks()  # some may not have been there yet
 
     def mark_lines(self, lines: Iterable[int]) -> None:
         """Mark the lines of what is selected, and show the first of them."""
@@ -81,6 +107,7 @@ class CodeText(QPlainTextEdit):
 
     def set_editable(self, is_editable: bool) -> None:
         """Let the person change the text, or only read it."""
+        self.show_rest()
         self.setReadOnly(not is_editable)
         flags = Qt.TextInteractionFlag.TextEditorInteraction
         if not is_editable:
@@ -88,8 +115,13 @@ class CodeText(QPlainTextEdit):
                 Qt.TextInteractionFlag.TextSelectableByMouse
                 | Qt.TextInteractionFlag.TextSelectableByKeyboard
             )
-            self._lines = self.toPlainText().split("\n")
+            self._lines = self._wanted = self.toPlainText().split("\n")
         self.setTextInteractionFlags(flags)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Let keys do what those who write Python expect."""
+        if self.isReadOnly() or not press_code_key(self, event):
+            super().keyPressEvent(event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Remember the place: a press without a drag is a click."""

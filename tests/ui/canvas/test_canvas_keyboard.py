@@ -253,3 +253,41 @@ def test_keys_on_an_empty_page_do_no_harm(canvas, qtbot) -> None:
         press(qtbot, canvas, key)
 
     assert canvas.selection.cursor == ""
+
+
+@pytest.mark.parametrize("key", [Key.Key_X, Key.Key_Delete])
+def test_blocks_that_undo_brings_back_are_selected(canvas, qtbot, key) -> None:
+    go_to(qtbot, canvas, "one")
+    press(qtbot, canvas, Key.Key_Down, held=Modifier.ShiftModifier)
+    selected = set(canvas.selection.ids)
+    held = Modifier.ControlModifier if key == Key.Key_X else Modifier.NoModifier
+    press(qtbot, canvas, key, held=held)
+    gone = set(canvas.selection.ids)
+
+    press(qtbot, canvas, Key.Key_Z, held=Modifier.ControlModifier)
+
+    assert len(selected) == 2
+    assert not gone & selected
+    assert set(canvas.selection.ids) == selected
+
+
+def test_undo_of_a_change_keeps_the_selection(canvas, qtbot) -> None:
+    go_to(qtbot, canvas, "one")
+    selected = canvas.selection.ids
+    press(qtbot, canvas, Key.Key_E, held=Modifier.ControlModifier)
+
+    press(qtbot, canvas, Key.Key_Z, held=Modifier.ControlModifier)
+
+    assert canvas.selection.ids == selected
+
+
+def test_only_control_shift_space_picks_a_block_up_alone(canvas, qtbot) -> None:
+    go_to(qtbot, canvas, "one")
+
+    press(qtbot, canvas, Key.Key_Space, held=Modifier.ControlModifier)
+    by_control = canvas.gesture
+    press(qtbot, canvas, Key.Key_Space, held=Modifier.ControlModifier | Modifier.ShiftModifier)
+
+    assert by_control is None
+    assert canvas.gesture is not None
+    press(qtbot, canvas, Key.Key_Escape)

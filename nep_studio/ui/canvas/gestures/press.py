@@ -13,6 +13,7 @@ from .drag_out_copy import copy_of, pulled_out
 from .gesture import Gesture, Pointer
 from .long_press import LONG_PRESS_MS, LongPress
 from .pan import Pan
+from .reorder_parts import ReorderParts, can_reorder
 from .rubber_band import RubberBand
 
 if TYPE_CHECKING:
@@ -78,6 +79,8 @@ class Press:
         start = self._start
         if self._hit is None:
             return Pan(canvas, start) if start.is_touch else RubberBand(canvas, start)
+        if can_reorder(canvas, self._hit):
+            return ReorderParts(canvas, self._hit)
         held = start.modifiers & ALONE
         pulled = copy_of(canvas, self._hit) if held == ALONE else pulled_out(canvas, self._hit)
         cargo = pulled or lift(canvas, self._hit.block, alone=bool(held))

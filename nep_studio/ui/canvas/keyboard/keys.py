@@ -94,7 +94,6 @@ class Keyboard:
             (Key.Key_Home, False, True, False): lambda: walk.go_to_stack(0),
             (Key.Key_End, False, True, False): lambda: walk.go_to_stack(-1),
             (Key.Key_Space, *plain): self._press_space,
-            (Key.Key_Space, False, True, False): lambda: self.pick_up(alone=True),
             (Key.Key_Space, True, True, False): lambda: self.pick_up(alone=True),
             (Key.Key_Space, True, False, False): self._toggle,
             (Key.Key_Return, *plain): self._edit,

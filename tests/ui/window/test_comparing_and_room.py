@@ -1,0 +1,140 @@
+"""Comparing with the file, panels in a narrow window, and the folder of file fields."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from nep_studio.blocks.edits import DeleteBlocks, RenameProject, SetField
+from nep_studio.ui.comparing import ComparingDialog
+from nep_studio.ui.main_window import MainWindow
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def saved(karate: MainWindow, chooser, tmp_path: Path) -> MainWindow:
+    chooser.path = tmp_path / "one" / "mine.nep"
+    chooser.path.parent.mkdir()
+    karate.files.save_as()
+    return karate
+
+
+def compared(window: MainWindow) -> ComparingDialog:
+    window.actions_by_name["compare"].trigger()
+    dialogs = window.findChildren(ComparingDialog)
+    assert len(dialogs) == 1
+    return dialogs[0]
+
+
+def say_block(window: MainWindow) -> str:
+    blocks = window.files.document.project.blocks.values()
+    return next(block.id for block in blocks if block.fields.get("text") == "Impressive!")
+
+
+def test_comparing_is_offered_when_there_is_a_file_and_a_change(saved):
+    action = saved.actions_by_name["compare"]
+    before = action.isEnabled()
+
+    saved.files.document.editor.apply(SetField(say_block(saved), "text", "Wow"))
+
+    assert not before
+    assert action.isEnabled()
+    saved.files.save()
+    assert not action.isEnabled()
+
+
+def test_a_click_on_a_difference_shows_its_block(saved, qtbot: QtBot):
+    block = say_block(saved)
+    saved.files.document.editor.apply(SetField(block, "text", "Wow"))
+
+    dialog = compared(saved)
+    place = dialog.list.visualItemRect(dialog.list.item(0)).center()
+    qtbot.mouseClick(dialog.list.viewport(), LEFT, pos=place)
+
+    assert dialog.list.count() == 1
+    assert "Impressive!" in dialog.list.item(0).text()
+    assert "Wow" in dialog.list.item(0).text()
+    assert saved.workbench.canvas.selection.ids == (block,)
+
+
+def test_a_block_that_is_gone_is_listed_and_a_click_does_no_harm(saved, qtbot: QtBot):
+    block = say_block(saved)
+    saved.files.document.editor.apply(DeleteBlocks(block))
+
+    dialog = compared(saved)
+    place = dialog.list.visualItemRect(dialog.list.item(0)).center()
+    qtbot.mouseClick(dialog.list.viewport(), LEFT, pos=place)
+
+    assert dialog.list.item(0).text().startswith("Taken away: ")
+
+
+def test_when_no_block_differs_a_sentence_says_so(saved):
+    saved.files.document.editor.apply(RenameProject("Another name"))
+
+    dialog = compared(saved)
+
+    assert not dialog.list.isVisible()
+    assert "The blocks say the same" in dialog.words.text()
+
+
+def test_file_fields_know_the_folder_after_each_save(saved, chooser, tmp_path: Path):
+    first = saved.workbench.canvas.fields.project_folder
+    chooser.path = tmp_path / "two" / "mine.nep"
+    chooser.path.parent.mkdir()
+
+    saved.files.save_as()
+
+    assert first == tmp_path / "one"
+    assert saved.workbench.canvas.fields.project_folder == tmp_path / "two"
+
+
+def started(studio, chooser, width: int, qtbot: QtBot) -> MainWindow:
+    window = MainWindow(studio, chooser)
+    qtbot.addWidget(window)
+    window.resize(width, 700)
+    window.show()
+    window.start(None)
+    window.files.new()
+    qtbot.waitExposed(window)
+    return window
+
+
+def end(window: MainWindow) -> None:
+    window.workbench.retire()
+    window.files.document.close()
+    window.files.document = None
+
+
+def test_a_narrow_window_begins_with_room_for_the_page(studio, chooser, qtbot: QtBot):
+    window = started(studio, chooser, 850, qtbot)
+
+    assert window.workbench.helpers.palette.is_narrow
+    assert not window.workbench.code.isVisible()
+    assert window.workbench.canvas.width() > 500
+    assert not studio.settings.is_chosen("CodePane")
+    end(window)
+
+
+def test_a_wide_window_begins_with_all(studio, chooser, qtbot: QtBot):
+    window = started(studio, chooser, 1300, qtbot)
+
+    assert not window.workbench.helpers.palette.is_narrow
+    assert window.workbench.code.isVisible()
+    end(window)
+
+
+def test_what_a_person_chose_is_there_again_in_a_narrow_window(studio, chooser, qtbot: QtBot):
+    first = started(studio, chooser, 850, qtbot)
+    qtbot.mouseClick(first.workbench.helpers.palette.fold, LEFT)
+    first.workbench.panels.show(first.workbench.code)
+    end(first)
+
+    second = started(studio, chooser, 850, qtbot)
+
+    assert not second.workbench.helpers.palette.is_narrow
+    assert second.workbench.code.isVisible()
+    end(second)
