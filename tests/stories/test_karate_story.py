@@ -85,8 +85,8 @@ def is_back(node: str, old_pid: int) -> Callable[[Event], bool]:
     Who finds it late, through a new master, hears the newest of its states only: its first "ready"
     or a sign of life after that.
     """
-    return lambda e: any(node_is(node, state)(e) for state in ("ready", "alive")) and (
-        e["pid"] != old_pid
+    return lambda e: (
+        any(node_is(node, state)(e) for state in ("ready", "alive")) and (e["pid"] != old_pid)
     )
 
 

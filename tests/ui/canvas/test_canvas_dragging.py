@@ -287,26 +287,3 @@ def test_blocks_snap_at_any_zoom(desk, zoom):
     desk.put(four, desk.corner(two) + QPointF(8, 6) * zoom)
 
     assert desk.body(0) == [hat, one, four, two, three]
-
-
-@pytest.mark.parametrize("is_mirrored", [False, True])
-@pytest.mark.parametrize("share", [0.1, 0.9])
-def test_a_condition_dropped_anywhere_on_a_wide_hole_is_plugged_in(desk, share, is_mirrored):
-    desk = desk([B("control.if")], [B("logic.compare")], is_mirrored=is_mirrored)
-    [block], [condition] = desk.body(0), desk.body(1)
-    placed = desk.canvas.page_layout.placed(block)
-    hole = next(piece for piece in placed.box.pieces if piece.key == "condition")
-    x, y = placed.x + piece_x(hole, share), placed.y + hole.y + hole.height / 2
-    grabbed = desk.canvas.view_rect_of(condition)
-    start = (
-        grabbed.topRight() + QPointF(-6, 6) if is_mirrored else grabbed.topLeft() + QPointF(6, 6)
-    )
-
-    desk.mouse.drop(start, desk.canvas.camera.to_view(x, y))
-
-    assert desk.editor.project.blocks[block].inputs == {"condition": condition}
-
-
-def piece_x(piece, share: float) -> float:
-    """A point along a piece, in its block."""
-    return piece.x + piece.width * share

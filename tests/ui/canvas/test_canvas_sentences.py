@@ -169,3 +169,49 @@ def test_a_header_shows_its_parameters_in_the_shapes_of_their_blocks(qapp) -> No
 
     pills = [(p.text, p.shape) for p in box.pieces if p.kind == "parameter"]
     assert pills == [("name", "square"), ("polite", "hexagon")]
+
+
+def said(text: str) -> Piece:
+    return words(text, 8.0 * len(text))
+
+
+def test_a_unit_never_begins_a_row() -> None:
+    sizes = Measures(18.0, lambda text: 8.0 * len(text))
+    number = Piece("field", 0, 0, sizes.widest - 2, 24.0, "1", "length", "number")
+
+    rows = flow([number, said("m"), said("forward")], sizes)
+
+    assert [[item.text for item in row.items] for row in rows] == [["1", "m"], ["forward"]]
+
+
+def test_a_unit_stays_with_its_number_when_words_follow_it() -> None:
+    editor, block = editor_with("robot_speech.wait_for_word")
+    page = PageLayout(editor.project, editor.language, measures(11.0, is_mirrored=False))
+
+    texts = [piece.text for piece in page.placed(block).box.pieces if piece.piece == "words"]
+
+    assert "s" in texts
+    assert "for the word" in texts
+
+
+def test_nothing_is_added_after_wide_punctuation() -> None:
+    sizes = Measures(18.0, lambda text: 8.0 * len(text))
+
+    [row] = flow([said("聞いて、"), said("待つ")], sizes)
+
+    assert row.width == sum(item.width for item in row.items)
+
+
+@pytest.mark.parametrize("is_mirrored", [False, True])
+def test_the_first_answer_to_a_question_begins_a_row(is_mirrored) -> None:
+    editor, block = editor_with("robot_speech.ask")
+    page = PageLayout(editor.project, editor.language, measures(11.0, is_mirrored=is_mirrored))
+    box = page.placed(block).box
+
+    asked = next(piece for piece in box.pieces if piece.key == "seconds")
+    answer = next(piece for piece in box.pieces if piece.key == "word.1")
+    others = [piece for piece in box.pieces if piece.piece == "field" and piece is not answer]
+
+    assert answer.y > asked.y + asked.height
+    assert answer.y + answer.height <= box.mouths[0].y
+    assert all(piece.y + piece.height <= answer.y for piece in others if piece.y < box.mouths[0].y)

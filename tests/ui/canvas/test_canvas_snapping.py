@@ -20,7 +20,6 @@ from nep_studio.ui.canvas.snapping import (
     RADIUS_PX,
     Ends,
     Ground,
-    Target,
     ends_of,
     search,
     slots,
@@ -296,77 +295,3 @@ def test_the_place_that_is_found_is_the_nearest_of_all(page, point):
         assert min(distances) > RADIUS_PX
     else:
         assert hypot(found.x - point[0], found.y - point[1]) == min(distances)
-
-
-@given(st.sampled_from(PAGES), PLACES)
-def test_the_slot_that_is_found_is_the_nearest_of_all_and_the_innermost(page, point):
-    found = search(Ground(page), Ends(output=point), fits).target
-
-    rects = {InInput(block, key): rect for block, key, rect in all_slots(page)}
-    nearest = min(rect.distance(*point) for rect in rects.values())
-    if found is None:
-        assert nearest > RADIUS_PX
-    else:
-        rect = rects[found.place]
-        over = [each for each in rects.values() if each.holds(*point)]
-        assert rect.distance(*point) == nearest
-        assert not over or rect.width == min(each.width for each in over)
-
-
-@given(st.sampled_from(PAGES), PLACES)
-def test_a_slot_that_is_shown_stays_until_another_is_clearly_nearer(page, point):
-    ground, rects = Ground(page), {InInput(b, key): rect for b, key, rect in all_slots(page)}
-    shown = search(ground, Ends(output=point), fits).target
-    beside = (point[0] + PREFERENCE_PX / 4, point[1] + PREFERENCE_PX / 4)
-
-    found = search(ground, Ends(output=beside), fits, current=shown).target
-
-    if shown is not None:
-        assert found is not None
-        is_over = rects[found.place].distance(*beside) == 0.0
-        assert found == shown or is_over  # another takes over only right under the pointer
-
-
-@pytest.mark.parametrize("is_mirrored", [False, True])
-@pytest.mark.parametrize("share", [0.02, 0.3, 0.6, 0.98])
-def test_all_of_a_wide_empty_hole_takes_a_condition(is_mirrored, share):
-    page = page_of([B("event.started"), B("control.if")], is_mirrored=is_mirrored)
-    block = stack(page).body[1]
-    rect = dict(slots(page.placed(block)))["condition"]
-    point = (rect.x + rect.width * share, rect.y + rect.height * 0.8)
-
-    found = search(Ground(page), Ends(output=point), fits)
-
-    assert found.target.place == InInput(block, "condition")
-
-
-@pytest.mark.parametrize("is_mirrored", [False, True])
-def test_a_slot_takes_what_is_held_over_it_with_its_body(is_mirrored):
-    page = page_of([B("control.if")], [B("logic.compare")], is_mirrored=is_mirrored)
-    block, side = stack(page).body[0], -1 if is_mirrored else 1
-    rect = dict(slots(page.placed(block)))["condition"]
-    ends = ends_of(page.chains[stack(page, 1).id])
-    way = ends.inner[0] - ends.output[0]
-    first = rect.right if is_mirrored else rect.x
-    output = (first - side * (RADIUS_PX + 2), rect.y + 4)
-
-    assert way * side > RADIUS_PX / 2
-    assert search(Ground(page), Ends(output=output), fits).target is None
-    found = search(Ground(page), Ends(output=output, inner=(output[0] + way, output[1])), fits)
-    assert found.target.place == InInput(block, "condition")
-
-
-def test_a_slot_inside_the_shown_one_takes_over_where_it_is(page):
-    repeat = page.project.blocks[stack(page).body[1]]
-    inner = repeat.inputs["times"]
-    rect = dict(slots(page.placed(inner)))["b"]
-    outer = Target(InInput(repeat.id, "times"), "input", 0.0, 0.0)
-    inside = Ends(output=(rect.x + rect.width / 2, rect.y + rect.height / 2))
-    ground = Ground(page)
-
-    found = search(ground, inside, fits, current=outer).target
-    just_outside = Ends(output=(rect.x - 3, rect.y + rect.height / 2))
-
-    assert found.place == InInput(inner, "b")
-    assert search(ground, just_outside, fits, current=found).target.place == found.place
-    assert search(ground, just_outside, fits, current=outer).target.place == outer.place
