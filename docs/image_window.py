@@ -74,7 +74,8 @@ class Stage:
             window.workbench.checks.found.connect(checked.append)
             window.files.open_example(paths.examples() / f"{example}.nep")
             until(lambda: window.files.document is not None and bool(checked))
-            until(lambda: window.workbench.code.live.code is not None)
+            code = window.workbench.code
+            until(lambda: not code.isVisible() or code.live.code is not None)
         quiet()
         try:
             yield window
