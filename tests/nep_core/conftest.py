@@ -34,9 +34,9 @@ def launcher(network: PeerNetwork, tmp_path: Path, ends: Ends) -> Iterator[Launc
         yield launcher
 
 
-@pytest.fixture
-def own_program() -> Iterator[None]:
-    """A program of its own for a test: PROGRAM is one a process."""
+@pytest.fixture(autouse=True)
+def _own_program() -> Iterator[None]:
+    """A program of its own for each test: PROGRAM is one a process."""
     tasks.PROGRAM.cancelled.clear()
     tasks.PROGRAM._children.clear()
     tasks.PROGRAM.undo.clear()

@@ -24,13 +24,6 @@ from nep_core.tasks import Cancelled, stop_program, wait, wait_until
 Join = Callable[[str], PeerNetwork]
 
 
-@pytest.fixture(autouse=True)
-def _own_program(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A program of its own for each test: PROGRAM is one a process."""
-    tasks.PROGRAM.cancelled.clear()
-    tasks.PROGRAM._children.clear()
-
-
 class Person:
     """Someone whose gestures are recognised."""
 

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import threading
 
-import pytest
-
 from nep_core import tasks
 from nep_core.behavior import Behavior
 from nep_core.p2p import PeerNetwork
 from nep_core.tasks import wait, wait_until
 from tests.nep_core.outside import Outside, seen
-
-pytestmark = pytest.mark.usefixtures("own_program")
 
 
 class Running:

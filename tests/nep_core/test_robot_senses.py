@@ -19,8 +19,6 @@ from nep_core.human import (
 from nep_core.tasks import wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
-pytestmark = pytest.mark.usefixtures("own_program")
-
 
 def test_sensors_are_told_in_units_that_people_use(outside: Outside) -> None:
     outside.robot_is(sensors={"sonar_left": 0.25, "foot_left": 2.6}, battery=0.5)
