@@ -1,4 +1,4 @@
-"""Where carried blocks would go: the joint or slot that is nearest to where they are held."""
+"""Where carried blocks would go: the seam or slot that is nearest to where they are held."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Snap:
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class Seam:
     """A point between two blocks of a chain, or at one of its ends; ``below`` is what follows."""
 
     owner: str
@@ -174,16 +174,16 @@ def targets(
     if ends.output is not None:
         yield from _near_slots(ground, ends, radius)
     if ends.top is not None:
-        for joint, distance in _near_joints(ground, ends.top, radius):
-            if run is not None and ends.mouth is not None and joint.below == run.first:
-                yield Target(joint.place, "around", joint.x, joint.y, run), distance
-            elif not joint.is_head:
-                yield Target(joint.place, "below", joint.x, joint.y), distance
+        for seam, distance in _near_seams(ground, ends.top, radius):
+            if run is not None and ends.mouth is not None and seam.below == run.first:
+                yield Target(seam.place, "around", seam.x, seam.y, run), distance
+            elif not seam.is_head:
+                yield Target(seam.place, "below", seam.x, seam.y), distance
     if ends.mouth is not None:
-        for joint, distance in _near_joints(ground, ends.mouth, radius):
-            if joint.below:
-                inner = run if run is not None and joint.below == run.first else None
-                yield Target(joint.place, "around", joint.x, joint.y, inner), distance
+        for seam, distance in _near_seams(ground, ends.mouth, radius):
+            if seam.below:
+                inner = run if run is not None and seam.below == run.first else None
+                yield Target(seam.place, "around", seam.x, seam.y, inner), distance
     if ends.bottom is not None:
         for stack_id, chain in ground.near(_around(ends.bottom, radius)):
             distance = _distance(ends.bottom, chain.x, chain.y)
@@ -191,15 +191,15 @@ def targets(
                 yield Target(InStack(stack_id, 0), "above", chain.x, chain.y), distance
 
 
-def joints(stack_id: str, chain: Chain, low: float, high: float) -> Iterator[Joint]:
-    """The joints of a stack, those of mouths too, between two heights of the page."""
+def seams(stack_id: str, chain: Chain, low: float, high: float) -> Iterator[Seam]:
+    """The seams of a stack, those of mouths too, between two heights of the page."""
     waiting = [(stack_id, chain, chain.x, chain.y)]
     while waiting:
         owner, inner, x, y = waiting.pop()
         ys = inner.ys
         for index in range(bisect_left(ys, low - y), bisect_right(ys, high - y)):
             below = inner.boxes[index].block if index < len(inner.boxes) else ""
-            yield Joint(owner, inner.key, index, x, y + ys[index], below)
+            yield Seam(owner, inner.key, index, x, y + ys[index], below)
         first, last = bisect_right(ys, low - y) - 1, bisect_right(ys, high - y)
         for index in range(max(0, first), min(last, len(inner.boxes))):
             box = inner.boxes[index]
@@ -218,12 +218,12 @@ def slots(placed: Placed) -> Iterator[tuple[str, Rect]]:
         yield plug.key, Rect(placed.x + plug.x, placed.y + plug.y, *size)
 
 
-def _near_joints(ground: Ground, point: Point, radius: float) -> Iterator[tuple[Joint, float]]:
+def _near_seams(ground: Ground, point: Point, radius: float) -> Iterator[tuple[Seam, float]]:
     for stack_id, chain in ground.near(_around(point, radius)):
-        for joint in joints(stack_id, chain, point[1] - radius, point[1] + radius):
-            distance = _distance(point, joint.x, joint.y)
+        for seam in seams(stack_id, chain, point[1] - radius, point[1] + radius):
+            distance = _distance(point, seam.x, seam.y)
             if distance <= radius:
-                yield joint, distance
+                yield seam, distance
 
 
 def _near_slots(ground: Ground, ends: Ends, radius: float) -> Iterator[tuple[Target, float]]:

@@ -1,4 +1,4 @@
-"""The search for a place to drop: which joint or slot is nearest, and that it stays the same."""
+"""The search for a place to drop: which seam or slot is nearest, and that it stays the same."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def stack(page: PageLayout, number: int = 0):
     return page.project.pages["behaviour"][number]
 
 
-def test_the_nearest_joint_is_found(page):
+def test_the_nearest_seam_is_found(page):
     chain = page.chains[stack(page).id]
 
     found = search(Ground(page), Ends(top=(chain.x + 5, chain.y + chain.ys[2] + 4)), fits)
@@ -77,7 +77,7 @@ def test_the_nearest_joint_is_found(page):
     assert found.target.place == InStack(stack(page).id, 2)
 
 
-def test_a_joint_in_a_mouth_is_found(page):
+def test_a_seam_in_a_mouth_is_found(page):
     repeat = stack(page).body[1]
     placed = page.placed(repeat)
     mouth = placed.box.mouths[0]
@@ -233,8 +233,8 @@ def test_a_reporter_has_an_output_only():
     assert (ends.top, ends.bottom, ends.mouth) == (None, None, None)
 
 
-def all_joints(page: PageLayout):
-    """Every joint, found the plain way: by walking through all boxes."""
+def all_seams(page: PageLayout):
+    """Every seam, found the plain way: by walking through all boxes."""
     waiting = [(stack_id, chain, chain.x, chain.y) for stack_id, chain in page.chains.items()]
     while waiting:
         owner, chain, x, y = waiting.pop()
@@ -258,7 +258,7 @@ PLACES = st.tuples(st.floats(-300, 700), st.floats(-20, 900))
 
 
 @given(st.sampled_from(PAGES), PLACES, st.floats(1, 120))
-def test_the_joints_near_a_point_are_those_that_a_plain_search_finds(page, point, radius):
+def test_the_seams_near_a_point_are_those_that_a_plain_search_finds(page, point, radius):
     found = {
         (target.place, target.x, target.y)
         for target, _ in targets(Ground(page), Ends(top=point), radius)
@@ -266,7 +266,7 @@ def test_the_joints_near_a_point_are_those_that_a_plain_search_finds(page, point
 
     assert found == {
         (InBody(owner, slot, index) if slot else InStack(owner, index), x, y)
-        for owner, slot, index, x, y in all_joints(page)
+        for owner, slot, index, x, y in all_seams(page)
         if (slot or index) and hypot(x - point[0], y - point[1]) <= radius
     }
 
@@ -288,7 +288,7 @@ def test_the_place_that_is_found_is_the_nearest_of_all(page, point):
 
     distances = [
         hypot(x - point[0], y - point[1])
-        for _, slot, index, x, y in all_joints(page)
+        for _, slot, index, x, y in all_seams(page)
         if slot or index
     ]
     if found is None:

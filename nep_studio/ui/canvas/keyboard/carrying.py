@@ -14,7 +14,7 @@ from ..gestures.drop_overlay import DropOverlay
 from ..gestures.gesture import Pointer
 from ..index import Rect
 from ..layout import Gap
-from ..snapping import Target, joints, slots
+from ..snapping import Target, seams, slots
 from ..sprite import make_sprite
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ class KeyboardCarry:
         canvas.overlays.remove(self._overlay)
 
     def _reading_order(self, canvas: Canvas) -> list[Target]:
-        """Every joint or slot of the page, fitting or not, in the order of reading."""
+        """Every seam or slot of the page, fitting or not, in the order of reading."""
         ends, layout = self._cargo.ends, canvas.page_layout
         found: list[Target] = []
         if ends.output is not None:
@@ -115,11 +115,11 @@ class KeyboardCarry:
                     place = InInput(placed.box.block, key)
                     found.append(Target(place, "input", rect.x, rect.y))
         for stack, chain in layout.chains.items():
-            for joint in joints(stack, chain, EVERYWHERE.y, EVERYWHERE.bottom):
-                if joint.is_head and ends.bottom is not None:
-                    found.append(Target(joint.place, "above", joint.x, joint.y))
-                elif not joint.is_head and ends.top is not None:
-                    found.append(Target(joint.place, "below", joint.x, joint.y))
+            for seam in seams(stack, chain, EVERYWHERE.y, EVERYWHERE.bottom):
+                if seam.is_head and ends.bottom is not None:
+                    found.append(Target(seam.place, "above", seam.x, seam.y))
+                elif not seam.is_head and ends.top is not None:
+                    found.append(Target(seam.place, "below", seam.x, seam.y))
         order = {stack: n for n, stack in enumerate(reading_order(canvas))}
         project, side = canvas.editor.project, -1 if canvas.measures.is_mirrored else 1
         found.sort(key=lambda t: (order[_stack_of(project, t.place)], t.y, side * t.x))
