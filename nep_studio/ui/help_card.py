@@ -59,10 +59,13 @@ class HelpCard(QFrame):
         head = QRect(visible.topLeft(), QSize(visible.width(), min(visible.height(), 60)))
         head.moveTopLeft(viewport.mapToGlobal(head.topLeft()))
         room = room_around(self._canvas)
-        self.resize(self._size(room.height() * 2 // 3))
+        self.ensurePolished()
+        self.resize(self._size(room.height() * 2 // 3).expandedTo(self.minimumSizeHint()))
         mirrored = self._canvas.measures.is_mirrored
         self.move(beside(head, self.size(), room, is_mirrored=mirrored))
         self.show()
+        # shown, it may be larger than it was made: its style is known only now
+        self.move(beside(head, self.size(), room, is_mirrored=mirrored))
         self.text.setFocus(Qt.FocusReason.PopupFocusReason)
 
     def _size(self, most: int) -> QSize:

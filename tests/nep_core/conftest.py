@@ -37,14 +37,19 @@ def launcher(network: PeerNetwork, tmp_path: Path, ends: Ends) -> Iterator[Launc
 @pytest.fixture(autouse=True)
 def _own_program() -> Iterator[None]:
     """A program of its own for each test: PROGRAM is one a process."""
-    tasks.PROGRAM.cancelled.clear()
-    tasks.PROGRAM._children.clear()
-    tasks.PROGRAM.undo.clear()
+    _begin_program()
     yield
     tasks.PROGRAM.cancel()
+    _begin_program()  # for the tests of other folders
 
 
 @pytest.fixture
 def outside(network: PeerNetwork, join: Callable[[str], PeerNetwork]) -> Outside:
     """What is around a program: its robot and its person, on a network of their own."""
     return Outside(network, join("outside"))
+
+
+def _begin_program() -> None:
+    tasks.PROGRAM.cancelled.clear()
+    tasks.PROGRAM._children.clear()
+    tasks.PROGRAM.undo.clear()
