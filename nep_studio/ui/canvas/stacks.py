@@ -98,14 +98,14 @@ class Stacks(Mapping[str, Chain]):
     def lay_out_some(self, seconds: float) -> bool:
         """Lay out stacks that wait, for so long; whether others wait still."""
         end = time.perf_counter() + seconds
-        while self._waiting and time.perf_counter() < end:
-            self.lay_out(next(iter(self._waiting)))
+        with paused_garbage_collection():
+            while self._waiting and time.perf_counter() < end:
+                self.lay_out(next(iter(self._waiting)))
         return bool(self._waiting)
 
     def lay_out_all(self) -> None:
         """Lay out all stacks that wait."""
-        with paused_garbage_collection():
-            self.lay_out_some(float("inf"))
+        self.lay_out_some(float("inf"))
 
     def _wait(self, stack_id: str, count: int) -> None:
         self._waiting[stack_id] = None

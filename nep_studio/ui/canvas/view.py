@@ -85,7 +85,8 @@ class PageView(QAbstractScrollArea):
             theme, self.editor.language, self.measures, self.block_font
         )
         self.page_layout = PageLayout(self.editor.project, self.editor.language, self.measures)
-        self.page_layout.show(page)
+        if page != self.page_layout.page:
+            self.page_layout.show(page)
         self.repaint_all()
 
     @property
