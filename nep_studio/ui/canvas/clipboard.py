@@ -41,7 +41,7 @@ def _keep_text_only() -> None:
     gone.
     """
     clipboard = QGuiApplication.clipboard() if QGuiApplication.instance() is not None else None
-    if clipboard is not None and clipboard.ownsClipboard():
+    if clipboard is not None and clipboard.mimeData().hasFormat(BLOCKS):
         clipboard.setText(clipboard.text())
 
 
