@@ -112,6 +112,11 @@ class ShelfLayout:
         assert last is not None
         return round(max(self.height - view, last.y))
 
+    def spot_and_way(self, y: float) -> tuple[int, float]:
+        """A height as the number of the spot there, and the way from its top."""
+        number = max(0, bisect_right(self._tops, y) - 1)
+        return (number, y - self._tops[number]) if self._tops else (0, y)
+
     def drawer_and_way(self, y: float) -> tuple[str, float]:
         """A height as a drawer, and the way from its beginning."""
         drawer = self.drawer_at(y)

@@ -152,9 +152,13 @@ class ShelfView(QAbstractScrollArea):
         return list(enumerate(spots, start=first))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Let the blocks be as narrow as the palette."""
+        """Let the blocks be as narrow as the palette; the one at the top stays there."""
         super().resizeEvent(event)
+        bar = self.verticalScrollBar()
+        number, way = self._layout.spot_and_way(bar.value())
         self._lay_out()
+        if self._layout.spots:
+            bar.setValue(round(self._layout.spots[number].y + way))
 
     def scrollContentsBy(self, dx: int, dy: int) -> None:
         """Move what is painted, and paint the rest."""

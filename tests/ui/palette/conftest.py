@@ -49,7 +49,8 @@ def palette(qtbot, window, canvas, settings) -> Palette:
     palette.setFixedWidth(400)
     window.layout().insertWidget(0, palette)
     palette.show()
-    qtbot.waitUntil(lambda: canvas.x() > 300)
+    qtbot.waitUntil(lambda: canvas.x() >= palette.width() == 400)
+    palette.layout().activate()
     return palette
 
 

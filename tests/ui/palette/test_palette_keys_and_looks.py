@@ -39,6 +39,19 @@ def test_the_list_stays_where_it_is_when_something_is_used(palette, qtbot):
     assert abs(place() - before) <= 1
 
 
+def test_the_list_stays_where_it_is_when_the_palette_becomes_narrower(palette, qtbot):
+    shelf = palette.shelf
+    shelf._go_to(number_of(palette, "math.number"))
+    bar = shelf.verticalScrollBar()
+    number, way = shelf._layout.spot_and_way(bar.value())
+    height = shelf._layout.height
+
+    palette.setFixedWidth(300)
+    qtbot.waitUntil(lambda: shelf._layout.height != height)
+
+    assert abs(shelf._layout.spots[number].y + way - bar.value()) <= 1
+
+
 def test_arrows_choose_a_block_and_enter_inserts_it(palette, qtbot):
     palette.canvas.selection.clear()
     palette.shelf.setFocus()
