@@ -6,7 +6,7 @@ import logging
 import os
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -59,13 +59,18 @@ class LaunchedNode:
         """Whether the process ``pid`` is its own, perhaps started by a wrapper or a launch stub."""
         return self.process is not None and is_in_tree(pid, self.process.pid)
 
-    def wait_ready(self, timeout_s: float = READY_S) -> None:
+    def wait_ready(
+        self, timeout_s: float = READY_S, *, given_up: threading.Event | None = None
+    ) -> None:
         """Wait until the node says that it is ready, or has done its work and ended well.
 
-        Raises NodeStartError with its last words, or when the time is over.
+        ``given_up``: wait no longer once this is set. Raises NodeStartError with its last words,
+        or when the time is over.
         """
         deadline = time.monotonic() + timeout_s
         while not self.ready.wait(0.05):
+            if given_up is not None and given_up.is_set():
+                return
             if self.ended.is_set() and self.outcome is not None:
                 if self.outcome.was_successful:
                     return
@@ -159,17 +164,22 @@ class Launcher:
         if process is not None:
             process.stop()
 
-    def close(self) -> None:
-        """Stop every node, all at once."""
+    def stop_all(self, names: Iterable[str]) -> None:
+        """Stop several nodes, all at once."""
         with self._lock:
-            for launched in self.nodes.values():
+            stopped = [self.nodes[name] for name in names if name in self.nodes]
+            for launched in stopped:
                 launched.stopping = True
-            processes = [launched.process for launched in self.nodes.values()]
+            processes = [launched.process for launched in stopped]
         for process in processes:
             if process is not None and process.poll() is None:
                 process.ask_to_stop()
-        for name in list(self.nodes):
-            self.stop(name)
+        for launched in stopped:
+            self.stop(launched.name)
+
+    def close(self) -> None:
+        """Stop every node, all at once."""
+        self.stop_all(list(self.nodes))
         if self._states is not None:
             self._states.close()
 

@@ -50,9 +50,12 @@ ProgramEvent = Literal[
     "goal_interrupted",
     "value",
     "paused",
+    "resumed",
     "finished",
     "failed",
 ]
+
+ProgramCommand = Literal["start", "stop", "pause", "resume", "step", "set"]
 
 
 class NodeState(msgspec.Struct, kw_only=True, omit_defaults=True):
@@ -145,12 +148,16 @@ class ProgramState(msgspec.Struct, kw_only=True, omit_defaults=True):
     """What the cognitive program is doing (``/program_state``).
 
     ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for,
-    or the name of a goal.
+    or the name of a goal. A "line" event tells of all threads at once: ``lines`` are, by thread,
+    the lines that it is in now, the outermost call first; one that is not there has ended. A
+    "value" event tells the ``values`` that changed, by the name of the variable, as Python.
     """
 
     program: str
     event: ProgramEvent
     line: int = 0
+    lines: dict[str, list[int]] = {}
+    values: dict[str, str] = {}
     rule: str = ""
     thread: str = ""
     description: str = ""
@@ -158,10 +165,18 @@ class ProgramState(msgspec.Struct, kw_only=True, omit_defaults=True):
 
 
 class ProgramControl(msgspec.Struct, kw_only=True, omit_defaults=True):
-    """What a running program is asked to do (``/program_control``)."""
+    """What a running program is asked to do (``/program_control``).
 
-    command: Literal["start", "stop"]
+    "step" runs one line more of the paused ``thread``, "" of every one that is paused. "set"
+    says how the program is watched from now on: it pauses at the lines ``breakpoints``, and
+    waits ``line_s`` seconds at each line, which is slow motion.
+    """
+
+    command: ProgramCommand
     program: str = ""
+    thread: str = ""
+    breakpoints: list[int] = []
+    line_s: float = 0.0
 
 
 class GestureRequest(msgspec.Struct, kw_only=True, omit_defaults=True):

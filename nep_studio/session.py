@@ -1,31 +1,26 @@
-"""A running project: master, nodes and program started, watched and stopped; no Qt in here."""
+"""A running project: nodes and program started, watched and stopped; no Qt in here."""
 
 from __future__ import annotations
 
-import contextlib
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
 
 from nep_core import messages as m
-from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.launcher import LaunchedNode
 from nep_core.manifest import Value
 from nep_core.outcome import Outcome
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
-from nep_studio.own_master import start_master
+from nep_studio.local_network import Listener, LocalNetwork
 from nep_studio.plan import REPLAY, PlannedNode
 from nep_studio.problems import Problem
 from nep_studio.signals import postponed, undisturbed
-from nep_studio.voice import Voice
 
 PROGRAM = "program"
-STUDIO = "studio"
 ASK_TO_END_S = 1.0
 LAST_RULES_S = 2.0
 """How long a rule that a recording's end set off may still take."""
@@ -33,17 +28,6 @@ SIGNALS_S = 0.2
 """How long Python may wait at once: a signal can miss a wait that is just beginning."""
 LAST_WORDS_S = 0.3
 """How long a program's last message may take, which is not always quicker than its end."""
-
-HEARD = (
-    m.NODE_STATE,
-    m.HUMAN_BEHAVIOR,
-    m.ACTION_REQUEST,
-    m.ACTION_RESULT,
-    m.PROGRAM_STATE,
-)
-
-Listener = Callable[[str, msgspec.Struct], None]
-"""Called with each message of the network and its topic, from several threads."""
 
 
 @dataclass(frozen=True)
@@ -54,11 +38,20 @@ class Ending:
     line: int = 0
 
 
+@dataclass(frozen=True)
+class Watching:
+    """How a program is watched: the lines at which it pauses, and how long it stays at each."""
+
+    breakpoints: tuple[int, ...] = ()
+    line_s: float = 0.0
+
+
 class Session:
     """Starts the parts of a project and keeps them running until the program ends.
 
     Use it in a ``with`` statement: entering raises NepError when a part cannot start, leaving
-    stops the robots first and then everything else.
+    stops the robots first and then everything that it started. With a ``network`` of somebody
+    else that stays as it was. With ``watching`` the program tells of each of its lines.
     """
 
     def __init__(
@@ -69,19 +62,21 @@ class Session:
         *,
         logs: Path | None = None,
         master: str | None = None,
+        network: LocalNetwork | None = None,
+        watching: Watching | None = None,
     ) -> None:
-        self._wanted_master = master
         self._program = program
         self._nodes = nodes
         self._listener = listener
+        self._watching = watching
         self._ending: Ending | None = None
         self._failure: m.ProgramState | None = None
         self._may_begin = False
         self._changed = threading.Condition()
-        self._stack = contextlib.ExitStack()
-        self._voice: Voice | None = None
-        self._launcher = Launcher(logs=logs, on_end=self._on_end)
-        self._master_launcher = Launcher(logs=logs, on_end=self._on_end)
+        self._is_over = threading.Event()
+        self._owns_network = network is None
+        self._started: list[str] = []
+        self.network = network or LocalNetwork(logs=logs, master=master)
 
     def wait(self, seconds: float | None = None) -> Ending:
         """Wait until the program ends, or for so long; how it ended."""
@@ -92,10 +87,18 @@ class Session:
             return self._ending or Ending()
 
     def end(self, ending: Ending | None = None) -> None:
-        """Let wait() return; only the first ending counts."""
+        """Let wait() return, and a start that is under way be given up; the first ending counts."""
         with self._changed:
             self._ending = self._ending or ending or Ending()
+            self._is_over.set()
             self._changed.notify_all()
+
+    def hush(self) -> None:
+        """Stop the robots and ask the program to end; waits for nothing."""
+        voice = self.network.voice
+        if voice is not None:
+            voice.stop_robots()
+            voice.stop_program()
 
     def stop(self) -> None:
         """Stop the robots at once, then the program, then all nodes; the master goes last."""
@@ -104,11 +107,32 @@ class Session:
                 self._stop_program()
         finally:
             with undisturbed():
-                self._stack.close()
+                self._stop_nodes()
+                self.network.unlisten(self._on_message, self._on_end)
+                if self._owns_network:
+                    self.network.close()
+
+    def watch(self, watching: Watching) -> None:
+        """Pause at other lines, or go at another pace, from now on."""
+        self._watching = watching
+        self._order("set")
+
+    def pause(self) -> None:
+        """Let every part of the program pause at its next line."""
+        self._order("pause")
+
+    def resume(self) -> None:
+        """Let the program go on."""
+        self._order("resume")
+
+    def step(self, thread: str = "") -> None:
+        """Let a part of the program that is paused run one line more."""
+        self._order("step", thread)
 
     def __enter__(self) -> Session:
+        self.network.listen(self._on_message, self._on_end)
         try:
-            self._open_network()
+            self.network.open()
             self._start_nodes([node for node in self._nodes if not node.is_sensory])
             self._start_program()
             self._start_nodes([node for node in self._nodes if node.is_sensory])
@@ -121,56 +145,70 @@ class Session:
     def __exit__(self, *_error: object) -> None:
         self.stop()
 
-    def _open_network(self) -> None:
-        """Start the master and join it; what is opened first is closed last."""
-        self._stack.callback(self._master_launcher.close)
-        self._launcher.master = start_master(self._master_launcher, self._wanted_master)
-        network = self._stack.enter_context(PeerNetwork(STUDIO, master=self._launcher.master))
-        self._voice = Voice(network)
-        self._stack.callback(self._voice.fall_silent)
-        self._stack.callback(self._launcher.close)
-        self._launcher.hear(network)
-        for topic in HEARD:
-            self._hear(topic, network)
-
-    def _start_nodes(self, nodes: list[PlannedNode]) -> None:
-        with postponed():
-            started = [self._launcher.launch(one.node, one.name, one.parameters) for one in nodes]
-        for launched in started:
-            launched.wait_ready()
+    def _start_nodes(self, nodes: Sequence[PlannedNode]) -> None:
+        if self._is_over.is_set():
+            return
+        running = {
+            name for name, one in self.network.launcher.nodes.items() if not one.ended.is_set()
+        }
+        self._started += [node.name for node in nodes if node.name not in running]
+        self._wait_ready(self.network.start(nodes))
 
     def _start_program(self) -> None:
         """Let the program listen, but not act yet: no robot moves before every node is there."""
+        if self._is_over.is_set():
+            return
         settings: dict[str, Value] = {"file": str(self._program), "hold": True}
+        if self._watching is not None:
+            settings["trace"] = True
         with postponed():
-            launched = self._launcher.launch(
+            launched = self.network.launcher.launch(
                 "cognitive/program", PROGRAM, settings, restart_on_error=False
             )
-        launched.wait_ready()
+        self._started.append(PROGRAM)
+        self._wait_ready([launched])
+
+    def _wait_ready(self, nodes: Iterable[LaunchedNode]) -> None:
+        for launched in nodes:
+            launched.wait_ready(given_up=self._is_over)
 
     def _begin_program(self) -> None:
+        if self._is_over.is_set():
+            return
         self._may_begin = True
-        if self._voice is not None:
-            self._voice.start_program()
+        if self._watching is not None:
+            self._order("set")
+        self._order("start")
+
+    def _order(self, command: m.ProgramCommand, thread: str = "") -> None:
+        voice, watching = self.network.voice, self._watching or Watching()
+        if voice is not None:
+            order = m.ProgramControl(
+                command=command,
+                program=PROGRAM,
+                thread=thread,
+                breakpoints=list(watching.breakpoints),
+                line_s=watching.line_s,
+            )
+            voice.order(order)
 
     def _stop_program(self) -> None:
-        if self._voice is not None:
-            self._voice.stop_robots()
-            self._voice.stop_program()
-        program = self._launcher.nodes.get(PROGRAM)
+        self.hush()
+        program = self.network.launcher.nodes.get(PROGRAM)
         if program is not None and program.process is not None:
             program.stopping = True
             program.process.wait(ASK_TO_END_S)
 
-    def _hear(self, topic: str, network: PeerNetwork) -> None:
-        def callback(message: msgspec.Struct) -> None:
-            if isinstance(message, m.ProgramState):
-                self._note_failure(message)
-            elif isinstance(message, m.NodeState):
-                self._note_restart(message)
-            self._listener(topic, message)
+    def _stop_nodes(self) -> None:
+        started, self._started = self._started, []
+        self.network.launcher.stop_all(reversed(started))
 
-        Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=callback)
+    def _on_message(self, topic: str, message: msgspec.Struct) -> None:
+        if isinstance(message, m.ProgramState):
+            self._note_failure(message)
+        elif isinstance(message, m.NodeState):
+            self._note_restart(message)
+        self._listener(topic, message)
 
     def _note_restart(self, state: m.NodeState) -> None:
         """A program that was killed and started again waits to be told to begin."""
@@ -184,8 +222,6 @@ class Session:
                 self._changed.notify_all()
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        if self._voice is not None and not outcome.was_successful:
-            self._voice.tell_end(launched, outcome, again)
         if again or outcome.asked:
             return
         if launched.name == PROGRAM:

@@ -30,9 +30,9 @@ class Voice:
         request = m.ActionRequest(id=uuid.uuid4().hex, robots=[], action="stop", priority=100)
         self._say(self._requests, request)
 
-    def start_program(self) -> None:
-        """Let the program begin."""
-        self._say(self._control, m.ProgramControl(command="start"))
+    def order(self, order: m.ProgramControl) -> None:
+        """Ask the program for something."""
+        self._say(self._control, order)
 
     def stop_program(self) -> None:
         """Ask the program to end."""

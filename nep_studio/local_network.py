@@ -1,0 +1,157 @@
+"""The studio's own network: its master, its place in there, and the nodes that it starts."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import msgspec
+
+from nep_core import messages as m
+from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.outcome import Outcome
+from nep_core.p2p import PeerNetwork
+from nep_core.places import log_folder
+from nep_core.pubsub import Subscriber
+from nep_studio.own_master import start_master
+from nep_studio.plan import PlannedNode
+from nep_studio.signals import postponed
+from nep_studio.voice import Voice
+
+STUDIO = "studio"
+
+HEARD = (
+    m.NODE_STATE,
+    m.HUMAN_BEHAVIOR,
+    m.ACTION_REQUEST,
+    m.ACTION_RESULT,
+    m.PROGRAM_STATE,
+)
+
+Listener = Callable[[str, msgspec.Struct], None]
+"""Called with each message of the network and its topic, from several threads."""
+
+EndListener = Callable[[LaunchedNode, Outcome, bool], None]
+"""Called when a process ended: which, how, and whether it is started again."""
+
+
+class LocalNetwork:
+    """A master, this program's place in its network, and the nodes it started; any thread.
+
+    ``open`` raises NepError when the master cannot start; ``close`` stops all nodes, then the
+    master. Closed, it can be opened again.
+    """
+
+    def __init__(self, *, logs: Path | None = None, master: str | None = None) -> None:
+        self.logs = logs or log_folder()
+        self.network: PeerNetwork | None = None
+        self.voice: Voice | None = None
+        self.planned: dict[str, PlannedNode] = {}
+        """The nodes that it was asked to start, by name."""
+        self._wanted_master = master
+        self._listeners: tuple[Listener, ...] = ()
+        self._end_listeners: tuple[EndListener, ...] = ()
+        self._stack = contextlib.ExitStack()
+        self._opening = threading.RLock()
+        self._make_launchers()
+
+    def _make_launchers(self) -> None:
+        self.launcher = Launcher(logs=self.logs, on_end=self._on_end)
+        self._master_launcher = Launcher(logs=self.logs, on_end=self._on_end)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nodes can be started."""
+        return self.network is not None
+
+    def listen(self, listener: Listener, on_end: EndListener | None = None) -> None:
+        """Call ``listener`` with each message, ``on_end`` with each end of a process."""
+        with self._opening:
+            self._listeners += (listener,)
+            self._end_listeners += (on_end,) if on_end is not None else ()
+
+    def unlisten(self, listener: Listener, on_end: EndListener | None = None) -> None:
+        """Call them no more."""
+        with self._opening:
+            self._listeners = tuple(one for one in self._listeners if one != listener)
+            self._end_listeners = tuple(one for one in self._end_listeners if one != on_end)
+
+    def open(self) -> None:
+        """Start the master and join it, unless that is done; what is opened first closes last."""
+        with self._opening:
+            if self.is_open:
+                return
+            self._make_launchers()
+            try:
+                self._open()
+            except BaseException:
+                self.close()
+                raise
+
+    def _open(self) -> None:
+        self._stack.callback(self._master_launcher.close)
+        self.launcher.master = start_master(self._master_launcher, self._wanted_master)
+        network = self._stack.enter_context(PeerNetwork(STUDIO, master=self.launcher.master))
+        self.voice = Voice(network)
+        self._stack.callback(self.voice.fall_silent)
+        self._stack.callback(self.launcher.close)
+        self.launcher.hear(network)
+        for topic in HEARD:
+            self._hear(topic, network)
+        self.network = network
+
+    def close(self) -> None:
+        """Stop all nodes, leave the network, stop the master."""
+        with self._opening:
+            self.network = None
+            self._stack.close()
+            self.planned.clear()
+
+    def start(self, nodes: Iterable[PlannedNode]) -> list[LaunchedNode]:
+        """Start those of the nodes that do not run yet as they are wanted; all of them, launched.
+
+        Does not wait until they are ready; raises NepError.
+        """
+        with self._opening, postponed():
+            return [self._start(one) for one in nodes]
+
+    def _start(self, planned: PlannedNode) -> LaunchedNode:
+        running = self.launcher.nodes.get(planned.name)
+        if running is not None and not running.ended.is_set():
+            if self.planned.get(planned.name) == planned:
+                return running
+            self.launcher.stop(planned.name)
+        self.planned[planned.name] = planned
+        return self.launcher.launch(planned.node, planned.name, planned.parameters)
+
+    def stop(self, name: str) -> None:
+        """Stop one node."""
+        self.launcher.stop(name)
+
+    def restart(self, name: str) -> LaunchedNode:
+        """Stop a node that was started here, and start it again as it was."""
+        self.stop(name)
+        return self.start([self.planned[name]])[0]
+
+    def log_of(self, name: str) -> list[str]:
+        """The last lines that a node, or the master, wrote; at most 200."""
+        for launcher in (self.launcher, self._master_launcher):
+            launched = launcher.nodes.get(name)
+            if launched is not None and launched.process is not None:
+                return launched.process.last_lines
+        return []
+
+    def _hear(self, topic: str, network: PeerNetwork) -> None:
+        def callback(message: msgspec.Struct) -> None:
+            for listener in self._listeners:
+                listener(topic, message)
+
+        Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=callback)
+
+    def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        if self.voice is not None and not outcome.was_successful:
+            self.voice.tell_end(launched, outcome, again)
+        for listener in self._end_listeners:
+            listener(launched, outcome, again)

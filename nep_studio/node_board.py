@@ -1,0 +1,124 @@
+"""How every node of the network is doing, from what they tell; for the node panel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from nep_core.messages import NodeEvent, NodeState, NodeType
+
+FROZEN_S = 3.0
+"""A node that has said nothing for so long, three heartbeats, is frozen."""
+
+Health = Literal["planned", "starting", "ready", "busy", "warning", "frozen", "crashed", "stopped"]
+
+HEALTH: dict[NodeEvent, Health] = {
+    "starting": "starting",
+    "connecting": "starting",
+    "ready": "ready",
+    "running": "ready",
+    "connected": "ready",
+    "busy": "busy",
+    "warning": "warning",
+    "disconnected": "warning",
+    "connection_failed": "crashed",
+    "crashed": "crashed",
+    "stopped": "stopped",
+}
+"""What an event says of a node's health; a heartbeat says that it is as it was."""
+
+ENDED: frozenset[Health] = frozenset({"planned", "crashed", "stopped"})
+
+
+@dataclass(frozen=True)
+class NodeStatus:
+    """A node as it was heard last; ``node`` is "type/name" of its manifest, "" when not known.
+
+    ``since_s`` is when it took this state, ``heard_s`` when it was heard last (time.time()).
+    """
+
+    name: str
+    type: NodeType
+    node: str = ""
+    event: NodeEvent | None = None
+    description: str = ""
+    pid: int = 0
+    since_s: float = 0.0
+    heard_s: float = 0.0
+    restarts: int = 0
+    health: Health = "planned"
+
+    @property
+    def is_there(self) -> bool:
+        """Whether it runs, as far as is known."""
+        return self.health not in ENDED
+
+
+class NodeBoard:
+    """The nodes by name; one thread at a time."""
+
+    def __init__(self) -> None:
+        self.nodes: dict[str, NodeStatus] = {}
+
+    def plan(self, name: str, type: NodeType, node: str) -> bool:
+        """Note a node that a project needs; whether that is news."""
+        known = self.nodes.get(name)
+        if known is not None and (known.node, known.type) == (node, type):
+            return False
+        base = known or NodeStatus(name, type)
+        self.nodes[name] = replace(base, type=type, node=node)
+        return True
+
+    def forget(self, name: str) -> bool:
+        """Drop a node that nobody needs and that does not run; whether it was there."""
+        known = self.nodes.get(name)
+        if known is None or known.is_there:
+            return False
+        del self.nodes[name]
+        return True
+
+    def update(self, state: NodeState) -> bool:
+        """Take in what a node told, or somebody for it; whether its status has changed."""
+        before = self.nodes.get(state.node) or NodeStatus(state.node, state.type)
+        after = _heard(before, state)
+        self.nodes[state.node] = after
+        return replace(after, heard_s=before.heard_s) != before
+
+    def frozen(self, now_s: float) -> list[str]:
+        """Mark the nodes that have fallen silent; those that have just become so."""
+        found = [
+            one.name
+            for one in self.nodes.values()
+            if one.is_there and one.health != "frozen" and now_s - one.heard_s > FROZEN_S
+        ]
+        for name in found:
+            self.nodes[name] = replace(self.nodes[name], health="frozen", since_s=now_s)
+        return found
+
+    def all_gone(self) -> list[str]:
+        """The network is closed: nothing runs any more; those that did."""
+        found = [one.name for one in self.nodes.values() if one.is_there]
+        for name in found:
+            self.nodes[name] = replace(self.nodes[name], health="stopped", event="stopped")
+        return found
+
+
+def _heard(before: NodeStatus, state: NodeState) -> NodeStatus:
+    if state.event == "alive":
+        was_silent = before.health in ("frozen", "planned")
+        health: Health = "ready" if was_silent else before.health
+        if before.health in ("crashed", "stopped") and state.pid != before.pid:
+            health = "ready"
+        return replace(before, health=health, heard_s=state.time, pid=state.pid or before.pid)
+    is_new = before.event is not None and state.event == "starting" and state.pid != before.pid
+    return replace(
+        before,
+        type=state.type,
+        event=state.event,
+        description=state.description,
+        pid=state.pid or before.pid,
+        since_s=state.time,
+        heard_s=state.time,
+        restarts=before.restarts + (is_new and before.event == "crashed"),
+        health=HEALTH[state.event],
+    )
