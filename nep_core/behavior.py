@@ -239,11 +239,11 @@ class Behavior:
     def _run_rule(self, rule: Rule) -> None:
         again = True
         while again:
-            self._tell("rule_started", rule.state)
+            self._tell("rule_started", rule.state, _line_of(rule.action))
             rule.action()
             self._busy_s = time.monotonic()
             again = self._goes_on(rule)  # before it is told: who hears it may fire the rule
-            self._tell("rule_finished", rule.state)
+            self._tell("rule_finished", rule.state, _line_of(rule.action))
 
     def _goes_on(self, rule: Rule) -> bool:
         """Whether another run is queued; if not, the rule may fire afresh from now on."""
@@ -261,6 +261,13 @@ class Behavior:
             self._parts.append(part)
             return part.start()
 
-    def _tell(self, event: ProgramEvent, rule: str) -> None:
+    def _tell(self, event: ProgramEvent, rule: str, line: int = 0) -> None:
         name = threading.current_thread().name
-        self._states.send(ProgramState(program=self.name, event=event, rule=rule, thread=name))
+        state = ProgramState(program=self.name, event=event, rule=rule, thread=name, line=line)
+        self._states.send(state)
+
+
+def _line_of(action: Action) -> int:
+    """Where a function begins in its file, which tells rules for the same state apart."""
+    code = getattr(action, "__code__", None)
+    return code.co_firstlineno if code is not None else 0

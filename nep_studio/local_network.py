@@ -51,6 +51,8 @@ class LocalNetwork:
         self.planned: dict[str, PlannedNode] = {}
         """The nodes that it was asked to start, by name."""
         self._wanted_master = master
+        self.on_open: Callable[[], None] = lambda: None
+        """Called each time that nodes can be started, in the thread that opened it."""
         self._listeners: tuple[Listener, ...] = ()
         self._end_listeners: tuple[EndListener, ...] = ()
         self._stack = contextlib.ExitStack()
@@ -101,6 +103,7 @@ class LocalNetwork:
         for topic in HEARD:
             self._hear(topic, network)
         self.network = network
+        self.on_open()
 
     def close(self) -> None:
         """Stop all nodes, leave the network, stop the master."""

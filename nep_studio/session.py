@@ -78,6 +78,10 @@ class Session:
         self._started: list[str] = []
         self.network = network or LocalNetwork(logs=logs, master=master)
 
+    def use_program(self, program: Path) -> None:
+        """Run this file; before the session is entered."""
+        self._program = program
+
     def wait(self, seconds: float | None = None) -> Ending:
         """Wait until the program ends, or for so long; how it ended."""
         deadline = math.inf if seconds is None else time.monotonic() + seconds

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QMenu, QSizePolicy, QToolBar, QToolButton, QWidget
 
 from nep_studio.settings import SYSTEM
 from nep_studio.ui.actions_icons import icon_room
+from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, dress_buttons
 from nep_studio.ui.theme import icon, load_theme, themes
 from nep_studio.ui.words import available_languages, tr
 
@@ -21,12 +22,13 @@ Key = QKeySequence.StandardKey
 ZOOM_STEP = 1.2
 TEXT_SCALES = (1.0, 1.15, 1.3, 1.5, 1.75, 2.0)
 TOOLBAR = (
+    RUN_BUTTONS,
     ("new", "open", "save"),
     ("undo", "redo"),
     ("check",),
     ("zoom_out", "zoom_fit", "zoom_in"),
 )
-ICON_ONLY = ("zoom_out", "zoom_in", "settings", "shortcuts")
+ICON_ONLY = ("pause", "step", "zoom_out", "zoom_in", "settings", "shortcuts")
 
 
 def add_view_menu(window: MainWindow) -> QMenu:
@@ -125,11 +127,13 @@ def add_toolbar(window: MainWindow) -> QToolBar:
         if number:
             bar.addSeparator()
         bar.addActions([window.actions_by_name[name] for name in names])
+    bar.addWidget(RunState(window, bar))
     space = QWidget()
     space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
     bar.addWidget(space)
     bar.addActions([window.actions_by_name[name] for name in ("shortcuts", "settings")])
     window.addToolBar(bar)
+    dress_buttons(bar)
     size_toolbar(bar)
     return bar
 

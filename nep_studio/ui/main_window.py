@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
+from PySide6.QtGui import QCloseEvent, QResizeEvent
 from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar, QWidget
 
 from nep_studio import settings
@@ -17,10 +17,11 @@ from nep_studio.ui.actions_file import add_file_menu
 from nep_studio.ui.actions_icons import fit_icons
 from nep_studio.ui.actions_view import add_help_menu, add_toolbar, add_view_menu, size_toolbar
 from nep_studio.ui.app import Studio
-from nep_studio.ui.documents import SUFFIX, Document
+from nep_studio.ui.documents import Document
 from nep_studio.ui.documents_choosing import FileChooser, SystemFileChooser
 from nep_studio.ui.documents_files import Files
-from nep_studio.ui.documents_opening import PICTURES, Opening
+from nep_studio.ui.documents_opening import Opening
+from nep_studio.ui.main_window_drops import ProjectDrops
 from nep_studio.ui.main_window_help import (
     AboutDialog,
     ShortcutsDialog,
@@ -34,6 +35,8 @@ from nep_studio.ui.messages_area import MessageArea
 from nep_studio.ui.picture.dialog import PictureDialog
 from nep_studio.ui.problems.looks import summary
 from nep_studio.ui.recovery import RecoveryDialog
+from nep_studio.ui.running.actions import add_run_menu
+from nep_studio.ui.running.control import RunControl
 from nep_studio.ui.settings_dialog import SettingsDialog
 from nep_studio.ui.start_page import StartPage
 from nep_studio.ui.theme import icon
@@ -62,7 +65,8 @@ class MainWindow(QMainWindow):
         )
         self._opening_message: Message | None = None
         self._may_close = False
-        self.setAcceptDrops(True)
+        self.running = RunControl(self)
+        ProjectDrops(self, self.files.open)
         self.resize(*FIRST_SIZE)
         self.restoreGeometry(self.settings.state("geometry"))
         self._build()
@@ -87,9 +91,11 @@ class MainWindow(QMainWindow):
             "file": add_file_menu(self),
             "edit": add_edit_menu(self),
             "view": add_view_menu(self),
+            "run": add_run_menu(self),
             "help": add_help_menu(self),
         }
         self.toolbar: QToolBar = add_toolbar(self)
+        self.running.attach()
         self.workbench.problems_found.connect(self._on_problems_found)
         self.workbench.canvas.picture_requested.connect(self.export_picture)
         self.workbench.canvas.layout_changed.connect(self.update_actions)
@@ -168,6 +174,7 @@ class MainWindow(QMainWindow):
     # What happens
 
     def _on_document_changed(self, document: Document | None) -> None:
+        self.running.follow(document)
         self.pages.setCurrentIndex(0 if document is None else 1)  # first: it needs its size
         self.workbench.show_document(document)
         if document is not None:
@@ -239,7 +246,7 @@ class MainWindow(QMainWindow):
             if selected:
                 canvas.show_block(selected[0])
 
-    # Closing, dropping
+    # Closing
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the words on the toolbar where there is room for them."""
@@ -264,24 +271,8 @@ class MainWindow(QMainWindow):
         self.settings.set_state("geometry", self.saveGeometry())
         self.workbench.panels.remember()
         self.settings.write()
+        self.hide()  # what is running takes a moment to stop
+        self.running.close()
         self.workbench.retire()
         if self.files.document is not None:
             self.files.document.close()
-
-    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
-        """Take a project that is dragged onto the window."""
-        if _project_in(event) is not None:
-            event.acceptProposedAction()
-
-    def dropEvent(self, event: QDropEvent) -> None:
-        """Open a project that is dropped onto the window."""
-        path = _project_in(event)
-        if path is not None:
-            event.acceptProposedAction()
-            self.files.open(path)
-
-
-def _project_in(event: QDropEvent) -> Path | None:
-    """The project among what is dragged."""
-    files = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
-    return next((file for file in files if file.suffix.lower() in (SUFFIX, *PICTURES)), None)

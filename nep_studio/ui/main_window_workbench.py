@@ -59,6 +59,7 @@ class Workbench(QWidget):
         self.checks = LiveChecks(self)
         self.helpers = CanvasHelpers(self.canvas, studio.settings)
         self.bubble: ProblemBubble | None = None
+        self._run_problem: Problem | None = None
         self._usual_scale = usual_scale(studio)
         self.panels = Panels(self._middle(), studio.look, studio.settings, self)
         self.add_side_panel(self.helpers.palette, tr("Blocks"), "blocks", "left")
@@ -102,6 +103,7 @@ class Workbench(QWidget):
 
     def show_document(self, document: Document | None) -> None:
         """Work on another project; on none, the canvas is empty."""
+        self._run_problem = None
         editor = self._no_editor() if document is None else document.editor
         folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
         self._set_editor(editor)
@@ -169,9 +171,14 @@ class Workbench(QWidget):
         self.show_block(changed[0])
         self.checks.start()
 
+    def show_run_problem(self, problem: Problem | None) -> None:
+        """Show at its block why the program stopped, until it is run again or changed there."""
+        self._run_problem = problem
+        self._show_problems()
+
     def open_bubble(self, block: str) -> None:
         """Show what is not right at a block, beside its badge."""
-        there = [problem for problem in self.checks.problems if problem.block == block]
+        there = [problem for problem in self._all_problems() if problem.block == block]
         placed = self.canvas.page_layout.placed(block)
         if not there or placed is None:
             return
@@ -184,12 +191,23 @@ class Workbench(QWidget):
         bubble.show_at(QRect(viewport.mapToGlobal(corner), size))
 
     def _on_problems_found(self, problems: list[Problem]) -> None:
+        self._show_problems()
+        self.problems_found.emit(problems)
+
+    def _all_problems(self) -> list[Problem]:
+        """What is not right, and why the program stopped."""
+        stopped = self._run_problem
+        if stopped is None or stopped.block not in self.canvas.editor.project.blocks:
+            return self.checks.problems
+        return [stopped, *self.checks.problems]
+
+    def _show_problems(self) -> None:
+        problems = self._all_problems()
         self.problems.show_problems(problems)
         before = self.canvas.problems.problems
         self.canvas.problems.show(problems)
         if self.canvas.problems.problems != before:
             self.canvas.viewport().update()
-        self.problems_found.emit(problems)
 
     def _on_problem_opened(self, problem: Problem) -> None:
         if problem.block:

@@ -179,7 +179,8 @@ class ProgramGenerator:
             page.add(["", ""])
             page.add(rule.lines, rule.blocks)
         page.add(["", "", "behavior.run()"] if rules else ["", "behavior.run()"])
-        return Code("\n".join(page.lines) + "\n", tuple(page.blocks))
+        text = "\n".join(page.lines) + "\n"
+        return Code(text, tuple(page.blocks), dict(names.variables))
 
     def _robot_lines(self, names: ProgramNames, used: set[str]) -> list[tuple[str, str]]:
         """A line for each robot that the rules use, with its block on the Robots page."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from ..program import Project
@@ -11,10 +12,14 @@ from ..program import Project
 
 @dataclass(frozen=True)
 class Code:
-    """A generated file; ``blocks[i]`` made line i + 1 (an empty text where no block did)."""
+    """A generated file; ``blocks[i]`` made line i + 1 (an empty text where no block did).
+
+    ``variables`` are the Python names of the project's variables, by their ids.
+    """
 
     text: str
     blocks: tuple[str, ...]
+    variables: Mapping[str, str] = field(default_factory=dict)
 
     def block_at(self, line: int) -> str | None:
         """The block that made a line, counted from 1, or None."""
@@ -25,6 +30,19 @@ class Code:
     def lines_of(self, block: str) -> tuple[int, ...]:
         """The lines that a statement block made itself, without those of the blocks inside it."""
         return self._lines.get(block, ())
+
+    def stop_at(self, block: str) -> int:
+        """The line before which a program pauses that is to pause at a block; 0 where none is.
+
+        At a rule that is the first line inside: its own line is run once, when it is made known.
+        """
+        lines = self.lines_of(block)
+        if not lines:
+            return 0
+        if not self.text.splitlines()[lines[0] - 1].lstrip().startswith(("@", "def ")):
+            return lines[0]
+        inside = range(lines[-1] + 1, len(self.blocks) + 1)
+        return next((line for line in inside if self.blocks[line - 1]), 0)
 
     def statement_of(self, block: str, project: Project) -> str | None:
         """The statement block that a block is, or in whose lines it is, or None."""

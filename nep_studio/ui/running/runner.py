@@ -1,0 +1,252 @@
+"""Runs the open project in the window: what state it is in, and what is heard meanwhile."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Literal
+
+import msgspec
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_core import messages as m
+from nep_core.errors import NepError
+from nep_core.node_log import log_file_name
+from nep_studio.local_network import LocalNetwork
+from nep_studio.monitor import Monitor
+from nep_studio.node_board import NodeBoard
+from nep_studio.plan import PlannedNode
+from nep_studio.session import Ending, Watching
+
+from .play import Play, Request
+from .sending import Sender
+from .tap import Tap
+
+log = logging.getLogger(__name__)
+
+State = Literal["idle", "starting", "running", "paused", "stopping"]
+LOOK_MS = 250
+"""How often it is looked whether a node has fallen silent."""
+
+
+class Runner(QObject):
+    """The window's door to a running program and its nodes; nothing in here waits.
+
+    ``arrived`` gives (topic, message) pairs of what was heard, at most 30 times a second;
+    ``node_failed`` the NepError of a node that could not be started by hand.
+    """
+
+    state_changed = Signal(str)
+    run_asked = Signal()
+    connected = Signal()
+    disconnected = Signal()
+    arrived = Signal(list)
+    nodes_changed = Signal(list)
+    ended = Signal(object)
+    node_failed = Signal(str, object)
+    _came_up = Signal()
+
+    def __init__(
+        self,
+        planned: Callable[[], list[PlannedNode]],
+        parent: QObject,
+        *,
+        logs: Path | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.planned = planned
+        self.board = NodeBoard()
+        self.state: State = "idle"
+        self.local = LocalNetwork(logs=logs)
+        self.local.listen(self._on_message)
+        self.local.on_open = self._came_up.emit
+        self.play: Play | None = None
+        self._sender = Sender()
+        self._taps: list[Tap] = []
+        self._monitor = Monitor()
+        self._monitor.arrived.connect(self._on_arrived)
+        self._monitor.start()
+        self._came_up.connect(self._on_came_up)
+        self._looking = QTimer(self, interval=LOOK_MS)
+        self._looking.timeout.connect(self._on_look)
+
+    # The program
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether messages can be sent and heard."""
+        return self.local.is_open
+
+    def run(self) -> None:
+        """Ask for the open project to be run; a paused one goes on."""
+        if self.state == "paused":
+            self.resume()
+        elif self.state == "idle":
+            self.run_asked.emit()
+
+    def start(self, request: Request) -> None:
+        """Run this, which has been checked; ``ended`` tells how it went."""
+        if self.state != "idle":
+            return
+        self._set_state("starting")
+        play = self.play = Play(request, self.local)
+        play.begun.connect(self._on_begun)
+        play.over.connect(self._on_over)
+        play.finished.connect(play.deleteLater)
+        play.start()
+
+    def stop(self) -> None:
+        """Stop the robots at once, then the program, then what was started for it."""
+        if self.play is not None and self.state not in ("idle", "stopping"):
+            self._set_state("stopping")
+            self.play.end()
+
+    def pause(self) -> None:
+        """Let the program pause at its next lines."""
+        if self.play is not None and self.state == "running":
+            self.play.session.pause()
+
+    def resume(self) -> None:
+        """Let a paused program go on."""
+        if self.play is not None and self.state == "paused":
+            self.play.session.resume()
+
+    def step(self, thread: str = "") -> None:
+        """Let a paused program run one line more."""
+        if self.play is not None and self.state == "paused":
+            self.play.session.step(thread)
+
+    def watch(self, watching: Watching) -> None:
+        """Pause elsewhere, or go at another pace, from now on."""
+        if self.play is not None and self.state in ("starting", "running", "paused"):
+            self.play.session.watch(watching)
+
+    # The nodes
+
+    def start_node(self, planned: PlannedNode) -> None:
+        """Start a node; the network first, if it is not up."""
+
+        def start() -> None:
+            self.local.open()
+            for launched in self.local.start([planned]):
+                launched.wait_ready()
+
+        self._aside(planned.name, start)
+
+    def stop_node(self, name: str) -> None:
+        """Stop a node that was started here."""
+        self._aside(name, lambda: self.local.stop(name))
+
+    def restart_node(self, name: str) -> None:
+        """Stop a node and start it again as it was."""
+        if name in self.local.planned:
+            self._aside(name, lambda: self.local.restart(name).wait_ready())
+
+    def is_ours(self, name: str) -> bool:
+        """Whether a node was started here, and can be stopped and started here."""
+        return name in self.local.planned
+
+    def log_of(self, name: str) -> list[str]:
+        """The last lines that a node wrote; at most 200."""
+        return self.local.log_of(name)
+
+    def log_file(self, name: str) -> Path:
+        """Where all that a node writes is kept."""
+        return self.local.logs / log_file_name(name)
+
+    # Messages
+
+    def tap(
+        self, topic: str, *, kind: type[Any] | None = None, most: int = 2000, parent: QObject
+    ) -> Tap:
+        """Hear a topic as long as ``parent`` lives, or until the tap is closed."""
+        tap = Tap(topic, kind, most=most, parent=parent)
+        self._taps.append(tap)
+        tap.destroyed.connect(lambda: self._forget(tap))
+        tap.listen(self.local.network)
+        return tap
+
+    def send(self, topic: str, message: msgspec.Struct | dict[str, Any]) -> bool:
+        """Send a message by hand; False when there is no network."""
+        return self._sender.send(self.local.network, topic, message)
+
+    def close(self) -> None:
+        """Stop everything and wait for it; before the window goes."""
+        if self.play is not None:
+            self.play.end()
+            self.play.wait()
+        self._looking.stop()
+        for tap in list(self._taps):
+            tap.close()
+        self._sender.close()
+        self.local.close()
+        self._monitor.end()
+
+    def _forget(self, tap: Tap) -> None:
+        if tap in self._taps:
+            self._taps.remove(tap)
+
+    def _aside(self, name: str, do: Callable[[], None]) -> None:
+        """Do what takes a while in a thread of its own."""
+
+        def run() -> None:
+            try:
+                do()
+            except NepError as error:
+                self.node_failed.emit(name, error)
+
+        threading.Thread(target=run, name=f"nep-studio-{name}", daemon=True).start()
+
+    # What happens
+
+    def _on_message(self, topic: str, message: msgspec.Struct) -> None:
+        self._monitor.hear((topic, message))  # in a thread of the network
+
+    def _on_begun(self) -> None:
+        if self.state == "starting":
+            self._set_state("running")
+
+    def _on_over(self, ending: Ending) -> None:
+        self.play = None
+        self._set_state("idle")
+        self.ended.emit(ending)
+
+    def _on_came_up(self) -> None:
+        self._looking.start()
+        for tap in self._taps:
+            tap.listen(self.local.network)
+        self.connected.emit()
+
+    def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
+        try:
+            changed = {
+                message.node: None
+                for _, message in batch
+                if isinstance(message, m.NodeState) and self.board.update(message)
+            }
+            if changed:
+                self.nodes_changed.emit(list(changed))
+            for _, message in batch:
+                if isinstance(message, m.ProgramState):
+                    self._note(message)
+            self.arrived.emit(batch)
+        finally:
+            self._monitor.taken()
+
+    def _note(self, state: m.ProgramState) -> None:
+        if state.event == "paused" and self.state == "running":
+            self._set_state("paused")
+        elif state.event == "resumed" and self.state == "paused":
+            self._set_state("running")
+
+    def _on_look(self) -> None:
+        if frozen := self.board.frozen(time.time()):
+            self.nodes_changed.emit(frozen)
+
+    def _set_state(self, state: State) -> None:
+        if state != self.state:
+            self.state = state
+            self.state_changed.emit(state)

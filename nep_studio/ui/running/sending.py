@@ -1,0 +1,55 @@
+"""Messages that are sent by hand, from a thread of their own: a first one may have to wait."""
+
+from __future__ import annotations
+
+import logging
+import queue
+import threading
+from typing import Any
+
+import msgspec
+
+from nep_core.errors import NepError
+from nep_core.p2p import PeerNetwork
+from nep_core.pubsub import Publisher
+
+log = logging.getLogger(__name__)
+
+Sent = tuple[PeerNetwork, str, msgspec.Struct | dict[str, Any]]
+
+
+class Sender:
+    """Sends to any topic; it keeps a publisher for each that was used."""
+
+    def __init__(self) -> None:
+        self._network: PeerNetwork | None = None
+        self._publishers: dict[str, Publisher] = {}
+        self._waiting: queue.SimpleQueue[Sent | None] = queue.SimpleQueue()
+        threading.Thread(target=self._run, name="nep-studio-send", daemon=True).start()
+
+    def send(
+        self, network: PeerNetwork | None, topic: str, message: msgspec.Struct | dict[str, Any]
+    ) -> bool:
+        """Send a message, soon and in order; False when there is no network."""
+        if network is None or network.closed:
+            return False
+        self._waiting.put((network, topic, message))
+        return True
+
+    def close(self) -> None:
+        """Send no more."""
+        self._waiting.put(None)
+
+    def _run(self) -> None:
+        while (sent := self._waiting.get()) is not None:
+            try:
+                self._publisher(sent[0], sent[1]).send(sent[2])
+            except NepError as error:
+                log.warning("%s was not sent: %s", sent[1], error)
+
+    def _publisher(self, network: PeerNetwork, topic: str) -> Publisher:
+        if network is not self._network:
+            self._network, self._publishers = network, {}
+        if topic not in self._publishers:
+            self._publishers[topic] = Publisher(topic, network=network)
+        return self._publishers[topic]
