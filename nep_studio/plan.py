@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from nep_studio.blocks.deployment import (
@@ -20,6 +20,8 @@ from nep_studio.blocks.program import Project
 VIRTUAL_WATCH = "sensory/virtual_watch"
 REPLAY = "sensory/replay"
 GESTURE = "perceptual/gesture"
+FASTEST = 50.0
+"""The highest ``speed`` that nodes take."""
 
 Setting = str | float | int | bool
 
@@ -42,11 +44,17 @@ class PlannedNode:
 
 @dataclass(frozen=True)
 class Choices:
-    """What the person who runs the project decides: a recording, addresses of robots by name."""
+    """What the person who runs the project decides: a recording, addresses of robots by name.
+
+    ``speed``: how many times as fast the recording goes, or who wears a virtual watch, and how
+    fast virtual robots act. What is real keeps its pace. ``virtual``: the real robots whose
+    parts those on the screen play.
+    """
 
     recording: Path | None = None
     speed: float = 1.0
     addresses: Mapping[str, str] = field(default_factory=dict)
+    virtual: frozenset[str] = frozenset()
 
 
 def plan(project: Project, language: Language, choices: Choices, folder: Path) -> list[PlannedNode]:
@@ -59,7 +67,8 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     known = language.choices.get("gestures", {})
     nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
     wanted = [gesture for gesture in gestures_used(project, language) if gesture in known]
-    return _with_a_watch(nodes, choices, wanted)
+    nodes = _with_a_watch(nodes, choices, wanted)
+    return [_hurried(node, choices.speed, language.profile.node) for node in nodes]
 
 
 def _robots(project: Project, language: Language, choices: Choices) -> list[PlannedNode]:
@@ -70,8 +79,22 @@ def _robots(project: Project, language: Language, choices: Choices) -> list[Plan
 def _robot(entry: RobotEntry, choices: Choices, node: str) -> PlannedNode:
     address = choices.addresses.get(entry.name, entry.address)
     driver = "naoqi" if entry.name in choices.addresses else entry.driver
+    if entry.name in choices.virtual:
+        driver = "virtual"
     settings: dict[str, Setting] = {"robot": entry.name, "driver": driver, "address": address}
     return PlannedNode(node, entry.name, settings, block_id=entry.block_id)
+
+
+def _hurried(planned: PlannedNode, speed: float, robot: str) -> PlannedNode:
+    """A node of what is only simulated at a speed; others as they are."""
+    settings = planned.parameters
+    is_virtual_robot = planned.node == robot and settings.get("driver", "virtual") == "virtual"
+    own = settings.get("speed", 1.0)
+    if speed == 1.0 or not isinstance(own, int | float):
+        return planned
+    if planned.node != VIRTUAL_WATCH and not is_virtual_robot:
+        return planned
+    return replace(planned, parameters={**settings, "speed": min(own * speed, FASTEST)})
 
 
 def _listed(entry: NodeEntry, folder: Path) -> PlannedNode:

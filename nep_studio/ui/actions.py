@@ -19,7 +19,7 @@ class Actions(QObject):
     def __init__(self, window: QWidget, look: Look) -> None:
         super().__init__(window)
         self._window, self._look = window, look
-        self._icons: dict[str, str] = {}
+        self._icons: dict[str, tuple[str, str]] = {}
         self.by_name: dict[str, QAction] = {}
         look.theme_changed.connect(self._on_theme_changed)
 
@@ -35,8 +35,12 @@ class Actions(QObject):
         icon_name: str = "",
         keys: Keys | tuple[Keys, ...] = (),
         tip: str = "",
+        colour: str = "",
     ) -> QAction:
-        """Make an action; ``words`` with an ellipsis where a question follows."""
+        """Make an action; ``words`` with an ellipsis where a question follows.
+
+        ``colour`` is the theme's colour of an icon that does not stand on a panel.
+        """
         action = QAction(words, self)
         action.setObjectName(name)
         action.setShortcuts(sequences(keys))
@@ -47,8 +51,8 @@ class Actions(QObject):
         self._window.addAction(action)
         self.by_name[name] = action
         if icon_name:
-            self._icons[name] = icon_name
-            action.setIcon(icon(icon_name, self._look.theme))
+            self._icons[name] = icon_name, colour
+            self._dress(name)
         return action
 
     def enable(self, is_enabled: bool, *names: str) -> None:
@@ -63,8 +67,12 @@ class Actions(QObject):
         self.deleteLater()
 
     def _on_theme_changed(self) -> None:
-        for name, icon_name in self._icons.items():
-            self.by_name[name].setIcon(icon(icon_name, self._look.theme))
+        for name in self._icons:
+            self._dress(name)
+
+    def _dress(self, name: str) -> None:
+        (icon_name, colour), theme = self._icons[name], self._look.theme
+        self.by_name[name].setIcon(icon(icon_name, theme.colour(colour) if colour else theme))
 
 
 def sequences(keys: Keys | tuple[Keys, ...]) -> list[QKeySequence]:

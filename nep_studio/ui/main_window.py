@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtGui import QCloseEvent, QResizeEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
 from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar, QWidget
 
 from nep_studio import settings
@@ -21,7 +21,7 @@ from nep_studio.ui.documents import Document
 from nep_studio.ui.documents_choosing import FileChooser, SystemFileChooser
 from nep_studio.ui.documents_files import Files
 from nep_studio.ui.documents_opening import Opening
-from nep_studio.ui.main_window_drops import ProjectDrops
+from nep_studio.ui.main_window_drops import project_in
 from nep_studio.ui.main_window_help import (
     AboutDialog,
     ShortcutsDialog,
@@ -66,7 +66,7 @@ class MainWindow(QMainWindow):
         self._opening_message: Message | None = None
         self._may_close = False
         self.running = RunControl(self)
-        ProjectDrops(self, self.files.open)
+        self.setAcceptDrops(True)
         self.resize(*FIRST_SIZE)
         self.restoreGeometry(self.settings.state("geometry"))
         self._build()
@@ -276,3 +276,13 @@ class MainWindow(QMainWindow):
         self.workbench.retire()
         if self.files.document is not None:
             self.files.document.close()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take a project that is dragged onto the window."""
+        project_in(event)
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open a project that is dropped onto the window."""
+        path = project_in(event)
+        if path is not None:
+            self.files.open(path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QSize
-from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolBar, QWidget
 
 from nep_studio.ui.theme import icon
@@ -22,8 +22,10 @@ def add_run_menu(window: MainWindow) -> QMenu:
     menu, add = window.menuBar().addMenu(tr("&Run")), window.actions_by_name.add
     control = window.running
     runner = control.runner
-    run = add("run", tr("Run"), runner.run, icon_name="play", keys="F5")
-    stop = add("stop", tr("Stop"), control.stop, icon_name="square", keys="Shift+F5")
+    run = add("run", tr("Run"), runner.run, icon_name="play", keys="F5", colour="run_text")
+    stop = add(
+        "stop", tr("Stop"), control.stop, icon_name="square", keys="Shift+F5", colour="stop_text"
+    )
     pause = add("pause", tr("Pause"), runner.pause, icon_name="pause", keys="F6")
     step = add("step", tr("One step"), runner.step, icon_name="step-forward", keys="F10")
     menu.addActions([run, stop, pause, step])
@@ -143,10 +145,3 @@ def dress_buttons(bar: QToolBar) -> None:
     for action in bar.actions():
         if action.objectName() in ("run", "stop"):
             bar.widgetForAction(action).setProperty("kind", action.objectName())
-
-
-def run_icons(window: MainWindow, actions: dict[str, QAction]) -> None:
-    """Let the signs of Run and Stop stand out on their colours."""
-    theme = window.look.theme
-    actions["run"].setIcon(icon("play", theme.colour("run_text")))
-    actions["stop"].setIcon(icon("square", theme.colour("stop_text")))

@@ -68,7 +68,6 @@ class Runner(QObject):
         self._taps: list[Tap] = []
         self._monitor = Monitor()
         self._monitor.arrived.connect(self._on_arrived)
-        self._monitor.start()
         self._came_up.connect(self._on_came_up)
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self._on_look)
@@ -216,6 +215,7 @@ class Runner(QObject):
 
     def _on_came_up(self) -> None:
         self._looking.start()
+        self._monitor.start()
         for tap in self._taps:
             tap.listen(self.local.network)
         self.connected.emit()

@@ -71,6 +71,7 @@ def window(studio: Studio, chooser: Chooser, qtbot: QtBot) -> Iterator[MainWindo
     for dialog in made.findChildren(QDialog):
         dialog.blockSignals(True)
         dialog.close()
+    made.running.close()
     made.workbench.retire()
     if made.files.document is not None:
         made.files.document.close()

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
-from PySide6.QtWidgets import QApplication, QDialog, QMenu
+from PySide6.QtWidgets import QDialog, QMenu
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
@@ -215,7 +215,7 @@ def test_a_file_dropped_onto_the_window_opens(window: MainWindow, tmp_path: Path
     buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
     drop = QDropEvent(QPointF(9, 9), Qt.DropAction.CopyAction, data, buttons, keys)
 
-    QApplication.sendEvent(window, drop)
+    window.dropEvent(drop)
 
     assert window.files.document.path == file
 

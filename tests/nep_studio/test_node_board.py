@@ -1,0 +1,113 @@
+"""The node board: what nodes tell becomes a state that a person reads."""
+
+from __future__ import annotations
+
+import pytest
+
+from nep_core.messages import NodeEvent, NodeState
+from nep_studio.node_board import NodeBoard
+
+
+def state(event: NodeEvent, at_s: float = 0.0, *, pid: int = 7, description: str = "") -> NodeState:
+    return NodeState(
+        node="karate", type="perceptual", event=event, pid=pid, time=at_s, description=description
+    )
+
+
+@pytest.fixture
+def board() -> NodeBoard:
+    board = NodeBoard()
+    board.plan("karate", "perceptual", "perceptual/gesture")
+    return board
+
+
+def test_a_planned_node_is_there_before_it_runs(board: NodeBoard) -> None:
+    assert board.nodes["karate"].health == "planned"
+    assert not board.nodes["karate"].is_there
+
+
+def test_planning_it_again_is_no_news(board: NodeBoard) -> None:
+    assert not board.plan("karate", "perceptual", "perceptual/gesture")
+
+
+@pytest.mark.parametrize(
+    ("event", "health"),
+    [
+        ("starting", "starting"),
+        ("ready", "ready"),
+        ("connecting", "starting"),
+        ("busy", "busy"),
+        ("warning", "warning"),
+        ("connection_failed", "crashed"),
+        ("crashed", "crashed"),
+        ("stopped", "stopped"),
+    ],
+)
+def test_each_event_is_a_health(board: NodeBoard, event: NodeEvent, health: str) -> None:
+    assert board.update(state(event))
+
+    assert board.nodes["karate"].health == health
+    assert board.nodes["karate"].node == "perceptual/gesture"
+
+
+def test_a_heartbeat_changes_nothing_but_the_time(board: NodeBoard) -> None:
+    board.update(state("ready", 1.0))
+
+    assert not board.update(state("alive", 2.0))
+    assert board.nodes["karate"].heard_s == 2.0
+
+
+def test_a_node_that_is_not_heard_for_three_beats_is_frozen_once(board: NodeBoard) -> None:
+    board.update(state("ready", 1.0))
+
+    assert board.frozen(3.9) == []
+    assert board.frozen(4.1) == ["karate"]
+    assert board.frozen(5.0) == []
+    assert board.nodes["karate"].health == "frozen"
+
+
+def test_a_frozen_node_that_is_heard_again_is_ready(board: NodeBoard) -> None:
+    board.update(state("ready", 1.0))
+    board.frozen(9.0)
+
+    assert board.update(state("alive", 9.5))
+    assert board.nodes["karate"].health == "ready"
+
+
+def test_a_stopped_node_does_not_freeze(board: NodeBoard) -> None:
+    board.update(state("stopped", 1.0))
+
+    assert board.frozen(100.0) == []
+
+
+def test_restarts_after_a_crash_are_counted(board: NodeBoard) -> None:
+    for pid in (7, 8, 9):
+        board.update(state("starting", pid=pid))
+        board.update(state("crashed", pid=pid))
+
+    assert board.nodes["karate"].restarts == 2
+
+
+def test_a_late_heartbeat_of_a_node_that_has_crashed_does_not_revive_it(board: NodeBoard) -> None:
+    board.update(state("ready", 1.0))
+    board.update(state("crashed", 2.0))
+
+    board.update(state("alive", 2.1))
+
+    assert board.nodes["karate"].health == "crashed"
+
+
+def test_a_node_of_somebody_else_appears_when_it_is_heard() -> None:
+    board = NodeBoard()
+
+    assert board.update(state("ready"))
+    assert board.nodes["karate"].node == ""
+
+
+def test_only_a_node_that_does_not_run_can_be_forgotten(board: NodeBoard) -> None:
+    board.update(state("ready"))
+    assert not board.forget("karate")
+
+    board.update(state("stopped"))
+    assert board.forget("karate")
+    assert board.nodes == {}
