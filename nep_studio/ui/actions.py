@@ -35,7 +35,7 @@ class Actions(QObject):
         icon_name: str = "",
         keys: Keys | tuple[Keys, ...] = (),
         tip: str = "",
-        colour: str = "",
+        colour: str = "text",
     ) -> QAction:
         """Make an action; ``words`` with an ellipsis where a question follows.
 
@@ -71,8 +71,8 @@ class Actions(QObject):
             self._dress(name)
 
     def _dress(self, name: str) -> None:
-        (icon_name, colour), theme = self._icons[name], self._look.theme
-        self.by_name[name].setIcon(icon(icon_name, theme.colour(colour) if colour else theme))
+        icon_name, colour = self._icons[name]
+        self.by_name[name].setIcon(icon(icon_name, self._look.theme, colour))
 
 
 def sequences(keys: Keys | tuple[Keys, ...]) -> list[QKeySequence]:

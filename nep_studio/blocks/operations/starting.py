@@ -6,7 +6,7 @@ from ..edits import CreateBlocks
 from ..editor import Editor
 from ..places import InStack
 
-STARTED = "events.started"
+STARTED = "event.started"
 PAGE = "behaviour"
 
 

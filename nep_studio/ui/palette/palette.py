@@ -133,7 +133,9 @@ class Palette(QWidget):
         line = self.fontMetrics().height()
         wide = 0 if self.is_narrow else round(SHELF_LINES * line)
         column = self.categories
-        return QSize((column.width() if self.is_narrow else column.wide_width) + wide, 30 * line)
+        return QSize(
+            (column.maximumWidth() if self.is_narrow else column.wide_width) + wide, 30 * line
+        )
 
     # What it does
 
@@ -207,7 +209,7 @@ class Palette(QWidget):
         """Be no wider than the signs while the palette is narrow; give the list its room."""
         least = self.categories.wide_width + LEAST_SHELF_LINES * self.fontMetrics().height()
         self.categories.set_narrow(self.is_narrow or self.width() < least)
-        self.setMaximumWidth(self.categories.width() + 4 if self.is_narrow else WIDEST)
+        self.setMaximumWidth(self.categories.maximumWidth() + 4 if self.is_narrow else WIDEST)
 
     def _show_fold(self) -> None:
         is_wide = not self.is_narrow

@@ -54,9 +54,9 @@ class RunOverlay:
         if (count := self.marks.counts.get(block, 0)) > 0:
             return tr("{n}×", n=count)
         made = view.editor.project.blocks.get(block)
-        if made is None or not self.marks.values or not made.type.startswith("variables."):
+        if made is None or not self.marks.values or not made.type.startswith("variable."):
             return ""
-        if made.type == "variables.get":
+        if made.type == "variable.get":
             return ""
         name = self.names.get(str(made.fields.get("variable", "")), "")
         return self.marks.values.get(name, "")

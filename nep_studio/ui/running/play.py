@@ -29,14 +29,14 @@ class Request:
 
 
 class Play(QThread):
-    """Runs until the program ends or ``end`` is called; ``over`` tells how it went."""
+    """Runs until the program ends or ``end`` is called; ``ending`` then tells how it went."""
 
     begun = Signal()
-    over = Signal(object)
 
     def __init__(self, request: Request, network: LocalNetwork) -> None:
         super().__init__()
         self.request = request
+        self.ending = Ending()
         self.session = Session(
             Path(), list(request.nodes), _ignore, network=network, watching=request.watching
         )
@@ -44,16 +44,15 @@ class Play(QThread):
     def run(self) -> None:
         """Start everything, wait for the end, stop everything."""
         try:
-            ending = self._play()
+            self.ending = self._play()
         except NepError as error:
-            ending = Ending(problem_of(error))
+            self.ending = Ending(problem_of(error))
         except OSError as error:
-            ending = Ending(_disk_problem(error))
+            self.ending = Ending(_disk_problem(error))
         except Exception as error:
             log.exception("the program could not be run")
             sentence = f"{type(error).__name__}: {error}"
-            ending = Ending(Problem("The program could not be started", sentence))
-        self.over.emit(ending)
+            self.ending = Ending(Problem("The program could not be started", sentence))
 
     def _play(self) -> Ending:
         with tempfile.TemporaryDirectory(prefix="nep-", ignore_cleanup_errors=True) as folder:

@@ -19,7 +19,7 @@ from nep_studio.local_network import LocalNetwork
 from nep_studio.monitor import Monitor
 from nep_studio.node_board import NodeBoard
 from nep_studio.plan import PlannedNode
-from nep_studio.session import Ending, Watching
+from nep_studio.session import Watching
 
 from .play import Play, Request
 from .sending import Sender
@@ -93,8 +93,7 @@ class Runner(QObject):
         self._set_state("starting")
         play = self.play = Play(request, self.local)
         play.begun.connect(self._on_begun)
-        play.over.connect(self._on_over)
-        play.finished.connect(play.deleteLater)
+        play.finished.connect(self._on_over)
         play.start()
 
     def stop(self) -> None:
@@ -208,10 +207,14 @@ class Runner(QObject):
         if self.state == "starting":
             self._set_state("running")
 
-    def _on_over(self, ending: Ending) -> None:
+    def _on_over(self) -> None:
+        play = self.play
+        if play is None:
+            return
+        play.wait()  # its very last breath: to throw a running thread away is fatal
         self.play = None
         self._set_state("idle")
-        self.ended.emit(ending)
+        self.ended.emit(play.ending)
 
     def _on_came_up(self) -> None:
         self._looking.start()

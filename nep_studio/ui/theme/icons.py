@@ -62,10 +62,10 @@ def category_icon_name(category_colour: str, category_id: str = "") -> str:
     return DRAWER_ICONS.get(category_id) or CATEGORY_ICONS.get(category_colour, "blocks")
 
 
-def icon(name: str, colour: Theme | QColor) -> QIcon:
-    """Return an icon in one colour, or in a theme's: text, and paler where it is disabled."""
+def icon(name: str, colour: Theme | QColor, of_theme: str = "text") -> QIcon:
+    """Return an icon in one colour, or in a theme's, and paler where it is disabled."""
     if isinstance(colour, Theme):
-        return QIcon(_DrawnIcon(name, colour.colour("text"), colour.colour("disabled")))
+        return QIcon(_DrawnIcon(name, colour.colour(of_theme), colour.colour("disabled")))
     pale = QColor(colour)
     pale.setAlphaF(colour.alphaF() * 0.45)
     return QIcon(_DrawnIcon(name, QColor(colour), pale))
