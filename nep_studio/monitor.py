@@ -1,4 +1,4 @@
-"""Brings what several threads hear into one thread of Qt, in batches, never more than it can take."""
+"""Brings what several threads hear into one thread of Qt, in batches that it can take."""
 
 from __future__ import annotations
 

@@ -29,8 +29,10 @@ from .edits import (
     RenameVariable,
     SetComment,
     SetCommentSize,
+    SetExtra,
     SetField,
 )
+from .edits.kept import why_not_extra
 from .language import Language
 from .own_block_changes import why_not_change, why_not_remove
 from .placing_rules import is_near, why_not_create, why_not_move
@@ -84,6 +86,8 @@ def _why_not_more(edit: Edit, project: Project, language: Language) -> str | Non
             return why_not_change(edit.procedure, project, language)
         case RemoveProcedure():
             return why_not_remove(edit.procedure, project)
+        case SetExtra():
+            return why_not_extra(edit.key, edit.value)
     return None
 
 

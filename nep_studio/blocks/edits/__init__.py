@@ -8,6 +8,7 @@ editor.py. All edits can be written as JSON: a journal of them is a crash-safe a
 from __future__ import annotations
 
 from .content import AddGroup, RemoveGroup, SetComment, SetField, SetFlag
+from .kept import SetExtra
 from .notes import AddNote, ChangeNote, RemoveNote, SetCommentSize
 from .own_blocks import AddProcedure, ChangeProcedure, RemoveProcedure
 from .pages import AddPage, MovePage, RemovePage, RenamePage
@@ -39,6 +40,7 @@ Edit = (
     | AddProcedure
     | RemoveProcedure
     | ChangeProcedure
+    | SetExtra
 )
 
 __all__ = [
@@ -65,6 +67,7 @@ __all__ = [
     "RenameVariable",
     "SetComment",
     "SetCommentSize",
+    "SetExtra",
     "SetField",
     "SetFlag",
 ]

@@ -71,20 +71,6 @@ def _rings(
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
 
-class MarkOverlay:
-    """Blocks with a broad line around them: found ones, or running ones."""
-
-    def __init__(self, colour: str) -> None:
-        self._colour = colour
-        self.ids: tuple[str, ...] = ()
-
-    def paint(self, painter: QPainter, view: PageView) -> None:
-        """Draw the lines."""
-        for block_id in self.ids:
-            colour = view.theme.colour(self._colour)
-            ring(painter, view, block_id, colour, 4 / view.camera.scale)
-
-
 class ProblemOverlay:
     """A badge at the corner of every block that has a problem."""
 

@@ -144,7 +144,8 @@ class RunControl(QObject):
             code = generate_program(document.project, window.studio.language)
             nodes = self.planned()
         except CodeRefused as refused:
-            show = Answer(tr("Show the block"), lambda: window.workbench.show_block(refused.block))
+            block = refused.block  # Python forgets the error at the end of this clause
+            show = Answer(tr("Show the block"), lambda: window.workbench.show_block(block))
             window.messages.tell_error(refused, show)
             return
         except (BlocksError, NepError) as error:

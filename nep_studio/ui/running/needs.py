@@ -20,11 +20,11 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.operations.starting import add_start
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
 
 from .needs_list import Need, NeedFix, answers_at, is_real, needs_of
-from nep_studio.blocks.operations.starting import add_start
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow

@@ -52,7 +52,7 @@ class RunOverlay:
     def _chip(self, view: PageView, block: str) -> str:
         """The words beside a block: how often a rule fired, or what a variable holds."""
         if (count := self.marks.counts.get(block, 0)) > 0:
-            return tr("{n}×", n=count)
+            return tr("{n}\N{MULTIPLICATION SIGN}", n=count)
         made = view.editor.project.blocks.get(block)
         if made is None or not self.marks.values or not made.type.startswith("variable."):
             return ""
@@ -62,9 +62,9 @@ class RunOverlay:
         return self.marks.values.get(name, "")
 
 
-def touched(view: PageView, blocks: Iterable[str]) -> None:
-    """Let the surroundings of blocks be painted again."""
-    reach = REACH * view.measures.unit
+def touched(view: PageView, blocks: Iterable[str], *, with_chips: bool = False) -> None:
+    """Let blocks with the glow around them be painted again, perhaps with what stands beside."""
+    reach = REACH * view.measures.unit if with_chips else 20.0
     for block in blocks:
         placed = view.page_layout.placed(block)
         if placed is not None:
@@ -111,7 +111,14 @@ def _before(view: PageView, placed: Placed) -> QPointF:
     unit = view.measures.unit
     way = 12 * unit
     x = placed.x + placed.box.width + way if placed.box.is_mirrored else placed.x - way
-    return QPointF(x, placed.y + 15 * unit)
+    return QPointF(x, _first_row(placed, unit))
+
+
+def _first_row(placed: Placed, unit: float) -> float:
+    """The height of the middle of the first words of a block; those of a hat are below its cap."""
+    if placed.box.outline == "hat":
+        return placed.y + placed.box.height - 18 * unit
+    return placed.y + 15 * unit
 
 
 def _chip(painter: QPainter, view: PageView, placed: Placed, words: str) -> None:
@@ -123,7 +130,7 @@ def _chip(painter: QPainter, view: PageView, placed: Placed, words: str) -> None
     width = wide + 14 * unit
     gap = 10 * unit
     after = placed.x - gap - width if placed.box.is_mirrored else placed.x + placed.box.width + gap
-    rect = QRectF(after, placed.y + 15 * unit - height / 2, width, height)
+    rect = QRectF(after, _first_row(placed, unit) - height / 2, width, height)
     painter.setPen(QPen(view.theme.colour("field_line"), unit))
     painter.setBrush(view.theme.colour("menu"))
     painter.drawRoundedRect(rect, height / 2, height / 2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from PySide6.QtCore import QThread, Signal
@@ -25,7 +25,7 @@ class Request:
 
     code: Code
     nodes: tuple[PlannedNode, ...]
-    watching: Watching = Watching()
+    watching: Watching = field(default_factory=Watching)
 
 
 class Play(QThread):

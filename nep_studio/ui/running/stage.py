@@ -60,12 +60,14 @@ class Stage(QObject):
         before = self._shown()
         values = dict(self.marks.values)
         paused = dict(self.marks.paused)
+        counts = self.marks.counts.copy()
         for state in states:
             self.marks.take(state)
         if values != self.marks.values:
             self._repaint_all()
         else:
-            self._touch(before ^ self._shown() | set(self.marks.counts))
+            self._touch(before ^ self._shown())
+            self._touch(self.marks.counts - counts, with_chips=True)
         self._follow(paused)
 
     def _shown(self) -> frozenset[str]:
@@ -79,9 +81,9 @@ class Stage(QObject):
         if new and canvas is not None and new[0] in canvas.editor.project.blocks:
             canvas.show_block(new[0])
 
-    def _touch(self, blocks: Iterable[str]) -> None:
+    def _touch(self, blocks: Iterable[str], *, with_chips: bool = False) -> None:
         if self._canvas is not None and self._canvas.isVisible():
-            touched(self._canvas, blocks)
+            touched(self._canvas, blocks, with_chips=with_chips)
 
     def _repaint_all(self) -> None:
         if self._canvas is not None:

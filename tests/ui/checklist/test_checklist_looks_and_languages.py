@@ -10,7 +10,9 @@ from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from nep_studio.ui.canvas.overlay import MarkOverlay, badge_rect
+from nep_core.messages import PROGRAM_STATE, ProgramState
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.ui.canvas.overlay import badge_rect
 from nep_studio.ui.theme import load_theme, themes
 from nep_studio.ui.words import PSEUDO, available_languages
 from tests.blocks.block_building import B
@@ -64,8 +66,9 @@ def test_the_running_blocks_glow_in_small_rectangles(person: Person) -> None:
     """Highlight of the running block: per block, live."""
     person.make(story(), story())
     first, second = person.body()[1], person.body(1)[2]
-    glow = MarkOverlay("glow")
-    person.canvas.overlays.append(glow)
+    stage, runner = person.window.running.stage, person.window.running.runner
+    code = generate_program(person.canvas.editor.project, person.canvas.editor.language)
+    stage.begin(code)
     plain = [person.seen("glow", person.rect(block)) for block in (first, second)]
     with person.qtbot.waitSignal(person.window.workbench.checks.found):
         person.window.workbench.checks.start()  # it draws badges when it is done
@@ -73,9 +76,9 @@ def test_the_running_blocks_glow_in_small_rectangles(person: Person) -> None:
     QApplication.processEvents()
     view, painted = person.canvas.viewport(), PaintedPixels()
     view.installEventFilter(painted)
-    glow.ids = (first, second)
-    for block in glow.ids:
-        person.canvas.update_page(person.canvas.page_layout.placed(block).rect.grown(4))
+    lines = {block: [code.lines_of(block)[0]] for block in (first, second)}
+    told = ProgramState(program="program", event="line", lines=lines)
+    runner.arrived.emit([(PROGRAM_STATE, told)])
     person.qtbot.waitUntil(lambda: painted.count > 0)
 
     assert painted.count < view.width() * view.height() / 10
