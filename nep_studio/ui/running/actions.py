@@ -84,13 +84,14 @@ class RunLooks(QObject):
         """Enable what can be done now."""
         actions, state = self._window.actions_by_name, self._window.running.runner.state
         is_open = self._window.files.document is not None
-        actions.enable(is_open and state in ("idle", "paused"), "run")
+        actions.enable(is_open and state in ("idle", "running", "paused"), "run")
         actions.enable(state in ("starting", "running", "paused"), "stop")
         actions.enable(state == "running", "pause")
         actions.enable(state == "paused", "step")
         actions.enable(is_open, "breakpoint", "clear_breakpoints", "needs")
         run = actions["run"]
-        run.setText(tr("Go on") if state == "paused" else tr("Run"))
+        words = {"paused": tr("Go on"), "running": tr("Run again")}
+        run.setText(words.get(state, tr("Run")))
         run.setIconText(run.text())
 
 
@@ -133,6 +134,10 @@ class RunState(QWidget):
             "stopping": tr("Stopping…"),
         }
         self.words.setText(words.get(state, ""))
+        is_stale = self._window.running.is_stale and state in ("running", "paused")
+        if is_stale:
+            self.words.setText(tr("Running as it was before your changes"))
+        self.setToolTip(tr("Run again to use your changes") if is_stale else "")
         self._sign.setVisible(bool(name))
         if name:
             side = self.fontMetrics().height()

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import logging
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 
 from nep_core.errors import NepError
 from nep_studio.blocks.checks import Problem as BlockProblem
@@ -48,6 +49,9 @@ class RunControl(QObject):
         self._is_waiting = False
         self._was_stopped = False
         self._has_begun = False
+        self._is_to_run_again = self._is_to_be_tried = False
+        self.is_stale = False
+        """Whether the blocks have changed since the program was started."""
         self.runner.run_asked.connect(self._on_run_asked)
         self.runner.state_changed.connect(self._on_state_changed)
         self.runner.ended.connect(self._on_ended)
@@ -64,11 +68,25 @@ class RunControl(QObject):
         """Another project is shown, or none: what runs belongs to the one before."""
         if document is self._document:
             return
+        if self._document is not None:
+            self._document.editor.history.unlisten(self._on_edited)
+        if document is not None:
+            document.editor.history.listen(self._on_edited)
         self._document = document
         self._virtual = frozenset()
         self.stop()
         self.stage.clear()
         self.breakpoints.clear()
+        if self._is_to_be_tried and document is not None:
+            self._is_to_be_tried = False
+            self._is_to_run_again = self.runner.state != "idle"
+            if not self._is_to_run_again:
+                QTimer.singleShot(0, self, self.runner.run)
+
+    def try_example(self, path: Path) -> None:
+        """Open an example, and run it."""
+        self._is_to_be_tried = True
+        self._window.files.open_example(path)
 
     def close(self) -> None:
         """Stop everything, and wait for it."""
@@ -117,6 +135,10 @@ class RunControl(QObject):
                 "There is no project to run.", ("Open or make one first.",)
             )
             return
+        if self.runner.state == "running":
+            self._is_to_run_again = True
+            self.stop()
+            return
         self._is_waiting = True
         self._window.workbench.checks.start()
 
@@ -151,7 +173,7 @@ class RunControl(QObject):
         except (BlocksError, NepError) as error:
             window.messages.tell_error(error)
             return
-        self._was_stopped = self._has_begun = False
+        self._was_stopped = self._has_begun = self.is_stale = False
         window.workbench.show_run_problem(None)
         window.messages.clear_passing()
         self.stage.begin(code)
@@ -173,7 +195,16 @@ class RunControl(QObject):
         if state == "running":
             self._has_begun = True
 
+    def _on_edited(self, _changes: object) -> None:
+        if self.runner.state != "idle" and not self.is_stale:
+            self.is_stale = True
+            self.runner.state_changed.emit(self.runner.state)
+
     def _on_ended(self, ending: Ending) -> None:
+        if self._is_to_run_again:
+            self._is_to_run_again = False
+            self.runner.run()
+            return
         messages, problem = self._window.messages, ending.problem
         if problem is None:
             if not self._was_stopped:

@@ -80,10 +80,10 @@ class Runner(QObject):
         return self.local.is_open
 
     def run(self) -> None:
-        """Ask for the open project to be run; a paused one goes on."""
+        """Ask for the open project to be run, or run again; a paused one goes on."""
         if self.state == "paused":
             self.resume()
-        elif self.state == "idle":
+        elif self.state in ("idle", "running"):
             self.run_asked.emit()
 
     def start(self, request: Request) -> None:

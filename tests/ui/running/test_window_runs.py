@@ -12,7 +12,9 @@ from PySide6.QtWidgets import QDialog, QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_core import messages as m
+from nep_studio import paths
 from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import SetField
 from nep_studio.ui.documents import Document
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.running.needs import NeedsDialog
@@ -290,3 +292,30 @@ def test_what_is_needed_can_be_looked_at_before_running(
 
     assert [need.state for need in dialogs[0].needs] == ["automatic"] * len(dialogs[0].needs)
     assert dialogs[0].run_button.isEnabled()
+
+
+def test_run_again_plays_the_program_with_its_changes(
+    window: MainWindow, open_program, qtbot: QtBot
+) -> None:
+    seen = open_program(
+        [B("event.started"), B("robot.say", {"text": "One."}), B("control.wait", {"seconds": 600})]
+    )
+    press(window, qtbot, "run")
+    qtbot.waitUntil(lambda: seen.said() == ["One."], timeout=WAIT_MS)
+    editor = window.workbench.canvas.editor
+    editor.apply(SetField(block_of(window, "robot.say"), "text", "Two."))
+    assert window.running.is_stale
+
+    press(window, qtbot, "run")
+
+    qtbot.waitUntil(lambda: "Two." in seen.said(), timeout=WAIT_MS)
+    assert not window.running.is_stale
+
+
+def test_an_example_is_tried_with_one_press(window: MainWindow, qtbot: QtBot) -> None:
+    seen = Seen(window)
+
+    window.running.try_example(paths.examples() / "karate_greeting.nep")
+
+    qtbot.waitUntil(lambda: bool(seen.said()), timeout=WAIT_MS)
+    assert window.files.document.title
