@@ -62,7 +62,7 @@ class NeedsDialog(QDialog):
         buttons = QDialogButtonBox()
         self.run_button = buttons.addButton(tr("Run"), QDialogButtonBox.ButtonRole.AcceptRole)
         self.run_button.setProperty("kind", "run")
-        self.run_button.setIcon(icon("play", window.look.theme.colour("run_text")))
+        self.run_button.setIcon(icon("play", window.look.theme, "run_text"))
         close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.RejectRole)
         close.clicked.connect(self.reject)
         self.run_button.clicked.connect(self._on_run)
