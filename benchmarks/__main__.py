@@ -95,7 +95,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument(
         "--with-peers",
         action="store_true",
-        help="measure other programs too, which are fetched for it: Blockly in Chromium",
+        help="measure other programs too, which are fetched for it: Blockly, Orange Canvas",
     )
     options = parser.parse_args(arguments)
     unknown = sorted(set(options.names) - set(known))

@@ -28,6 +28,8 @@ from nep_core.tasks import POLL_S, Cancelled, current_task
 ASK_AGAIN_S = 1.0
 SILENCE_S = 5.0
 """A robot that says nothing about a request for so long does not answer."""
+STOPPING_S = 0.1
+"""Who stops robots stops the program next: so long it begins nothing after a cancelled action."""
 
 _ENDS = ("done", "failed", "cancelled")
 
@@ -88,6 +90,8 @@ class ActionClient:
             raise
         finally:
             del self._calls[request.id]
+        if any(result.state == "cancelled" for result in call.results.values()):
+            current_task().sleep(STOPPING_S)
         for result in call.results.values():
             if result.state == "failed":
                 raise ActionFailed(

@@ -7,6 +7,7 @@ ordinary ``except`` clauses do not catch.
 from __future__ import annotations
 
 import contextvars
+import itertools
 import math
 import threading
 import time
@@ -84,8 +85,24 @@ def current_task() -> Task:
     return _current.get()
 
 
+_names: set[str] = set()
+_names_lock = threading.Lock()
+
+
+def _claim_name(wanted: str) -> str:
+    """A name that no other running part has: the wanted one, or with a number behind it."""
+    with _names_lock:
+        numbers = (f"{wanted}-{number}" for number in itertools.count(2))
+        name = next(name for name in itertools.chain([wanted], numbers) if name not in _names)
+        _names.add(name)
+        return name
+
+
 class Part:
-    """A function in a thread and task of its own; its error is kept for whoever joins it."""
+    """A function in a thread and task of its own; its error is kept for whoever joins it.
+
+    The thread's name is ``name``, with a number while another part of that name runs.
+    """
 
     def __init__(self, function: Callable[[], object], name: str, parent: Task) -> None:
         self.task = Task(parent)
@@ -96,6 +113,7 @@ class Part:
 
     def start(self) -> Part:
         """Begin."""
+        self._thread.name = _claim_name(self._thread.name)
         self._thread.start()
         return self
 
@@ -118,6 +136,8 @@ class Part:
             self.error = error
         finally:
             self._parent.release(self.task)
+            with _names_lock:
+                _names.discard(self._thread.name)
 
 
 def wait(seconds: float) -> None:
@@ -142,7 +162,8 @@ def wait_until(condition: Callable[[], object], at_most_s: float = math.inf) -> 
 def together(*functions: Callable[[], object]) -> None:
     """Run the functions side by side and wait for all; an error ends the others and is raised."""
     task = current_task()
-    parts = [Part(f, f"nep-together-{i}", task).start() for i, f in enumerate(functions, 1)]
+    name = threading.current_thread().name
+    parts = [Part(f, f"{name}-part-{i}", task).start() for i, f in enumerate(functions, 1)]
     for part in parts:
         while part.is_running:
             part.join(POLL_S)

@@ -16,6 +16,7 @@ from nep_core.master_probe import ask_master, no_master
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Subscriber
 from nep_core.registry import Registration
+from nep_core.topics import topics_of
 
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
@@ -43,16 +44,10 @@ def run(options: argparse.Namespace) -> int:
 
 def topic_lines(registrations: list[Registration]) -> list[str]:
     """One line a topic: who publishes and who hears it."""
-    topics: dict[str, tuple[list[str], list[str]]] = {}
-    for told in registrations:
-        for topic in told.publishes:
-            topics.setdefault(topic, ([], []))[0].append(told.node)
-        for topic in set(told.subscribes.values()):
-            topics.setdefault(topic, ([], []))[1].append(told.node)
     return [
-        f"{topic}   from {', '.join(sorted(says)) or 'nobody'}"
-        f"   to {', '.join(sorted(hears)) or 'nobody'}"
-        for topic, (says, hears) in sorted(topics.items())
+        f"{ends.topic}   from {', '.join(ends.publishers) or 'nobody'}"
+        f"   to {', '.join(ends.subscribers) or 'nobody'}"
+        for ends in topics_of(registrations)
     ]
 
 

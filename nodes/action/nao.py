@@ -57,9 +57,11 @@ def run(node: Node, *, robot: str, driver: str, address: str, speed: float) -> N
             told += actor.request(request)
         told += actor.step(now_s)
         felt = [sense for sense in senses.pending() if actor.is_meant(sense)]
-        _send(states, [state for sense in felt for state in actor.sense(sense)])
-        _send(results, told)
+        human = [state for sense in felt for state in actor.sense(sense)]
+        # how the robot is goes first: what a message sets off may ask about it at once
         report.send_news(at_once=bool(felt) or any(result.state in FINAL for result in told))
+        _send(states, human)
+        _send(results, told)
     _send(results, actor.stop())
 
 

@@ -1,11 +1,15 @@
-"""What went wrong in a user's program, in plain words and with its line."""
+"""What went wrong in a user's program, in plain words, with its line and what to try."""
 
 from __future__ import annotations
 
 import re
 import traceback
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 from nep_core.errors import NepError
+from nodes.cognitive.failing_line import kind_of_type, values_at
+from nodes.cognitive.failure_sentences import OTHER, SENTENCES, Told
 
 
 class ProgramFailed(NepError):
@@ -14,34 +18,58 @@ class ProgramFailed(NepError):
     title = "The program stopped with an error"
 
 
-def describe(error: BaseException) -> str:
-    """One sentence that says what happened, for the errors that blocks can cause."""
-    match error:
-        case NepError():
-            return error.sentence
-        case ZeroDivisionError():
-            return "A number was divided by zero."
-        case NameError():
-            return f'Something called "{_name_in(error)}" was used before it had a value.'
-        case SystemExit():
-            return f"The program ended itself with: {error.code}."
-        case SyntaxError():
-            return f"The program is not Python that can run: {error.msg}."
-        case OverflowError():
-            return "A number became too large."
-        case RecursionError():
-            return "The program called itself too many times."
-        case TypeError():
-            return f"Texts and numbers were mixed where only one kind fits ({error})."
-        case ValueError():
-            return f"A value did not fit: {error}."
-        case _:
-            return f"{type(error).__name__}: {error}"
+@dataclass(frozen=True)
+class Failure:
+    """What happened, and what to try in order."""
+
+    sentence: str
+    checklist: tuple[str, ...] = ()
 
 
-def _name_in(error: NameError) -> str:
-    quoted = re.search(r"'(\w+)'", str(error))
-    return error.name or (quoted[1] if quoted else "a variable")
+def failure_of(error: BaseException) -> Failure:
+    """What a person should read about an error of a program."""
+    if isinstance(error, NepError):
+        return Failure(error.sentence, error.checklist)
+    values = values_at(error)
+    fitting = (_filled(told, error, values) for told in (*SENTENCES, OTHER))
+    return next(failure for failure in fitting if failure is not None)
+
+
+def _filled(told: Told, error: BaseException, values: Mapping[str, str]) -> Failure | None:
+    """A sentence with its values; None when it is of another error, or a value is not known."""
+    said = re.search(told.pattern, _words(error)) if isinstance(error, told.error) else None
+    if said is None:
+        return None
+    known = {"error": type(error).__name__, "said": _words(error).rstrip(".")}
+    known |= {**values, **_groups(said), **_of_name(error)}
+    try:
+        return Failure(told.sentence.format_map(known), told.steps)
+    except KeyError:
+        return None
+
+
+def _words(error: BaseException) -> str:
+    """What Python says about an error, on one line."""
+    if isinstance(error, SyntaxError):
+        return error.msg
+    if isinstance(error, SystemExit):
+        return str(error.code)
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def _groups(said: re.Match[str]) -> dict[str, str]:
+    """The values in what Python says; names of its types become words."""
+    found = {name: text for name, text in said.groupdict().items() if text is not None}
+    return {
+        name: kind_of_type(text) if name in ("noun", "result") else text
+        for name, text in found.items()
+    }
+
+
+def _of_name(error: BaseException) -> dict[str, str]:
+    if isinstance(error, NameError) and error.name:
+        return {"name": error.name}
+    return {}
 
 
 def line_of(error: BaseException, file: str) -> int:

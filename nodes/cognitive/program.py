@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import runpy
 import signal
 import threading
 import traceback
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nep_core.default_network import set_default_network
 from nep_core.human import human_listener
@@ -21,23 +23,28 @@ from nep_core.messages import (
 from nep_core.node import STOP_SIGNALS, Node
 from nep_core.pubsub import Publisher
 from nep_core.tasks import PROGRAM, Cancelled, wait_until
-from nodes.cognitive.failures import ProgramFailed, describe, line_of
+from nodes.cognitive.failures import Failure, ProgramFailed, failure_of, line_of
+
+if TYPE_CHECKING:
+    from nodes.cognitive.tracing.tracer import Tracer
 
 ONE_HOUR_S = 3600.0
 
 
-def run(node: Node, *, file: str, hold: bool) -> None:
+def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     """Run the Python program ``file`` until it ends, fails or is stopped.
 
-    With ``hold`` it is ready first, and begins when the studio says start.
+    With ``hold`` it is ready first, and begins when the studio says start. With ``trace`` it
+    tells where it is, and can be paused.
     """
     if not Path(file).is_file():
         raise ProgramFailed(
             f"There is no program {file}.", checklist=("Check the name of the file.",)
         )
     states = node.publisher(PROGRAM_STATE)
+    tracer = _tracer(states, node, file) if trace else None
     begin = threading.Event()
-    _listen_for_orders(node, begin)
+    _listen_for_orders(node, begin, tracer)
     set_default_network(node.network)
     human_listener(node.network)  # what the person does from now on reaches the rules
     node.ready(f"runs {Path(file).name}")
@@ -45,7 +52,8 @@ def run(node: Node, *, file: str, hold: bool) -> None:
         if hold:
             wait_until(begin.is_set)
         _tell(states, node, "started")
-        runpy.run_path(file, run_name="__main__")
+        with _traced(tracer):
+            runpy.run_path(file, run_name="__main__")
     except Cancelled:
         _tell(states, node, "finished", "stopped")
     except SystemExit as error:
@@ -63,6 +71,24 @@ def run(node: Node, *, file: str, hold: bool) -> None:
         node.stop_on_signals()  # the program is over: end the node in the usual way
 
 
+def _tracer(states: Publisher, node: Node, file: str) -> Tracer:
+    from nodes.cognitive.tracing.tracer import Tracer  # costs time, and is seldom needed
+
+    return Tracer(node.name, file, states.send)
+
+
+@contextlib.contextmanager
+def _traced(tracer: Tracer | None) -> Iterator[None]:
+    if tracer is None:
+        yield
+        return
+    tracer.begin()
+    try:
+        yield
+    finally:
+        tracer.end()
+
+
 def _tell(
     states: Publisher, node: Node, event: ProgramEvent, description: str = "", line: int = 0
 ) -> None:
@@ -70,12 +96,12 @@ def _tell(
 
 
 def _fail(states: Publisher, node: Node, file: str, error: BaseException) -> None:
-    sentence = describe(error)
-    _tell(states, node, "failed", sentence, line_of(error, file))
-    raise ProgramFailed(sentence, checklist=getattr(error, "checklist", ())) from error
+    failure: Failure = failure_of(error)
+    _tell(states, node, "failed", failure.sentence, line_of(error, file))
+    raise ProgramFailed(failure.sentence, checklist=failure.checklist) from error
 
 
-def _listen_for_orders(node: Node, begin: threading.Event) -> None:
+def _listen_for_orders(node: Node, begin: threading.Event, tracer: Tracer | None) -> None:
     """End the program on signals, when the node is stopped, and when the studio asks."""
 
     def obey(order: ProgramControl) -> None:
@@ -83,13 +109,20 @@ def _listen_for_orders(node: Node, begin: threading.Event) -> None:
             return
         if order.command == "start":
             begin.set()
-        else:
-            PROGRAM.cancel()
+        elif order.command == "stop":
+            cancel()
+        elif tracer is not None:
+            tracer.obey(order)
+
+    def cancel() -> None:
+        PROGRAM.cancel()
+        if tracer is not None:
+            tracer.wake()
 
     def cancel_on_stop() -> None:
         while not node.wait(ONE_HOUR_S):
             pass
-        PROGRAM.cancel()
+        cancel()
 
     def on_signal(*_: Any) -> None:
         node.stop()

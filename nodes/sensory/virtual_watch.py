@@ -14,17 +14,30 @@ from nodes.sensory.schedule import Schedule, read_schedule
 
 _BATCH_S = 0.03
 _MOST_LATE_S = 0.2  # after a longer hold-up (a computer that slept) time is left out, not caught up
-_HANDED_OVER_S = 1.0  # without samples, when another person puts the watch on
+_HANDED_OVER_S = 1.0  # by the watch's clock, without samples, when another person puts the watch on
 
 
-def run(node: Node, *, rate_hz: float, person: int, gestures: str, repeat: bool, seed: int) -> None:
-    """Publish ``/imu`` in real time until the node stops; ParameterError for a wrong schedule."""
+def run(
+    node: Node,
+    *,
+    rate_hz: float,
+    person: int,
+    gestures: str,
+    repeat: bool,
+    seed: int,
+    speed: float,
+) -> None:
+    """Publish ``/imu`` in real time until the node stops; ParameterError for a wrong schedule.
+
+    ``speed``: how many times faster than real time the person lives and the watch's clock goes.
+    """
     schedule = Schedule(read_schedule(gestures), repeat=repeat)
     watch = _Watch(node, rate_hz, person, seed)
     publisher = node.publisher(IMU)
     requests = node.subscriber(GESTURE_REQUEST, GestureRequest)
-    node.ready(f"{rate_hz:g} samples a second of simulated person {person}")
-    pace = _Pace(rate_hz)
+    haste = "" if speed == 1.0 else f", {speed:g} times as fast as real time"
+    node.ready(f"{rate_hz:g} samples a second of simulated person {person}{haste}")
+    pace = _Pace(rate_hz * speed)
     while not node.wait(_BATCH_S):
         for request in requests.pending():
             watch.hear(request)

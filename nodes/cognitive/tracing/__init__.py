@@ -1,0 +1,1 @@
+"""Watching a program while it runs: where each thread is, what variables hold, when to pause."""
