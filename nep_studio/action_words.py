@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from nep_core.messages import ActionRequest
 from nep_studio.blocks.language import Language
-from nep_studio.body_words import body_words
+from nep_studio.body_words import Label, body_words
+from nep_studio.plain_words import Tr, plain
 
 
-def action_words(request: ActionRequest, language: Language) -> str:
-    """An action as the predicate of a sentence about the robot."""
+def action_words(request: ActionRequest, language: Language, tr: Tr = plain) -> str:
+    """An action as the predicate of a sentence about the robot; ``tr`` translates."""
     args = request.args
 
     def label(table: str, key: str) -> str:
@@ -17,44 +21,79 @@ def action_words(request: ActionRequest, language: Language) -> str:
 
     match request.action:
         case "say":
-            gesture = args.get("gesture", "no_gesture")
-            manner = "" if gesture == "no_gesture" else f" with {label('say_gestures', 'gesture')}"
-            return f"says “{args.get('text', '')}”{manner}"
+            return _say_words(str(args.get("text", "")), args.get("gesture"), label, tr)
         case "do":
-            return f"takes the posture {label('postures', 'posture')}"
+            return tr("takes the posture {posture}", posture=label("postures", "posture"))
         case "imitate":
-            return f"imitates the animal {label('animals', 'animal')}"
+            return tr("imitates the animal {animal}", animal=label("animals", "animal"))
         case "play":
-            return f"plays the animation {label('animations', 'animation')}"
+            return tr("plays the animation {animation}", animation=label("animations", "animation"))
         case "walk":
-            steps = _walk_words(_number(args, "forward_m"), _number(args, "left_m"))
-            turn = _sided(_number(args, "turn_deg"), "°", "to the left", "to the right")
-            ways = [f"walks {steps}" if steps else "", f"turns {turn}" if turn else ""]
-            return " and ".join(filter(None, ways)) or "stays where it is"
+            return _walk_words(args, tr)
         case "turn":
-            return f"turns {_sided(_number(args, 'degrees'), '°', 'to the left', 'to the right')}"
+            return tr("turns {where}", where=_turned(_number(args, "degrees"), tr) or "0°")
         case "look":
-            yaw = _sided(_number(args, "yaw_deg"), "°", "to the left", "to the right")
-            pitch = _sided(_number(args, "pitch_deg"), "°", "down", "up")
-            return f"looks {' and '.join(word for word in (yaw, pitch) if word) or 'ahead'}"
+            ways = _turned(_number(args, "yaw_deg"), tr), _nodded(_number(args, "pitch_deg"), tr)
+            where = _joined(*ways, tr)
+            return tr("looks {where}", where=where) if where else tr("looks ahead")
         case "leds":
-            return f"lights {label('led_groups', 'group')} in {args.get('colour')}"
-    return body_words(request.action, args, label) or request.action
+            lights, colour = label("led_groups", "group"), args.get("colour")
+            return tr("lights {lights} in {colour}", lights=lights, colour=colour)
+    return body_words(request.action, args, label, tr) or request.action
 
 
-def _walk_words(forward_m: float, left_m: float) -> str:
-    forward = _sided(forward_m, " m", "forward", "back")
-    sideways = _sided(left_m, " m", "to the left", "to the right")
-    return " and ".join(word for word in (forward, sideways) if word)
+def _say_words(text: str, gesture: object, label: Label, tr: Tr) -> str:
+    if gesture in (None, "no_gesture"):
+        return tr("says “{text}”", text=text)
+    manner = label("say_gestures", "gesture")
+    return tr("says “{text}” with {manner}", text=text, manner=manner)
 
 
-def _sided(amount: float, unit: str, positive: str, negative: str) -> str:
-    """An amount with its direction; nothing for nothing."""
-    if amount == 0:
+def _walk_words(args: Mapping[str, Any], tr: Tr) -> str:
+    ahead = _ahead(_number(args, "forward_m"), tr)
+    steps = _joined(ahead, _sideways(_number(args, "left_m"), tr), tr)
+    turn = _turned(_number(args, "turn_deg"), tr)
+    walks = tr("walks {where}", where=steps) if steps else ""
+    turns = tr("turns {where}", where=turn) if turn else ""
+    return _joined(walks, turns, tr) or tr("stays where it is")
+
+
+def _joined(first: str, second: str, tr: Tr) -> str:
+    if first and second:
+        return tr("{first} and {second}", first=first, second=second)
+    return first or second
+
+
+def _ahead(amount_m: float, tr: Tr) -> str:
+    """How far forward; nothing for nothing, here and below."""
+    if amount_m == 0:
         return ""
-    return f"{abs(amount):g}{unit} {positive if amount > 0 else negative}"
+    m = f"{abs(amount_m):g}"
+    return tr("{m} m forward", m=m) if amount_m > 0 else tr("{m} m back", m=m)
 
 
-def _number(args: dict[str, object], key: str) -> float:
+def _sideways(amount_m: float, tr: Tr) -> str:
+    if amount_m == 0:
+        return ""
+    m = f"{abs(amount_m):g}"
+    return tr("{m} m to the left", m=m) if amount_m > 0 else tr("{m} m to the right", m=m)
+
+
+def _turned(angle_deg: float, tr: Tr) -> str:
+    if angle_deg == 0:
+        return ""
+    deg = f"{abs(angle_deg):g}"
+    is_left = angle_deg > 0
+    return tr("{deg}° to the left", deg=deg) if is_left else tr("{deg}° to the right", deg=deg)
+
+
+def _nodded(angle_deg: float, tr: Tr) -> str:
+    if angle_deg == 0:
+        return ""
+    deg = f"{abs(angle_deg):g}"
+    return tr("{deg}° down", deg=deg) if angle_deg > 0 else tr("{deg}° up", deg=deg)
+
+
+def _number(args: Mapping[str, Any], key: str) -> float:
     value = args.get(key, 0.0)
     return float(value) if isinstance(value, int | float) else 0.0

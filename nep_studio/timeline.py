@@ -9,6 +9,7 @@ import msgspec
 from nep_core import messages as m
 from nep_studio.action_words import action_words
 from nep_studio.blocks.language import Language
+from nep_studio.plain_words import Tr, plain
 
 MOST_ACTIONS = 1000
 """So many are remembered, of which the oldest are forgotten."""
@@ -26,10 +27,11 @@ class _Action:
 
 
 class Timeline:
-    """Turns messages into sentences; one thread at a time."""
+    """Turns messages into sentences, which ``tr`` translates; one thread at a time."""
 
-    def __init__(self, language: Language) -> None:
+    def __init__(self, language: Language, tr: Tr = plain) -> None:
         self._language = language
+        self.tr = tr
         self._actions: dict[str, _Action] = {}
 
     def lines(self, message: msgspec.Struct) -> list[Line]:
@@ -51,12 +53,12 @@ class Timeline:
             case m.NodeState(event="crashed") if not message.description.startswith(message.node):
                 return None  # the session tells it too, and whether the node is started again
             case m.NodeState():
-                return message.node, _node_words(message)
+                return message.node, _node_words(message, self.tr)
             case m.HumanBehavior():
-                return message.source or "human", self._recognised(message)
+                return message.source or self.tr("human"), self._recognised(message)
             case m.ProgramState():
-                words = _program_words(message)
-                return ("program", words) if words else None
+                words = _program_words(message, self.tr)
+                return (self.tr("program"), words) if words else None
         return None
 
     def _requested(self, request: m.ActionRequest) -> list[Line]:
@@ -88,43 +90,74 @@ class Timeline:
     def _recognised(self, message: m.HumanBehavior) -> str:
         name = message.human_state.removeprefix("gesture_")
         if name == message.human_state:
-            return f"sees {name.replace('_', ' ')}"
+            return self.tr("sees {state}", state=name.replace("_", " "))
         label = self._language.choices.get("gestures", {}).get(name, name)
-        return f"recognised {label} ({message.certainty:.0%} certain)"
+        certainty = f"{message.certainty:.0%}"
+        return self.tr(
+            "recognised {gesture} ({certainty} certain)", gesture=label, certainty=certainty
+        )
 
     def _result_words(self, request: m.ActionRequest, result: m.ActionResult) -> str:
-        reason = f": {result.description}" if result.description else ""
+        tr, reason = self.tr, result.description
         match result.state:
             case "started":
-                return action_words(request, self._language)
+                return action_words(request, self._language, tr)
+            case "failed" if reason:
+                told = tr(reason)
+                return tr("failed to {action}: {reason}", action=request.action, reason=told)
             case "failed":
-                return f"failed to {request.action}{reason}"
+                return tr("failed to {action}", action=request.action)
             case "cancelled":
-                return f"no longer {action_words(request, self._language)}"
+                return tr("no longer {does}", does=action_words(request, self._language, tr))
         return ""
 
 
-def _node_words(state: m.NodeState) -> str:
-    words = state.event.replace("_", " ")
-    if state.event in ("running", "warning", "crashed", "stopped") and state.description:
-        return state.description
-    return f"{words}: {state.description}" if state.description else words
+def _node_words(state: m.NodeState, tr: Tr) -> str:
+    told = tr(state.description) if state.description else ""
+    if state.event in ("running", "warning", "crashed", "stopped") and told:
+        return told
+    words = _event_words(state.event, tr)
+    return f"{words}: {told}" if told else words
 
 
-def _program_words(state: m.ProgramState) -> str:
+def _event_words(event: m.NodeEvent, tr: Tr) -> str:
+    match event:
+        case "ready":
+            return tr("ready")
+        case "running":
+            return tr("running")
+        case "busy":
+            return tr("busy")
+        case "connecting":
+            return tr("connecting")
+        case "connection_failed":
+            return tr("connection failed")
+        case "disconnected":
+            return tr("disconnected")
+        case "warning":
+            return tr("warning")
+        case "stopped":
+            return tr("stopped")
+        case "crashed":
+            return tr("crashed")
+    return event.replace("_", " ")
+
+
+def _program_words(state: m.ProgramState, tr: Tr) -> str:
     match state.event:
         case "rule_started":
-            return f"the rule “when {state.rule.replace('_', ' ')}” begins"
+            rule = state.rule.replace("_", " ")
+            return tr("the rule “when {rule}” begins", rule=rule)
         case "goal_started":
-            return f"pursues the goal “{state.rule}”"
+            return tr("pursues the goal “{goal}”", goal=state.rule)
         case "goal_finished":
-            return f"has reached the goal “{state.rule}”"
+            return tr("has reached the goal “{goal}”", goal=state.rule)
         case "goal_stopped":
-            return f"gives the goal “{state.rule}” up"
+            return tr("gives the goal “{goal}” up", goal=state.rule)
         case "goal_interrupted":
-            return f"interrupts the goal “{state.rule}”"
+            return tr("interrupts the goal “{goal}”", goal=state.rule)
         case "failed":
-            return f"stopped with an error: {state.description}"
+            return tr("stopped with an error: {reason}", reason=tr(state.description))
         case "finished":
-            return "has ended"
+            return tr("has ended")
     return ""

@@ -65,7 +65,7 @@ def add_view_menu(window: MainWindow) -> QMenu:
     )
     menu.addSeparator()
     panels = menu.addMenu(icon("panel-right", theme), tr("Panels"))
-    panels.addActions([panel.action for panel in window.workbench.panels.all])
+    panels.aboutToShow.connect(lambda: _fill_panels(panels, window))
     helpers = window.workbench.helpers
     minimap = add("minimap", tr("Minimap"), lambda: None, icon_name="map")
     minimap.setCheckable(True)
@@ -97,6 +97,12 @@ def add_view_menu(window: MainWindow) -> QMenu:
         lambda scale: window.studio.choose_text_scale(float(scale)),
     )
     return menu
+
+
+def _fill_panels(menu: QMenu, window: MainWindow) -> None:
+    """List the panels; some are added after the menu."""
+    menu.clear()
+    menu.addActions([panel.action for panel in window.workbench.panels.all])
 
 
 def add_help_menu(window: MainWindow) -> QMenu:

@@ -29,6 +29,7 @@ from nep_studio.ui.main_window_help import (
     shortcuts_of,
 )
 from nep_studio.ui.main_window_panels import AreaName, Panel
+from nep_studio.ui.main_window_rooms import add_rooms
 from nep_studio.ui.main_window_workbench import Workbench
 from nep_studio.ui.messages import Answer, Message, Messages
 from nep_studio.ui.messages_area import MessageArea
@@ -96,6 +97,7 @@ class MainWindow(QMainWindow):
         }
         self.toolbar: QToolBar = add_toolbar(self)
         self.running.attach()
+        add_rooms(self)
         self.workbench.problems_found.connect(self._on_problems_found)
         self.workbench.canvas.picture_requested.connect(self.export_picture)
         self.workbench.canvas.layout_changed.connect(self.update_actions)

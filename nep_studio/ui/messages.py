@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAccessible, QAccessibleAnnouncementEvent
 from PySide6.QtWidgets import QWidget
 
@@ -24,6 +26,9 @@ KIND_ICONS: dict[Kind, str] = {
     "error": "circle-alert",
 }
 """Each kind has a shape of its own: colour never speaks alone."""
+
+MOST_TOLD = 500
+"""So many messages are remembered until the window is closed."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,14 @@ class Message:
         return " ".join(part for part in (self.title, self.sentence, *self.checklist) if part)
 
 
+@dataclass(frozen=True)
+class Told:
+    """A message, and when it was told (time.time())."""
+
+    message: Message
+    time_s: float
+
+
 class Place(Protocol):
     """Where messages are shown."""
 
@@ -72,10 +85,16 @@ class Place(Protocol):
 
 
 class Messages(QObject):
-    """Tells and asks; everything that the window has to say goes through here."""
+    """Tells and asks; everything that the window has to say goes through here.
+
+    ``told`` gives each message as it is told; ``history`` has the last ones, the newest last.
+    """
+
+    told = Signal(object)  # Told
 
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
+        self.history: deque[Told] = deque(maxlen=MOST_TOLD)
         self._window = window
         self._place: Place | None = None
 
@@ -88,6 +107,8 @@ class Messages(QObject):
         if self._place is not None:
             self._place.show_message(message)
         announce(self._window, message.spoken)
+        self.history.append(Told(message, time.time()))
+        self.told.emit(self.history[-1])
 
     def tell_problem(self, problem: Problem, *answers: Answer, kind: Kind = "error") -> None:
         """Show an error that a person can act on."""

@@ -10,6 +10,7 @@ import pytest
 from nep_core import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.commands.printer import Printer
+from nep_studio.plain_words import plain
 from nep_studio.problems import Problem
 from nep_studio.studio_language import studio_language
 from nep_studio.timeline import MOST_ACTIONS, Timeline
@@ -116,3 +117,44 @@ def test_json_lines_are_utf_8_whatever_the_terminal_writes(
 
     assert '"topic":"/action_request"' in written.getvalue().decode()
     assert "日本" in written.getvalue().decode()
+
+
+def marked(text: str, /, **values: object) -> str:
+    """A language in which every word that is translated is in brackets."""
+    return f"[{plain(text, **values)}]"
+
+
+@pytest.mark.parametrize(
+    ("message", "line"),
+    [
+        (m.NodeState(node="NAO", type="action", event="busy"), ("NAO", "[busy]")),
+        (
+            m.NodeState(node="NAO", type="action", event="connecting", description="to it"),
+            ("NAO", "[connecting]: [to it]"),
+        ),
+        (m.HumanBehavior(human_state="touched_head"), ("[human]", "[sees touched head]")),
+        (
+            m.ProgramState(program="p", event="failed", description="{why}"),
+            ("[program]", "[stopped with an error: [{why}]]"),
+        ),
+    ],
+)
+def test_every_word_can_be_told_in_another_language(
+    language: Language, message: m.NodeState, line: tuple[str, str]
+) -> None:
+    assert Timeline(language, marked).lines(message) == [line]
+
+
+def test_actions_are_told_in_another_language_too(language: Language) -> None:
+    timeline = Timeline(language, marked)
+    walk = m.ActionRequest(id="1", robots=["NAO"], action="walk", args={"forward_m": 1})
+    timeline.lines(walk)
+
+    told = [timeline.lines(result(how)) for how in ("started", "cancelled", "failed")]
+
+    walks = "[walks [1 m forward]]"
+    assert told == [
+        [("NAO", walks)],
+        [("NAO", f"[no longer {walks}]")],
+        [("NAO", "[failed to walk]")],
+    ]

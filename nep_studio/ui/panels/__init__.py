@@ -1,0 +1,1 @@
+"""The panels around the canvas: nodes, network, sensors, and more."""

@@ -1,0 +1,1 @@
+"""The log: what happens in the running program, and what the window has told."""

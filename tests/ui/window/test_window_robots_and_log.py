@@ -1,0 +1,69 @@
+"""The robots and the log in the window: they follow the project, the language and a real run."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from nep_core.master import Master
+from nep_studio import paths
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.panels.log.panel import LogPanel, add_log_panel
+from nep_studio.ui.panels.robots.panel import RobotsPanel, add_robots_panel
+
+RUN_MS = 30_000
+
+
+def shown(window: MainWindow, kind: type[QWidget]) -> QWidget:
+    found = [panel.widget for panel in window.workbench.panels.all if type(panel.widget) is kind]
+    if not found:
+        add = {LogPanel: add_log_panel, RobotsPanel: add_robots_panel}[kind]
+        found = [add(window).widget]
+    window.workbench.panels.show(found[0])
+    return found[0]
+
+
+@pytest.fixture
+def two_robots(window: MainWindow, qtbot: QtBot) -> MainWindow:
+    window.files.open_example(paths.examples() / "two_robots_talk.nep")
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+    return window
+
+
+def test_the_robots_of_the_page_are_shown_before_run(two_robots: MainWindow, qtbot: QtBot) -> None:
+    panel = shown(two_robots, RobotsPanel)
+
+    qtbot.waitUntil(lambda: list(panel.cards) == ["NAO", "NAO2"])
+    assert {card.health.text() for card in panel.cards.values()} == {"Not started"}
+
+
+def test_a_robot_that_is_taken_off_the_page_goes(two_robots: MainWindow, qtbot: QtBot) -> None:
+    panel = shown(two_robots, RobotsPanel)
+    qtbot.waitUntil(lambda: len(panel.cards) == 2)
+
+    two_robots.files.document.close()
+    two_robots.files.new()
+
+    qtbot.waitUntil(lambda: "NAO2" not in panel.cards)
+
+
+def test_a_run_is_told_line_by_line_and_its_robots_speak(
+    two_robots: MainWindow, master: Master, qtbot: QtBot
+) -> None:
+    log, robots = shown(two_robots, LogPanel), shown(two_robots, RobotsPanel)
+    said: set[str] = set()
+
+    def is_told() -> bool:
+        said.update(card.bubble.words for card in robots.cards.values())
+        lines = [line.what for line in log.what_happens.model.lines()]
+        return any(line.startswith("says “Hello! I am NAO") for line in lines)
+
+    two_robots.running.runner.run()
+    qtbot.waitUntil(is_told, timeout=RUN_MS)
+    qtbot.waitUntil(lambda: is_told() and "Hello! I am NAO. Who are you?" in said, timeout=RUN_MS)
+    two_robots.running.runner.stop()
+
+    qtbot.waitUntil(lambda: two_robots.running.runner.state == "idle", timeout=RUN_MS)
+    first = log.what_happens.model.lines()[0]
+    assert first.what.startswith("Run at ")
