@@ -10,6 +10,9 @@ from typing import Any
 from PySide6.QtCore import QThread, Signal
 
 BATCHES_HZ = 30
+LARGEST_BATCH = 300
+"""So many messages are passed on at once: a window can deal with them between two frames."""
+
 MOST_WAITING = 5000
 """So many messages wait for a thread that is busy; the oldest of more are dropped and counted."""
 
@@ -64,8 +67,10 @@ class Monitor(QThread):
             self._may_send.wait()
             self._came.clear()
             with self._lock:
-                batch = list(self._waiting)
-                self._waiting.clear()
+                count = min(len(self._waiting), LARGEST_BATCH)
+                batch = [self._waiting.popleft() for _ in range(count)]
+                if self._waiting:
+                    self._came.set()
             if batch and not self._is_ending:
                 self._may_send.clear()
                 self.arrived.emit(batch)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from nep_studio.monitor import Monitor
+from nep_studio.monitor import LARGEST_BATCH, Monitor
 
 
 @pytest.fixture
@@ -56,6 +56,20 @@ def test_the_oldest_of_too_many_are_dropped_and_counted(monitor: Monitor, qtbot)
     qtbot.waitUntil(lambda: len(batches) == 2)
     assert batches[1] == list(range(150, 250))
     assert monitor.dropped == 150
+
+
+def test_a_large_heap_comes_in_several_batches(qtbot) -> None:
+    monitor = Monitor()
+    sizes: list[int] = []
+    monitor.arrived.connect(lambda batch: (sizes.append(len(batch)), monitor.taken()))
+    for number in range(1000):
+        monitor.hear(number)
+
+    monitor.start()
+
+    qtbot.waitUntil(lambda: sum(sizes) == 1000)
+    monitor.end()
+    assert max(sizes) == LARGEST_BATCH
 
 
 def test_it_ends_while_a_batch_is_not_taken(monitor: Monitor, qtbot) -> None:

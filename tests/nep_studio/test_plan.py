@@ -115,6 +115,23 @@ def test_a_recording_takes_the_place_of_all_sensors(language: Language) -> None:
     assert sensors[0].parameters["speed"] == 2.0
 
 
+def test_a_speed_hurries_what_is_virtual_and_nothing_else(language: Language) -> None:
+    robots = tuple(
+        {"name": name, "driver": driver, "address": ""}
+        for name, driver in (("NAO", "virtual"), ("Real", "naoqi"))
+    )
+    watches = (
+        {"node": "sensory/virtual_watch", "name": "watch", "parameters": {"speed": 20.0}},
+        {"node": "sensory/smartwatch", "name": "mine", "parameters": {}},
+    )
+    given = project(language, rules=("karate",), robots=robots, nodes=watches)
+
+    nodes = planned(given, language, choices=Choices(speed=3.0))
+
+    speeds = {name: node.parameters.get("speed") for name, node in nodes.items()}
+    assert speeds == {"NAO": 3.0, "Real": None, "watch": 50.0, "mine": None, "karate": None}
+
+
 def test_an_address_makes_a_robot_real(language: Language) -> None:
     robots = ({"name": "NAO", "driver": "virtual", "address": ""},)
     given = project(language, rules=("karate",), robots=robots)

@@ -6,9 +6,12 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from nep_core.messages import ProgramState
+from nep_studio.blocks.generate.reporter_places import ReporterPlaces
 from nep_studio.blocks.generate.source_map import Code
 
 LONGEST_VALUE = 40
+CALL = "@"
+"""What the name of a value begins with that a call gave: "@line:begin-end"."""
 
 
 @dataclass
@@ -16,15 +19,18 @@ class Marks:
     """The blocks that run, where the program pauses, how often rules fired, and what values are.
 
     ``glowing`` are the innermost blocks that run, ``around`` those that they were called from;
-    ``values`` are by the Python name of the variable.
+    ``values`` are by the Python name of the variable; ``results`` are what the reporters in a
+    statement gave last, by the statement and the reporter. ``places`` finds a reporter's block.
     """
 
     code: Code = field(default_factory=lambda: Code("", ()))
+    places: ReporterPlaces | None = None
     glowing: frozenset[str] = frozenset()
     around: frozenset[str] = frozenset()
     paused: dict[str, str] = field(default_factory=dict)
     counts: Counter[str] = field(default_factory=Counter)
     values: dict[str, str] = field(default_factory=dict)
+    results: dict[str, dict[str, str]] = field(default_factory=dict)
 
     def take(self, state: ProgramState) -> None:
         """Take in what the program told."""
@@ -32,7 +38,8 @@ class Marks:
             case "line":
                 self._lines(state.lines)
             case "value":
-                self.values |= {name: clipped(text) for name, text in state.values.items()}
+                for name, text in state.values.items():
+                    self._value(name, clipped(text))
             case "paused":
                 block = self.code.block_at(state.line)
                 if block is not None:
@@ -50,6 +57,16 @@ class Marks:
         """Nothing runs any more; counts and values stay, for whoever wants to read them."""
         self.glowing = self.around = frozenset()
         self.paused.clear()
+
+    def _value(self, name: str, text: str) -> None:
+        if not name.startswith(CALL):
+            self.values[name] = text
+            return
+        block = self.places.block_at(name) if self.places is not None else None
+        line = int(name[1:].partition(":")[0])
+        statement = self.code.block_at(line)
+        if block is not None and statement is not None:
+            self.results.setdefault(statement, {})[block] = text
 
     def _resumed(self, thread: str) -> None:
         if thread:

@@ -37,7 +37,8 @@ class RunOverlay:
             ring(painter, view, block, _faded(view.theme.colour("glow"), 150), _px(view, 2.5))
         for block in marks.glowing:
             _glow(painter, view, block)
-        if not (self.breakpoints or marks.counts or marks.values or marks.paused):
+        known = (marks.counts, marks.values, marks.results, marks.paused)
+        if not (self.breakpoints or any(known)):
             return
         paused = frozenset(marks.paused.values())
         for placed in view.page_layout.boxes(view.visible_page_rect()):
@@ -50,9 +51,11 @@ class RunOverlay:
                 _chip(painter, view, placed, words)
 
     def _chip(self, view: PageView, block: str) -> str:
-        """The words beside a block: how often a rule fired, or what a variable holds."""
+        """The words beside a block: how often it fired, what its reporters or variable gave."""
         if (count := self.marks.counts.get(block, 0)) > 0:
             return tr("{n}\N{MULTIPLICATION SIGN}", n=count)
+        if results := self.marks.results.get(block):
+            return "   ".join(results.values())
         made = view.editor.project.blocks.get(block)
         if made is None or not self.marks.values or not made.type.startswith("variable."):
             return ""

@@ -106,11 +106,13 @@ class Runner(QObject):
         """Let the program pause at its next lines."""
         if self.play is not None and self.state == "running":
             self.play.session.pause()
+            self._set_state("paused")  # parts that are waiting only tell when they go on
 
     def resume(self) -> None:
         """Let a paused program go on."""
         if self.play is not None and self.state == "paused":
             self.play.session.resume()
+            self._set_state("running")
 
     def step(self, thread: str = "") -> None:
         """Let a paused program run one line more."""
@@ -242,8 +244,6 @@ class Runner(QObject):
     def _note(self, state: m.ProgramState) -> None:
         if state.event == "paused" and self.state == "running":
             self._set_state("paused")
-        elif state.event == "resumed" and self.state == "paused":
-            self._set_state("running")
 
     def _on_look(self) -> None:
         if frozen := self.board.frozen(time.time()):

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
 from nep_core import messages as m
+from nep_studio.blocks.generate.reporter_places import ReporterPlaces
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.menu_entries import MenuEntry, MenuPlace
@@ -45,7 +47,11 @@ class Stage(QObject):
 
     def begin(self, code: Code) -> None:
         """A program is about to run: nothing is known of it yet."""
-        self.marks = self.overlay.marks = Marks(code)
+        places = None
+        if self._canvas is not None and code.text:
+            editor = self._canvas.editor
+            places = ReporterPlaces(code, editor.project, editor.language)
+        self.marks = self.overlay.marks = Marks(code, places)
         self.overlay.names = dict(code.variables)
         self._repaint_all()
 
@@ -58,12 +64,12 @@ class Stage(QObject):
         if not states:
             return
         before = self._shown()
-        values = dict(self.marks.values)
+        values, results = dict(self.marks.values), deepcopy(self.marks.results)
         paused = dict(self.marks.paused)
         counts = self.marks.counts.copy()
         for state in states:
             self.marks.take(state)
-        if values != self.marks.values:
+        if (values, results) != (self.marks.values, self.marks.results):
             self._repaint_all()
         else:
             self._touch(before ^ self._shown())

@@ -21,6 +21,8 @@ from nep_studio.ui.running.needs import NeedsDialog
 from tests.blocks.block_building import B, build
 
 WAIT_MS = 30_000
+LONG_WAIT = B("control.wait", {"seconds": 600})
+WAIT_A_LITTLE = B("control.wait", {"seconds": 0.05})
 
 
 class Seen:
@@ -319,3 +321,46 @@ def test_an_example_is_tried_with_one_press(window: MainWindow, qtbot: QtBot) ->
 
     qtbot.waitUntil(lambda: bool(seen.said()), timeout=WAIT_MS)
     assert window.files.document.title
+
+
+def test_pause_and_go_on_by_the_buttons(window: MainWindow, open_program, qtbot: QtBot) -> None:
+    open_program(
+        [
+            B("event.started"),
+            B(
+                "control.forever",
+                bodies={"do": [B("variable.change", {"variable": "v1"}), WAIT_A_LITTLE]},
+            ),
+        ],
+        variables=("turns",),
+    )
+    press(window, qtbot, "run")
+    qtbot.waitUntil(
+        lambda: int(window.running.stage.marks.values.get("turns", "0")) > 2, timeout=WAIT_MS
+    )
+
+    press(window, qtbot, "pause")
+    qtbot.waitUntil(lambda: bool(window.running.stage.marks.paused), timeout=WAIT_MS)
+    assert window.running.runner.state == "paused"
+    held = window.running.stage.marks.values["turns"]
+
+    press(window, qtbot, "run")
+    qtbot.waitUntil(lambda: window.running.stage.marks.values["turns"] != held, timeout=WAIT_MS)
+    assert window.running.runner.state == "running"
+
+
+def test_what_a_sensor_gave_last_is_beside_its_statement(
+    window: MainWindow, open_program, qtbot: QtBot
+) -> None:
+    sensor = B("robot_senses.sensor")
+    open_program(
+        [B("event.started"), B("variable.set", {"variable": "v1"}, {"value": sensor}), LONG_WAIT],
+        variables=("charge",),
+    )
+
+    press(window, qtbot, "run")
+
+    statement = block_of(window, "variable.set")
+    stage = window.running.stage
+    qtbot.waitUntil(lambda: statement in stage.marks.results, timeout=WAIT_MS)
+    assert list(stage.marks.results[statement]) == [block_of(window, "robot_senses.sensor")]

@@ -1,0 +1,64 @@
+"""The window's thread is never held up, whatever nodes and programs do at the same time.
+
+Measured is the CPU time of that thread between two beats, which is the same on a computer that is
+busy with other things; how long it stands still for locks, files and Python's own lock has a bound
+of its own, since other programs have a share in that. ``dev.py bench gui_heartbeat`` is stricter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from benchmarks.gui_loads import LOADS, PREPARATIONS, press_run
+from benchmarks.heartbeat import Heartbeat
+from nep_studio.ui.main_window import MainWindow
+
+MOST_WORK_MS = 50
+MOST_WORK_AT_A_PRESS_MS = 150
+"""All the Python is made then: close to 50 ms of work, more where two threads share a core."""
+MOST_HELD_UP_MS = 500
+WAIT_MS = 60_000
+FEWEST_BEATS = 10
+
+
+def until(qtbot: QtBot) -> Callable[[Callable[[], bool]], None]:
+    """Run the window until a condition holds."""
+    return lambda condition: qtbot.waitUntil(condition, timeout=WAIT_MS)
+
+
+def test_a_heartbeat_notices_work_and_standing_still(qtbot: QtBot) -> None:
+    heartbeat = Heartbeat()
+    heartbeat.begin()
+
+    sum(number * number for number in range(400_000))
+    qtbot.waitUntil(lambda: heartbeat.beats > 2)
+    worked = heartbeat.longest.work_ms
+    heartbeat.begin()
+    qtbot.waitUntil(lambda: heartbeat.beats > 2)
+
+    assert worked > 5
+    assert heartbeat.end().work_ms < worked
+
+
+@pytest.mark.timeout(150)
+@pytest.mark.parametrize("load", LOADS)
+def test_the_window_is_not_held_up_while(
+    window: MainWindow, tmp_path: Path, qtbot: QtBot, load: str
+) -> None:
+    wait = until(qtbot)
+    if load in PREPARATIONS:
+        PREPARATIONS[load](window, tmp_path, wait)
+    heartbeat = Heartbeat()
+    heartbeat.begin()
+
+    LOADS[load](window, tmp_path, wait)
+
+    longest = heartbeat.end()
+    assert heartbeat.beats > FEWEST_BEATS
+    most_ms = MOST_WORK_AT_A_PRESS_MS if LOADS[load] is press_run else MOST_WORK_MS
+    assert longest.work_ms < most_ms, longest
+    assert longest.held_up_ms < MOST_HELD_UP_MS, longest
