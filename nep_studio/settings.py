@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 import os
 import tempfile
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
+
+from nep_core.places import log_folder
 
 FOLDER_VARIABLE = "NEP_STUDIO_FOLDER"
 """Another place for settings, journals and logs than the user's folder."""
@@ -16,7 +21,10 @@ FOLDER_VARIABLE = "NEP_STUDIO_FOLDER"
 SYSTEM = "system"
 """The choice that follows the computer: for the theme and for the language."""
 
+FolderName = Literal["projects", "recordings", "logs"]
+
 MOST_RECENT = 10
+MOST_RESTARTS = 1000
 SMALLEST_TEXT, LARGEST_TEXT = 0.8, 2.5
 
 
@@ -40,6 +48,15 @@ def log_file() -> Path:
     return user_folder() / "nep-studio.log"
 
 
+def usual_folder(what: FolderName) -> Path:
+    """Where projects, recordings or logs are kept when nobody says anything else."""
+    if what == "logs":
+        return log_folder()
+    documents = QStandardPaths.StandardLocation.DocumentsLocation
+    folder = Path(QStandardPaths.writableLocation(documents) or tempfile.gettempdir())
+    return folder if what == "projects" else folder / "NEP recordings"
+
+
 def system_language(known: Iterable[str]) -> str:
     """The first language of the computer that is known here, else English."""
     offered = set(known)
@@ -49,6 +66,20 @@ def system_language(known: Iterable[str]) -> str:
             if wanted in offered:
                 return wanted
     return "en"
+
+
+@dataclass(frozen=True)
+class ShowOptions:
+    """How show mode goes: ``restarts`` is how often in a row a program that failed is run again.
+
+    ``runs_at_once``: without anybody pressing Run; ``again``: also when it has ended well;
+    ``has_cues``: with the buttons of the cue panel, for an operator.
+    """
+
+    runs_at_once: bool = False
+    again: bool = False
+    has_cues: bool = False
+    restarts: int = 5
 
 
 class Settings:
@@ -113,21 +144,70 @@ class Settings:
     @property
     def recent_blocks(self) -> list[str]:
         """The types of blocks that were used last, the newest first."""
-        stored = self._values.value("palette/recent", [])
-        names = [stored] if isinstance(stored, str) else stored
-        return [n for n in names if isinstance(n, str) and n] if isinstance(names, list) else []
+        return self._texts("palette/recent")
 
     @recent_blocks.setter
     def recent_blocks(self, types: Iterable[str]) -> None:
         self._values.setValue("palette/recent", list(types))
 
     @property
+    def recent_commands(self) -> list[str]:
+        """What was done with the command palette last, by the ids of the commands."""
+        return self._texts("commands/recent")
+
+    @recent_commands.setter
+    def recent_commands(self, ids: Iterable[str]) -> None:
+        self._values.setValue("commands/recent", list(ids))
+
+    @property
     def last_folder(self) -> Path:
         """Where a project was opened or saved last."""
-        documents = QStandardPaths.StandardLocation.DocumentsLocation
-        default = QStandardPaths.writableLocation(documents)
         recent = next(iter(self.recent_files), None)
-        return recent.parent if recent is not None else Path(default)
+        return recent.parent if recent is not None else self.folder_for("projects")
+
+    def folder_for(self, what: FolderName) -> Path:
+        """Where projects, recordings or logs are kept: where the person said, else as usual."""
+        return self.chosen_folder(what) or usual_folder(what)
+
+    def chosen_folder(self, what: FolderName) -> Path | None:
+        """Where the person said that it is kept; None when they did not."""
+        chosen = self._text(f"folders/{what}", "")
+        return Path(chosen) if chosen else None
+
+    def set_folder(self, what: FolderName, folder: Path | None) -> None:
+        """Keep projects, recordings or logs there; None: where they usually are."""
+        self._values.setValue(f"folders/{what}", str(folder or ""))
+
+    @property
+    def show_options(self) -> ShowOptions:
+        """How show mode goes."""
+        usual = ShowOptions()
+        return ShowOptions(
+            self._text("show/at_once", "no") == "yes",
+            self._text("show/again", "no") == "yes",
+            self._text("show/cues", "no") == "yes",
+            self._number("show/restarts", usual.restarts, 0, MOST_RESTARTS),
+        )
+
+    @show_options.setter
+    def show_options(self, options: ShowOptions) -> None:
+        self._values.setValue("show/at_once", "yes" if options.runs_at_once else "no")
+        self._values.setValue("show/again", "yes" if options.again else "no")
+        self._values.setValue("show/cues", "yes" if options.has_cues else "no")
+        self._values.setValue("show/restarts", str(options.restarts))
+
+    @property
+    def has_pin(self) -> bool:
+        """Whether show mode is only left with a PIN."""
+        return bool(self._text("show/pin", ""))
+
+    def set_pin(self, pin: str) -> None:
+        """Leave show mode with this PIN only; an empty one: without."""
+        self._values.setValue("show/pin", _disguised(pin) if pin else "")
+
+    def is_pin(self, pin: str) -> bool:
+        """Whether this is the PIN."""
+        return self._text("show/pin", "") == _disguised(pin)
 
     def state(self, name: str) -> QByteArray:
         """What a part of the window remembers of its shape; empty when nothing."""
@@ -137,6 +217,15 @@ class Settings:
     def set_state(self, name: str, state: QByteArray) -> None:
         """Remember the shape of a part of the window."""
         self._values.setValue(f"window/{name}", state)
+
+    @property
+    def tour_done(self) -> bool:
+        """Whether a person has taken the tour, or wants none: then it is not offered."""
+        return self._text("help/tour", "no") == "done"
+
+    @tour_done.setter
+    def tour_done(self, is_done: bool) -> None:
+        self._values.setValue("help/tour", "done" if is_done else "no")
 
     def is_shown(self, panel: str, *, default: bool) -> bool:
         """Whether a person left a panel open."""
@@ -162,3 +251,19 @@ class Settings:
     def _text(self, name: str, default: str) -> str:
         value = self._values.value(name, default)
         return value if isinstance(value, str) else default
+
+    def _number(self, name: str, default: int, least: int, most: int) -> int:
+        try:
+            return min(max(int(self._text(name, str(default))), least), most)
+        except ValueError:
+            return default
+
+    def _texts(self, name: str) -> list[str]:
+        stored = self._values.value(name, [])
+        texts = [stored] if isinstance(stored, str) else stored
+        return [t for t in texts if isinstance(t, str) and t] if isinstance(texts, list) else []
+
+
+def _disguised(pin: str) -> str:
+    """A PIN that nobody reads by chance in the file; who may change the file may leave anyway."""
+    return hashlib.sha256(f"nep-studio {pin}".encode()).hexdigest()

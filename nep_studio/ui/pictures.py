@@ -32,7 +32,7 @@ def picture_of(
     pixmap = QPixmap(size * ratio)
     pixmap.setDevicePixelRatio(ratio)
     pixmap.fill(Qt.GlobalColor.transparent)
-    seen = _camera(layout.bounds(), size, is_mirrored)
+    seen = _camera(layout.index.bounds(), size, is_mirrored)  # of the blocks, not the notes
     shown = Rect(seen.x, seen.y, size.width() / seen.scale, size.height() / seen.scale)
     with QPainter(pixmap) as painter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)

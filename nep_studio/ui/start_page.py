@@ -1,14 +1,13 @@
-"""What the window shows while no project is open: begin, go on, or look at an example."""
+"""What the window shows while no project is open: begin, go on, or try an example."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, QTimer
-from PySide6.QtGui import QResizeEvent, QShowEvent
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QFrame,
-    QGridLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -17,64 +16,79 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.errors import BlocksError
-from nep_studio.blocks.files import load
 from nep_studio.ui.app import Studio
 from nep_studio.ui.documents_files import Files
-from nep_studio.ui.main_window_workbench import block_font
-from nep_studio.ui.pictures import picture_of
-from nep_studio.ui.start_page_examples import (
-    Card,
-    example_files,
-    example_sentence,
-    example_title,
-)
+from nep_studio.ui.start_page_examples import Card
+from nep_studio.ui.start_page_flow import Flow, begin_where_reading_begins
+from nep_studio.ui.start_page_gallery import Gallery
+from nep_studio.ui.start_page_tour import TourOffer
 from nep_studio.ui.theme import application_icon, icon
-from nep_studio.ui.words import is_right_to_left, tr
+from nep_studio.ui.words import tr
 
 MOST_RECENT = 5
 
 
 class StartPage(QScrollArea):
-    """New, Open, the recent projects, and the examples with a picture of their blocks."""
+    """Three ways to begin, the recent projects, and the examples.
+
+    ``try_requested`` gives the file of an example that is to be opened and run on the simulator;
+    ``tour_requested`` asks for the tour.
+    """
+
+    try_requested = Signal(Path)
+    tour_requested = Signal()
 
     def __init__(self, studio: Studio, files: Files, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._studio, self._files = studio, files
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.cards: dict[Path, Card] = {}
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.recent_buttons: dict[Path, QPushButton] = {}
-        self._unpainted: list[Path] = []
-        self._painting = QTimer(self, interval=0)
-        self._painting.timeout.connect(self._on_paint_next)
         files.recent_changed.connect(self._on_recent_changed)
         studio.look.theme_changed.connect(self._on_theme_changed)
         self._fill()
+
+    @property
+    def cards(self) -> dict[Path, Card]:
+        """The cards of the examples by file."""
+        return self.gallery.cards
 
     def _fill(self) -> None:
         line = self.fontMetrics().height()
         inner = QWidget()
         inner.setObjectName("start")
         box = QVBoxLayout(inner)
-        box.setContentsMargins(line * 2, line * 2, line * 2, line * 2)
+        margin = self._margin()
+        box.setContentsMargins(margin, line * 2, margin, line * 2)
         box.setSpacing(line)
         box.addLayout(self._header(line))
-        box.addLayout(self._beginnings())
+        box.addLayout(self._beginnings(line))
+        self.tour_offer = TourOffer(self._studio)
+        self.tour_offer.accepted.connect(self.tour_requested)
+        box.addWidget(self.tour_offer)
         self._recent = QVBoxLayout()
         self._recent.setSpacing(line // 6)
         box.addLayout(self._recent)
-        box.addWidget(_heading(tr("Examples to try and change"), line))
-        self._grid = QGridLayout()
-        self._grid.setSpacing(line)
-        self._grid.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
-        box.addLayout(self._grid)
+        self._examples_heading = _heading(tr("Examples to try and change"), line)
+        box.addWidget(self._examples_heading)
+        box.addWidget(self._make_gallery())
         box.addStretch(1)
-        self._add_cards()
         self._fill_recent()
         self.setWidget(inner)
-        self._place_cards()
+        self._fit()
+
+    def _make_gallery(self) -> Gallery:
+        gallery = self.gallery = Gallery(self._studio)
+        gallery.opened.connect(self._files.open_example)
+        gallery.try_requested.connect(self.try_requested)
+        gallery.focus_moved.connect(lambda widget: self.ensureWidgetVisible(widget, 0, 50))
+        return gallery
+
+    def _margin(self) -> int:
+        """Much room at the sides, but not in a narrow window."""
+        line = self.fontMetrics().height()
+        return min(line * 2, max(line // 2, self.viewport().width() // 20))
 
     def _header(self, line: int) -> QHBoxLayout:
         row, sign = QHBoxLayout(), QLabel()
@@ -85,80 +99,60 @@ class StartPage(QScrollArea):
         words.setSpacing(line // 4)
         title = QLabel("NEP Studio")
         title.setStyleSheet(f"font-size: {round(line * 1.7)}px; font-weight: 600;")
+        begin_where_reading_begins(title)
         words.addStretch(1)
         words.addWidget(title)
         about = QLabel(tr("Give a social robot its behaviour with blocks, without programming."))
         about.setProperty("role", "hint")
         about.setWordWrap(True)
+        begin_where_reading_begins(about)
         words.addWidget(about)
         words.addStretch(1)
         row.addSpacing(line)
         row.addLayout(words, 1)
         return row
 
-    def _beginnings(self) -> QHBoxLayout:
+    def _beginnings(self, line: int) -> Flow:
         theme = self._studio.look.theme
-        row = QHBoxLayout()
-        self.new_button = QPushButton(tr("New project"))
-        self.new_button.setProperty("kind", "primary")
-        self.new_button.setIcon(icon("file-plus", theme.colour("accent_text")))
+        row = Flow(spacing=line // 2)
+        self.example_button = QPushButton(tr("Try an example"))
+        self.example_button.setProperty("kind", "primary")
+        self.example_button.setIcon(icon("graduation-cap", theme.colour("accent_text")))
+        self.example_button.clicked.connect(self.show_examples)
+        self.new_button = QPushButton(tr("Start empty"))
+        self.new_button.setIcon(icon("file-plus", theme))
         self.new_button.clicked.connect(self._files.new)
         self.open_button = QPushButton(tr("Open a project…"))
         self.open_button.setIcon(icon("folder-open", theme))
         self.open_button.clicked.connect(self._files.choose)
-        row.addWidget(self.new_button)
-        row.addWidget(self.open_button)
-        row.addStretch(1)
+        for button in (self.example_button, self.new_button, self.open_button):
+            row.addWidget(button)
         return row
 
-    def _add_cards(self) -> None:
-        look = self._studio.look
-        self.cards = {}
-        for path in example_files():
-            card = self.cards[path] = Card(example_title(path), example_sentence(path), look)
-            card.clicked.connect(lambda path=path: self._files.open_example(path))
-        self._unpainted = list(self.cards)
-        self._painting.start()
-
-    def _on_paint_next(self) -> None:
-        """Paint one picture at a time, so that the window is there at once."""
-        if not self._unpainted or not self.isVisible():
-            self._painting.stop()
-            return
-        path = self._unpainted.pop(0)
-        card, language = self.cards[path], self._studio.language
-        try:
-            editor = Editor(load(path, language), language)
-        except BlocksError:
-            return  # it is told when somebody opens it
-        picture = picture_of(
-            editor,
-            self._studio.look.theme,
-            block_font(self._studio),
-            card.picture_size(),
-            self.devicePixelRatioF(),
-            is_mirrored=is_right_to_left(),
-        )
-        card.show_picture(picture)
-
-    def showEvent(self, event: QShowEvent) -> None:
-        """Go on painting."""
-        super().showEvent(event)
-        self._painting.start()
+    def show_examples(self) -> None:
+        """Go to the first example."""
+        first = next(iter(self.gallery.shown), None)
+        inner = self.widget()
+        layout = inner.layout() if inner is not None else None
+        if layout is not None:
+            layout.activate()  # cards that were made just now have a place only then
+        bar = self.verticalScrollBar()
+        bar.setValue(min(bar.maximum(), self._examples_heading.y()))
+        (first or self.gallery.search).setFocus(Qt.FocusReason.OtherFocusReason)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Put as many cards beside each other as there is room for."""
         super().resizeEvent(event)
-        self._place_cards()
+        self._fit()
 
-    def _place_cards(self) -> None:
-        if not self.cards:
+    def _fit(self) -> None:
+        margin, inner = self._margin(), self.widget()
+        layout = inner.layout() if inner is not None else None
+        if layout is None:
             return
-        cards, line = list(self.cards.values()), self.fontMetrics().height()
-        room = self.viewport().width() - 4 * line
-        columns = max(1, (room + line) // (cards[0].width() + line))
-        for index, card in enumerate(cards):
-            self._grid.addWidget(card, index // columns, index % columns)
+        line = self.fontMetrics().height()
+        layout.setContentsMargins(margin, line * 2, margin, line * 2)
+        self.gallery.show_in(self.viewport().width() - 2 * margin)
 
     def _fill_recent(self) -> None:
         while (item := self._recent.takeAt(0)) is not None:
@@ -194,6 +188,7 @@ def _heading(words: str, line: int) -> QLabel:
     label = QLabel(words)
     label.setProperty("role", "title")
     label.setContentsMargins(0, line // 2, 0, 0)
+    begin_where_reading_begins(label)
     return label
 
 

@@ -16,6 +16,8 @@ from typing import Any
 
 Event = dict[str, Any]
 WAIT_S = 60.0
+SPEED = 4
+"""How fast the virtual watch and robot of a story live: what they do is the same, only sooner."""
 
 
 class Play:
@@ -41,12 +43,22 @@ class Play:
                 return event
         raise AssertionError("\n".join([*map(str, self.events), self.errors()]))
 
+    def wait_for_result(self, request: Event, state: str) -> Event:
+        """The result of a request, which may have been heard before it: they come apart."""
+        is_it = result_of(request, state)
+        heard = next((event for event in self.events if is_it(event)), None)
+        return heard or self.wait_for(is_it)
+
     def finish(self, timeout_s: float = WAIT_S) -> int:
         """Wait for the end; the exit code."""
         code = self.process.wait(timeout_s)
         while (event := self._coming.get(timeout=timeout_s)) is not None:
             self._note(event)
         return code
+
+    def interrupt(self) -> None:
+        """End it as Ctrl-C does."""
+        self.process.send_signal(signal.SIGINT)
 
     def errors(self) -> str:
         """What it wrote to its error output; after the end."""
@@ -80,14 +92,14 @@ class Play:
 
 
 @contextlib.contextmanager
-def playing(*words: str | Path) -> Iterator[Play]:
+def playing(*words: str | Path | float) -> Iterator[Play]:
     """A play that is stopped, as by Ctrl-C, if it still runs at the end."""
     play = Play(*map(str, words))
     try:
         yield play
     finally:
         if play.process.poll() is None:
-            play.process.send_signal(signal.SIGINT)
+            play.interrupt()
             play.process.wait(20)
         for stream in (play.process.stdout, play.process.stderr):
             if stream:
@@ -102,6 +114,13 @@ def node_is(node: str, event: str) -> Callable[[Event], bool]:
 def says(text: str) -> Callable[[Event], bool]:
     """Whether an event is the request to say something."""
     return lambda e: e["topic"] == "/action_request" and e["args"].get("text") == text
+
+
+def result_of(request: Event, state: str) -> Callable[[Event], bool]:
+    """Whether an event is this result of a request."""
+    return lambda e: (
+        e["topic"] == "/action_result" and (e["id"], e["state"]) == (request["id"], state)
+    )
 
 
 def kill(pid: int) -> None:

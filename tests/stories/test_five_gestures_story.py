@@ -7,7 +7,7 @@ import re
 import pytest
 
 from nep_studio import paths
-from tests.stories.playing import playing
+from tests.stories.playing import SPEED, playing, says
 
 REACTIONS = {
     "karate": "Impressive!",
@@ -20,8 +20,11 @@ REACTIONS = {
 
 @pytest.mark.timeout(180)
 def test_each_of_five_gestures_has_its_own_reaction() -> None:
-    with playing(paths.examples() / "five_gestures.nep", "--seconds", "62") as play:
-        assert play.finish(120) == 0, play.errors()
+    with playing(paths.examples() / "five_gestures.nep", "--speed", SPEED) as play:
+        last = play.wait_for(says(REACTIONS["batting"]), 120)
+        play.wait_for_result(last, "done")
+        play.interrupt()
+        assert play.finish() == 0, play.errors()
 
     words = [event.get("description", "") for event in play.events]
     made = [found[1] for word in words if (found := re.match(r"makes the gesture (\w+)", word))]

@@ -9,13 +9,13 @@ import psutil
 import pytest
 
 from nep_studio import paths
-from tests.stories.playing import Event, Play, kill, node_is, playing, says
+from tests.stories.playing import SPEED, Event, Play, kill, node_is, playing, says
 
 KARATE = paths.examples() / "karate_greeting.nep"
 
 
 def test_a_karate_gesture_makes_nao_say_impressive_and_play_its_sequence() -> None:
-    with playing(KARATE) as play:
+    with playing(KARATE, "--speed", SPEED) as play:
         assert play.finish() == 0, play.errors()
 
     made = next(e for e in play.events if "makes the gesture karate" in e.get("description", ""))
@@ -37,7 +37,7 @@ def test_a_karate_gesture_makes_nao_say_impressive_and_play_its_sequence() -> No
 @pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
 @pytest.mark.parametrize("node", ["karate", "watch"])
 def test_a_killed_node_is_told_and_started_again_and_the_story_goes_on(node: str) -> None:
-    with playing(KARATE) as play:
+    with playing(KARATE, "--speed", SPEED) as play:
         play.wait_for(node_is("watch", "ready"))  # the last to start
 
         kill(play.pids[node])
@@ -51,9 +51,9 @@ def test_a_killed_node_is_told_and_started_again_and_the_story_goes_on(node: str
 
 @pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
 def test_a_robot_killed_while_it_speaks_says_it_again_when_it_is_back() -> None:
-    with playing(KARATE) as play:
-        play.wait_for(says("Impressive!"))
-        play.wait_for(lambda e: e["topic"] == "/action_result" and e["state"] == "started")
+    with playing(KARATE, "--speed", SPEED) as play:
+        sentence = play.wait_for(says("Thank you for the lesson, master."))
+        play.wait_for_result(sentence, "started")
 
         kill(play.pids["NAO"])
 
@@ -65,7 +65,7 @@ def test_a_robot_killed_while_it_speaks_says_it_again_when_it_is_back() -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
 def test_the_talk_goes_on_without_the_master_and_newcomers_join_the_next() -> None:
-    with playing(KARATE) as play:
+    with playing(KARATE, "--speed", SPEED) as play:
         play.wait_for(node_is("watch", "ready"))
         master = master_of(play)
 

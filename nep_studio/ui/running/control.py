@@ -13,7 +13,7 @@ from nep_studio.blocks.checks import Problem as BlockProblem
 from nep_studio.blocks.checks.problem import page_of
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import BlocksError, CodeRefused
-from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.generate.source_map import Code
 from nep_studio.plan import Choices, PlannedNode, plan
 from nep_studio.problems import problem_of
 from nep_studio.session import Ending, Watching
@@ -23,6 +23,7 @@ from nep_studio.ui.words import tr
 from .breakpoints import Breakpoints
 from .needs import NeedsDialog
 from .play import Request
+from .preparing import Preparation
 from .runner import Runner
 from .stage import Stage, statement_at
 
@@ -46,6 +47,7 @@ class RunControl(QObject):
         self._virtual: frozenset[str] = frozenset()
         """The real robots that the one on the screen stands in for."""
         self._document: Document | None = None
+        self._preparation: Preparation | None = None
         self._is_waiting = False
         self._was_stopped = False
         self._has_begun = False
@@ -157,19 +159,19 @@ class RunControl(QObject):
         self.begin()
 
     def begin(self) -> None:
-        """Run the program as it is now."""
+        """Run the program as it is now; its Python is made first."""
+        document = self._document
+        if document is None or self._preparation is not None:
+            return
+        preparation = self._preparation = Preparation(document.editor, self)
+        preparation.done.connect(self._on_prepared)
+        preparation.refused.connect(self._on_refused)
+
+    def _on_prepared(self, code: Code) -> None:
+        self._preparation = None
         window = self._window
-        document = window.files.document
-        if document is None:
-            return
         try:
-            code = generate_program(document.project, window.studio.language)
             nodes = self.planned()
-        except CodeRefused as refused:
-            block = refused.block  # Python forgets the error at the end of this clause
-            show = Answer(tr("Show the block"), lambda: window.workbench.show_block(block))
-            window.messages.tell_error(refused, show)
-            return
         except (BlocksError, NepError) as error:
             window.messages.tell_error(error)
             return
@@ -180,9 +182,20 @@ class RunControl(QObject):
         watching = Watching(self.breakpoints.lines(code), self.line_s)
         self.runner.start(Request(code, tuple(nodes), watching))
 
+    def _on_refused(self, error: BlocksError) -> None:
+        self._preparation = None
+        workbench = self._window.workbench
+        answers = []
+        if isinstance(error, CodeRefused):
+            answers.append(Answer(tr("Show the block"), lambda: workbench.show_block(error.block)))
+        self._window.messages.tell_error(error, *answers)
+
     def stop(self) -> None:
         """Stop everything that moves."""
         self._was_stopped = True
+        if self._preparation is not None:
+            self._preparation.cancel()
+            self._preparation = None
         self.runner.stop()
 
     def _on_watching_changed(self) -> None:

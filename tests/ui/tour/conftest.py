@@ -1,0 +1,17 @@
+"""A real window for the tour, and a person who takes it."""
+
+from __future__ import annotations
+
+import pytest
+
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.tour.tour import Tour, add_tour
+from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
+
+__all__ = ["answer", "chooser", "home", "karate", "studio", "tour", "window"]
+
+
+@pytest.fixture
+def tour(window: MainWindow) -> Tour:
+    """The tour of the window, which nobody has begun."""
+    return window.findChild(Tour) or add_tour(window)
