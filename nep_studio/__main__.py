@@ -10,6 +10,7 @@ from importlib import import_module
 
 JOBS = {
     "run": "nep_studio.commands.run:main",
+    "show": "nep_studio.ui.show.command:main",
     "code": "nep_studio.commands.code:main",
     "check": "nep_studio.commands.check:main",
     "node": "nep_core.cli.node:main",
@@ -19,10 +20,13 @@ JOBS = {
 }
 
 WINDOW = "nep_studio.ui.app:main"
+ON_A_SCREEN = ("show",)
+"""The jobs that need a display, as the window does."""
 
 USAGE = """NEP Studio: give a social robot its behaviour with blocks.
 
   nep-studio [FILE.nep]        the window, with a project
+  nep-studio show FILE.nep     show mode: a project on the whole screen, for a public
   nep-studio run FILE.nep      play a project, on the robots on the screen unless it names others
   nep-studio code FILE.nep     the Python that the blocks make
   nep-studio check FILE.nep    what is not right yet, in plain words
@@ -65,7 +69,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _do(words: list[str]) -> int:
-    if words and words[0] in JOBS:
+    has_display = _has_display(os.environ, sys.platform)
+    if words and words[0] in JOBS and (has_display or words[0] not in ON_A_SCREEN):
         return _load(JOBS[words[0]])(words[1:])
     if words and words[0] in ("-h", "--help", "help"):
         print(USAGE)
@@ -77,13 +82,14 @@ def _do(words: list[str]) -> int:
         return 0
     from nep_studio import paths
 
-    if words and not words[0].endswith(".nep"):
+    if words and not words[0].endswith(".nep") and words[0] not in ON_A_SCREEN:
         print(f'"{words[0]}" is not something that nep-studio can do.\n', file=sys.stderr)
         print(USAGE, file=sys.stderr)
         return UNUSABLE
-    if _has_display(os.environ, sys.platform):
+    if has_display:
         return _load(WINDOW)(words)
-    example = words[0] if words else _example(paths.examples())
+    files = [word for word in words if word.endswith(".nep")]
+    example = files[0] if files else _example(paths.examples())
     print(NO_WINDOW.format(example=example) + USAGE, file=sys.stderr)
     return UNUSABLE
 

@@ -29,16 +29,13 @@ from nep_studio.ui.main_window_help import (
     shortcuts_of,
 )
 from nep_studio.ui.main_window_panels import AreaName, Panel
-from nep_studio.ui.main_window_rooms import add_rooms
+from nep_studio.ui.main_window_rooms import WITH_A_PROJECT, add_rooms
 from nep_studio.ui.main_window_workbench import Workbench
 from nep_studio.ui.messages import Answer, Message, Messages
 from nep_studio.ui.messages_area import MessageArea
-from nep_studio.ui.picture.dialog import PictureDialog
 from nep_studio.ui.problems.looks import summary
-from nep_studio.ui.recovery import RecoveryDialog
 from nep_studio.ui.running.actions import add_run_menu
 from nep_studio.ui.running.control import RunControl
-from nep_studio.ui.settings_dialog import SettingsDialog
 from nep_studio.ui.start_page import StartPage
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
@@ -123,6 +120,8 @@ class MainWindow(QMainWindow):
         """Offer work that was not saved when the program ended without warning."""
         found = recover(settings.journal_folder(), self.studio.language)
         if found:
+            from nep_studio.ui.recovery import RecoveryDialog  # at a start without, not loaded
+
             RecoveryDialog(found, self.studio, self.files.restore, self).open()
 
     def flush(self) -> None:
@@ -134,6 +133,8 @@ class MainWindow(QMainWindow):
 
     def open_settings(self) -> None:
         """Show the settings."""
+        from nep_studio.ui.settings_dialog import SettingsDialog
+
         dialog = SettingsDialog(self.studio, self)
         dialog.reset_button.clicked.connect(self.reset_panels)
         dialog.open()
@@ -148,6 +149,8 @@ class MainWindow(QMainWindow):
         document = self.files.document
         if document is not None:
             folder = document.path.parent if document.path else self.settings.last_folder
+            from nep_studio.ui.picture.dialog import PictureDialog
+
             PictureDialog(self.workbench.canvas, folder, document.title, self).open()
 
     def show_problems(self) -> None:
@@ -168,7 +171,7 @@ class MainWindow(QMainWindow):
         """Let those actions be used that have something to do."""
         is_open = self.files.document is not None
         names = ("save", "save_as", "close", "check", "zoom_in", "zoom_out", "zoom_100", "zoom_fit")
-        self.actions_by_name.enable(is_open, *names)
+        self.actions_by_name.enable(is_open, *names, *WITH_A_PROJECT)
         for panel in self.workbench.panels.all:
             panel.action.setEnabled(is_open)
         update_edit_actions(self)

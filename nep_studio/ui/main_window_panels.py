@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QVBoxLayout, QWidget
 
 from nep_studio.settings import Settings
@@ -40,6 +40,7 @@ class Area(QTabWidget):
     def __init__(self, name: AreaName, look: Look) -> None:
         super().__init__()
         self._look = look
+        self._titles: dict[QWidget, str] = {}
         self.setDocumentMode(True)
         self.setUsesScrollButtons(True)
         self.setTabBarAutoHide(name == "left")
@@ -49,11 +50,37 @@ class Area(QTabWidget):
         self.close_button.clicked.connect(lambda: self.close_asked.emit(self.currentWidget()))
         if name != "left":
             self.setCornerWidget(self.close_button, Qt.Corner.TopRightCorner)
+        self.currentChanged.connect(self._fit_titles)
         self.hide()
 
+    def add_panel(self, widget: QWidget, title: str) -> None:
+        """Add a tab."""
+        self._titles[widget] = title
+        index = self.addTab(widget, title)
+        self.setTabToolTip(index, title)
+        self.tabBar().setAccessibleTabName(index, title)
+        self._fit_titles()
+
     def tabs_width(self) -> int:
-        """How wide it must be to show all its tabs."""
+        """How wide it must be to show its tabs, one of them with its title."""
         return self.tabBar().sizeHint().width() + self.close_button.sizeHint().width()
+
+    def _fit_titles(self) -> None:
+        """Show all titles where there is room, else the one on top: the others have their signs."""
+        metrics, line = self.fontMetrics(), self.fontMetrics().height()
+        shown = [one for one in self._titles if self.isTabVisible(self.indexOf(one))]
+        room = sum(metrics.horizontalAdvance(self._titles[one]) + 4 * line for one in shown)
+        is_narrow = room > self.width()
+        for widget, title in self._titles.items():
+            is_short = is_narrow and widget is not self.currentWidget()
+            words = "" if is_short else title
+            if self.tabText(self.indexOf(widget)) != words:
+                self.setTabText(self.indexOf(widget), words)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the titles the room that there is."""
+        super().resizeEvent(event)
+        self._fit_titles()
 
     def show_panel(self, widget: QWidget, is_shown: bool) -> None:
         """Show or hide a panel, and with the last one the area."""
@@ -61,6 +88,7 @@ class Area(QTabWidget):
         self.setTabVisible(index, is_shown)
         if is_shown:
             self.setCurrentIndex(index)
+        self._fit_titles()
         self.setVisible(any(self.isTabVisible(i) for i in range(self.count())))
 
 
@@ -97,14 +125,13 @@ class Panels(QObject):
     ) -> Panel:
         """Add a panel; whether it is shown is as the person left it, else as it is said."""
         place = self.areas[area]
-        index = place.addTab(widget, title)
+        place.add_panel(widget, title)
         action = QAction(title, self, checkable=True)
         panel = Panel(widget, title, icon_name, place, action)
         self.all.append(panel)
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
         place.show_panel(widget, action.isChecked())
         place.setCurrentIndex(0)
-        place.setTabToolTip(index, title)
         action.toggled.connect(lambda is_on: self._on_toggled(panel, is_on))
         self._dress(panel)
         return panel

@@ -4,19 +4,47 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from PySide6.QtGui import QAction
+
+from nep_studio.ui.command_palette.palette import add_command_palette
+from nep_studio.ui.exporting.actions import NEEDS_PROJECT, add_exporting
+from nep_studio.ui.panels.cues.panel import add_cues_panel
 from nep_studio.ui.panels.log.panel import add_log_panel
 from nep_studio.ui.panels.robots.panel import add_robots_panel
+from nep_studio.ui.show.mode import add_show_mode
 from nep_studio.ui.study.adding import add_study
 from nep_studio.ui.tour.tour import add_tour
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
 
+WITH_A_PROJECT = (*NEEDS_PROJECT, "show_mode", "show_at_start")
+"""The actions of rooms that need an open project."""
+
 
 def add_rooms(window: MainWindow) -> None:
-    """Add the panels and their actions, in the order of their tabs."""
+    """Add the panels and their actions, in the order of their tabs; they follow the project."""
     add_robots_panel(window)
+    add_cues_panel(window)
     add_log_panel(window)
-    add_study(window)
+    add_exporting(window)
+    add_show_mode(window)
     add_tour(window)
+    add_study(window)
+    add_command_palette(window)
     window.start_page.try_requested.connect(window.running.try_example)
+    _put_into_menus(window)
+
+
+def _put_into_menus(window: MainWindow) -> None:
+    actions, menus = window.actions_by_name, window.menus
+    after_picture = _after(menus["file"].actions(), actions["picture"])
+    menus["file"].insertActions(
+        after_picture, [actions[name] for name in ("save_python", "copy_python", "print")]
+    )
+    menus["view"].addSeparator()
+    menus["view"].addActions([actions[name] for name in ("show_mode", "show_at_start", "palette")])
+
+
+def _after(actions: list[QAction], one: QAction) -> QAction:
+    return actions[actions.index(one) + 1]

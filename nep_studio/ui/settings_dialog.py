@@ -1,27 +1,57 @@
-"""The settings: language, theme and size of the text; each is in force at once."""
+"""The settings: look, folders, show mode, privacy; each is in force at once, Cancel undoes them."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
-    QComboBox,
     QDialog,
-    QFormLayout,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QSlider,
+    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
 
-from nep_studio.settings import LARGEST_TEXT, SMALLEST_TEXT, SYSTEM
+from nep_studio.settings import FolderName, Settings, ShowOptions
 from nep_studio.ui.app import Studio
-from nep_studio.ui.theme import load_theme, themes
-from nep_studio.ui.words import available_languages, tr
+from nep_studio.ui.settings_pages import (
+    FOLDERS,
+    TEXT_STEP,
+    AboutPage,
+    FoldersPage,
+    LookPage,
+    ShowPage,
+)
+from nep_studio.ui.words import tr
 
-TEXT_STEP = 5
-"""Percent between two sizes of the text."""
+MorePage = Callable[[QWidget], tuple[str, QWidget]]
+"""Makes one more page of the dialog: its title and its widget."""
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """What Cancel gives back."""
+
+    language: str
+    theme: str
+    text_scale: float
+    folders: dict[FolderName, Path | None]
+    show: ShowOptions
+
+
+def _kept(settings: Settings) -> _Kept:
+    return _Kept(
+        settings.language,
+        settings.theme,
+        settings.text_scale,
+        {name: settings.chosen_folder(name) for name in FOLDERS},
+        settings.show_options,
+    )
 
 
 class SettingsDialog(QDialog):
@@ -30,87 +60,91 @@ class SettingsDialog(QDialog):
     def __init__(self, studio: Studio, parent: QWidget) -> None:
         super().__init__(parent)
         self._studio = studio
-        self.setWindowTitle(tr("Settings"))
+        self._before = _kept(studio.settings)
+        self._more: list[MorePage] = []
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        chosen = studio.settings
-        self.language = _choice(
-            {SYSTEM: tr("Like the computer's"), **available_languages()}, chosen.language
-        )
-        named = {name: tr(load_theme(name).title) for name in themes()}
-        self.theme = _choice({SYSTEM: tr("Like the computer's"), **named}, chosen.theme)
-        self.text_size = QSlider(Qt.Orientation.Horizontal)
-        self.text_percent = QLabel()
-        self.reset_button = QPushButton(tr("Put the panels back"))
-        self.close_button = QPushButton(tr("Close"))
-        self._set_up_slider(chosen.text_scale)
+        self.reset_button = QPushButton()
+        self.cancel_button = QPushButton()
+        self.close_button = QPushButton()
+        self.pages = QTabWidget()
         self._lay_out()
-        self._connect()
+        self._fill()
+        self.cancel_button.clicked.connect(self.reject)
+        self.close_button.clicked.connect(self.accept)
 
-    def _set_up_slider(self, scale: float) -> None:
-        slider = self.text_size
-        slider.setRange(
-            round(100 * SMALLEST_TEXT / TEXT_STEP), round(100 * LARGEST_TEXT / TEXT_STEP)
-        )
-        slider.setPageStep(5)
-        slider.setValue(round(100 * scale / TEXT_STEP))
-        slider.setAccessibleName(tr("Size of the text"))
-        self._show_percent(slider.value())
+    def add_page(self, make: MorePage) -> None:
+        """Show one more page; it is made again when the language changes."""
+        self._more.append(make)
+        title, page = make(self)
+        self.pages.addTab(page, title)
+
+    def reject(self) -> None:
+        """Take back what was chosen since the dialog was opened."""
+        before, studio, settings = self._before, self._studio, self._studio.settings
+        settings.show_options = before.show
+        for name, folder in before.folders.items():
+            settings.set_folder(name, folder)
+        super().reject()
+        if settings.theme != before.theme:
+            studio.choose_theme(before.theme)
+        if settings.text_scale != before.text_scale:
+            studio.choose_text_scale(before.text_scale)
+        if settings.language != before.language:
+            studio.choose_language(before.language)
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        size = QHBoxLayout()
-        size.addWidget(self.text_size, 1)
-        size.addWidget(self.text_percent)
-        self.text_percent.setMinimumWidth(self.fontMetrics().horizontalAdvance("0000 %"))
-        form = QFormLayout()
-        form.setVerticalSpacing(line)
-        form.setHorizontalSpacing(line)
-        form.addRow(tr("Language"), self.language)
-        form.addRow(tr("Theme"), self.theme)
-        form.addRow(tr("Size of the text"), size)
         buttons = QHBoxLayout()
         buttons.addWidget(self.reset_button)
         buttons.addStretch(1)
+        buttons.addWidget(self.cancel_button)
         buttons.addWidget(self.close_button)
         self.close_button.setDefault(True)
+        self.cancel_button.setAutoDefault(False)
+        self.reset_button.setAutoDefault(False)
         box = QVBoxLayout(self)
         box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line * 2)
-        box.addLayout(form)
+        box.setSpacing(line)
+        box.addWidget(self.pages, 1)
         box.addLayout(buttons)
-        self.setMinimumWidth(line * 22)
+        self.setMinimumWidth(line * 34)
 
-    def _connect(self) -> None:
+    def _fill(self) -> None:
+        """Make all that has words in it."""
+        here = self.pages.currentIndex()
+        while self.pages.count():
+            old = self.pages.widget(0)
+            self.pages.removeTab(0)
+            if old is not None:
+                old.deleteLater()
+        self.setWindowTitle(tr("Settings"))
+        self.reset_button.setText(tr("Put the panels back"))
+        self.cancel_button.setText(tr("Cancel"))
+        self.close_button.setText(tr("Done"))
+        settings = self._studio.settings
+        look = LookPage(settings)
+        self.language, self.theme = look.language, look.theme
+        self.text_size: QSlider = look.text_size
         self.language.activated.connect(self._on_language_chosen)
         self.theme.activated.connect(self._on_theme_chosen)
-        self.text_size.valueChanged.connect(self._show_percent)
-        self.text_size.sliderReleased.connect(self._on_size_chosen)
-        self.text_size.actionTriggered.connect(self._on_size_stepped)
-        self.close_button.clicked.connect(self.accept)
-
-    def _show_percent(self, steps: int) -> None:
-        self.text_percent.setText(f"{steps * TEXT_STEP} %")
+        look.size_chosen.connect(self._on_size_chosen)
+        self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
+        self.pages.addTab(look, tr("Look"))
+        self.pages.addTab(self.folders, tr("Folders"))
+        self.pages.addTab(self.show_page, tr("Show mode"))
+        self.pages.addTab(AboutPage(), tr("Privacy"))
+        for make in self._more:
+            title, page = make(self)
+            self.pages.addTab(page, title)
+        self.pages.setCurrentIndex(max(0, here))
 
     def _on_language_chosen(self) -> None:
-        self.accept()  # it is in the old language
         self._studio.choose_language(self.language.currentData())
+        self._fill()
+        self.language.setFocus()
 
     def _on_theme_chosen(self) -> None:
         self._studio.choose_theme(self.theme.currentData())
 
     def _on_size_chosen(self) -> None:
         self._studio.choose_text_scale(self.text_size.value() * TEXT_STEP / 100)
-
-    def _on_size_stepped(self) -> None:
-        """A key or a click beside the knob; while it is dragged, the window waits."""
-        if not self.text_size.isSliderDown():
-            self.text_size.setValue(self.text_size.sliderPosition())
-            self._on_size_chosen()
-
-
-def _choice(words: dict[str, str], chosen: str) -> QComboBox:
-    box = QComboBox()
-    for value, word in words.items():
-        box.addItem(word, value)
-    box.setCurrentIndex(max(0, box.findData(chosen)))
-    return box

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from nep_studio.startup import NAME, Place, remove, startup_files, write
 
-COMMAND = ["/opt/nep studio/python", "-m", "nep_studio", "show", '/home/ü/50 % "a\\b" $x `y`.nep']
+COMMAND = ["/opt/nep studio/python", "-m", "nep_studio", "show", '/srv/ü/50 % "a\\b" $x `y`.nep']
 WORDS = st.text(
     st.characters(codec="utf-8", exclude_categories=("Cc", "Cs")), min_size=1, max_size=12
 )

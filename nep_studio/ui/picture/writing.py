@@ -102,6 +102,10 @@ def pdf_of(canvas: Canvas, options: PictureOptions) -> bytes:
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     writer = QPdfWriter(buffer)
     writer.setTitle(canvas.editor.project.name)
+    # as many dots as the screen, for which the font of the blocks is made: else its words are not
+    # as large as their blocks
+    dots_per_inch = QGuiApplication.primaryScreen().logicalDotsPerInchY()
+    writer.setResolution(round(dots_per_inch))
     points = 0.75  # of a canvas unit, which is a pixel of 96 an inch
     size = QSizeF(scene.width * points, scene.height * points)
     writer.setPageSize(

@@ -40,7 +40,7 @@ class RunControl(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window = window
-        self.runner = Runner(self.planned, self)
+        self.runner = Runner(self.planned, self, logs=window.settings.folder_for("logs"))
         self.breakpoints = Breakpoints(self)
         self.stage = Stage(self.runner, self.breakpoints)
         self.line_s = 0.0

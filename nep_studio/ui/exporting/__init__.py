@@ -1,0 +1,1 @@
+"""Programs on their way out of the studio: as Python files and on paper."""

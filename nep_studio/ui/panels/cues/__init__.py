@@ -1,0 +1,1 @@
+"""The cue panel: big buttons that send a human state by hand."""

@@ -1,0 +1,1 @@
+"""Show mode: one project, very large, for museums and theatres."""

@@ -1,0 +1,205 @@
+"""Plays a project for a public: begins it, tells how it goes, begins it again when it failed."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import msgspec
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_core import messages as m
+from nep_core.errors import NepError
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.problems import Problem, problem_of
+from nep_studio.session import Ending
+from nep_studio.settings import ShowOptions
+from nep_studio.timeline import Line, Timeline
+from nep_studio.ui.messages import Told
+from nep_studio.ui.running.play import Request
+from nep_studio.ui.words import tr
+
+from .restarts import Restarts
+
+if TYPE_CHECKING:
+    from nep_studio.ui.documents import Document
+    from nep_studio.ui.main_window import MainWindow
+
+State = Literal["ready", "opening", "starting", "playing", "stopping", "waiting", "attention"]
+MOST_LINES = 4
+TICK_MS = 1000
+_STATES: dict[str, State] = {
+    "starting": "starting",
+    "running": "playing",
+    "paused": "playing",
+    "stopping": "stopping",
+}
+
+
+class Performance(QObject):
+    """The show of one window. ``changed`` tells of its state, ``told`` of a new line.
+
+    A project that is named by ``path`` is opened when it is needed, and again when that failed:
+    the disk that it is on may come later than the show.
+    """
+
+    changed = Signal()
+    told = Signal()
+
+    def __init__(
+        self,
+        window: MainWindow,
+        options: ShowOptions,
+        path: Path | None = None,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        super().__init__(window)
+        self._window, self._options, self._path, self._now = window, options, path, now
+        self._runner = window.running.runner
+        self.state: State = "ready"
+        self.problem: Problem | None = None
+        self.restarts = Restarts(options.restarts, options.again)
+        self.lines: deque[Line] = deque(maxlen=MOST_LINES)
+        self.seconds_left = 0
+        self._was_stopped = False
+        self._timeline: Timeline | None = None
+        self._clock = QTimer(self, interval=TICK_MS)
+        self._clock.timeout.connect(self._on_tick)
+        self._runner.state_changed.connect(self._on_state_changed)
+        self._runner.arrived.connect(self._on_arrived)
+        self._runner.ended.connect(self._on_ended)
+        window.files.document_changed.connect(self._on_document_changed)
+        window.messages.told.connect(self._on_told)
+        if self._runner.state in _STATES:
+            self.state = _STATES[self._runner.state]
+
+    @property
+    def title(self) -> str:
+        """What is played."""
+        document = self._window.files.document
+        if document is not None:
+            return document.title
+        return self._path.stem if self._path is not None else ""
+
+    @property
+    def is_running(self) -> bool:
+        """Whether there is something to stop."""
+        return self.state in ("opening", "starting", "playing", "waiting")
+
+    def run(self) -> None:
+        """Somebody wants it to begin."""
+        if self.state in ("ready", "attention"):
+            self.restarts.pressed()
+            self._begin()
+
+    def stop(self) -> None:
+        """Somebody wants it to end: the robots first, and no other beginning."""
+        self._clock.stop()
+        self._was_stopped = True
+        if self._runner.state == "idle":
+            self._set_state("ready")
+        else:
+            self._runner.stop()
+
+    def retire(self) -> None:
+        """Follow the window no more; what runs goes on."""
+        self._clock.stop()
+        self._runner.state_changed.disconnect(self._on_state_changed)
+        self._runner.arrived.disconnect(self._on_arrived)
+        self._runner.ended.disconnect(self._on_ended)
+        self._window.files.document_changed.disconnect(self._on_document_changed)
+        self._window.messages.told.disconnect(self._on_told)
+        self.deleteLater()
+
+    # How it goes on
+
+    def _begin(self) -> None:
+        self._was_stopped = False
+        self.problem = None
+        self.restarts.began(self._now())
+        document = self._window.files.document
+        if document is not None:
+            self._play(document)
+        elif self._path is not None:
+            self._set_state("opening")
+            self._window.files.open(self._path)
+        else:
+            self._fail(Problem(tr("There is no project to play")))
+
+    def _play(self, document: Document) -> None:
+        self.lines.clear()
+        self._timeline = Timeline(document.editor.language, tr)
+        try:
+            code = generate_program(document.project, document.editor.language)
+            nodes = self._window.running.planned()
+        except (BlocksError, NepError) as error:
+            self._fail(problem_of(error))
+            return
+        self._runner.start(Request(code, tuple(nodes)))
+
+    def _fail(self, problem: Problem) -> None:
+        self.problem = problem
+        self._wait(self.restarts.failed(self._now()), "attention")
+
+    def _wait(self, pause_s: float | None, otherwise: State) -> None:
+        if pause_s is None:
+            self._set_state(otherwise)
+            return
+        self.seconds_left = round(pause_s)
+        self._clock.start()
+        self._set_state("waiting")
+
+    def _set_state(self, state: State) -> None:
+        self.state = state
+        self.changed.emit()
+
+    def _on_tick(self) -> None:
+        self.seconds_left -= 1
+        if self.seconds_left > 0:
+            self.changed.emit()
+            return
+        self._clock.stop()
+        self._begin()
+
+    def _on_document_changed(self, document: Document | None) -> None:
+        if self.state == "opening" and document is not None:
+            self._play(document)
+        self.changed.emit()
+
+    def _on_told(self, told: Told) -> None:
+        """A project that cannot be opened is told by a message only."""
+        message = told.message
+        if self.state == "opening" and message.kind == "error":
+            self._fail(Problem(message.title, message.sentence, message.checklist, message.details))
+
+    def _on_state_changed(self, state: str) -> None:
+        if state in _STATES:
+            self._set_state(_STATES[state])
+
+    def _on_ended(self, ending: Ending) -> None:
+        if self._was_stopped:
+            self._set_state("ready")
+        elif ending.problem is not None:
+            self._fail(ending.problem)
+        else:
+            self._wait(self.restarts.ended(), "ready")
+
+    def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
+        if self._timeline is None:
+            document = self._window.files.document
+            if document is None:
+                return
+            self._timeline = Timeline(document.editor.language, tr)
+        new = [
+            line
+            for _, message in batch
+            if not isinstance(message, m.NodeState)  # the public came for the robots
+            for line in self._timeline.lines(message)
+        ]
+        if new:
+            self.lines.extend(new)
+            self.told.emit()

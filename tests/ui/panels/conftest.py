@@ -1,0 +1,70 @@
+"""A window with the node and network panels, which really runs nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from nep_studio.plan import PlannedNode
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.panels.network.panel import NetworkPanel
+from nep_studio.ui.panels.nodes.panel import NodesPanel
+from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
+
+__all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
+
+KARATE = PlannedNode("perceptual/gesture", "karate", {"gesture": "karate"}, "a rule waits for it")
+WATCH = PlannedNode("sensory/virtual_watch", "virtual_watch", {})
+WAIT_MS = 30_000
+
+
+@dataclass
+class Bench:
+    """The karate example in a window with both panels shown."""
+
+    window: MainWindow
+    nodes: NodesPanel
+    network: NetworkPanel
+
+    @property
+    def runner(self):
+        return self.window.running.runner
+
+    def told(self) -> list[str]:
+        return [card.message.title for card in self.window.message_area.cards]
+
+
+def find_panel(window: MainWindow, kind: type):
+    from nep_studio.ui.panels.network.adding import add_network_panel
+    from nep_studio.ui.panels.nodes.adding import add_nodes_panel
+
+    found = window.findChild(kind)
+    if found is None:
+        found = {NodesPanel: add_nodes_panel, NetworkPanel: add_network_panel}[kind](window)
+    return found
+
+
+@pytest.fixture
+def bench(karate: MainWindow, qtbot: QtBot) -> Iterator[Bench]:
+    made = Bench(karate, find_panel(karate, NodesPanel), find_panel(karate, NetworkPanel))
+    karate.workbench.panels.show(made.nodes)
+    qtbot.waitUntil(made.nodes.isVisible)
+    yield made
+    karate.running.close()
+
+
+@pytest.fixture
+def start(bench: Bench, qtbot: QtBot) -> Callable[[PlannedNode], None]:
+    """Starts a node by hand, and waits until it is ready."""
+
+    def run(planned: PlannedNode) -> None:
+        bench.runner.start_node(planned)
+        nodes = bench.runner.board.nodes
+        qtbot.waitUntil(
+            lambda: planned.name in nodes and nodes[planned.name].health == "ready", timeout=WAIT_MS
+        )
+
+    return run

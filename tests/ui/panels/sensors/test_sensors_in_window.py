@@ -1,0 +1,85 @@
+"""The sensors panel in the real window: opened late, kept when the language changes."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from nep_studio.plan import PlannedNode
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.panels.sensors.panel import SensorsPanel, add_sensors_panel, show_topic
+from tests.ui.window.conftest import chooser, home, karate, studio, window
+
+__all__ = ["chooser", "home", "karate", "studio", "window"]
+
+NODE_START_MS = 20_000
+
+
+def panel_of(window: MainWindow) -> SensorsPanel:
+    return window.workbench.findChild(SensorsPanel) or add_sensors_panel(window)
+
+
+@pytest.fixture
+def opened(karate: MainWindow, qtbot: QtBot) -> Iterator[MainWindow]:
+    karate.workbench.panels.show(panel_of(karate))
+    yield karate
+    karate.running.close()
+
+
+def test_the_panel_loads_nothing_slow_before_it_is_shown() -> None:
+    code = (
+        "import sys; import nep_studio.ui.panels.sensors.panel; "
+        "sys.exit('numpy' in sys.modules or 'pyqtgraph' in sys.modules)"
+    )
+
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_the_panel_is_hidden_at_first_and_its_place_has_room(
+    karate: MainWindow, qtbot: QtBot
+) -> None:
+    panel = panel_of(karate)
+    assert panel.workspace is None
+
+    karate.workbench.panels.show(panel)
+
+    assert panel.workspace is not None
+    qtbot.waitUntil(panel.workspace.empty.isVisible)
+    above, below = karate.workbench.panels.column.sizes()
+    assert below >= 0.3 * (above + below)
+    karate.running.close()
+
+
+def test_what_was_heard_stays_when_the_language_changes(opened: MainWindow, qtbot: QtBot) -> None:
+    before = panel_of(opened).opened()
+    before.start_watch()
+    qtbot.waitUntil(lambda: bool(before.plots.rows), timeout=NODE_START_MS)
+    feed, recorder = before.feed, before.recorder
+    before.record()
+
+    opened.studio.settings.language = "qps-rtl"
+    opened._on_words_changed()
+    opened.workbench.panels.show(panel_of(opened))
+    after = panel_of(opened).opened()
+
+    assert (after.feed, after.recorder) == (feed, recorder)
+    qtbot.waitUntil(after.record_bar.isVisible)
+    assert len(after.plots.rows) == 2
+    samples = recorder.samples
+    qtbot.waitUntil(lambda: recorder.samples > samples + 20)
+    recorder.stop()
+    qtbot.waitUntil(lambda: not recorder.is_recording)
+
+
+def test_a_topic_is_plotted_from_elsewhere_in_the_window(opened: MainWindow, qtbot: QtBot) -> None:
+    panel = panel_of(opened)
+    opened.running.runner.start_node(PlannedNode("sensory/virtual_watch", "virtual_watch", {}))
+
+    show_topic(opened, "/node_state", "pid")
+
+    assert panel.isVisible()
+    plots = panel.opened().plots
+    titles = lambda: [row.row.title for row in plots.rows]  # noqa: E731 - said in one place
+    qtbot.waitUntil(lambda: "pid" in titles(), timeout=NODE_START_MS)

@@ -1,0 +1,309 @@
+"""The network panel in a real window: graph, list, messages of a topic, sending by hand."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+
+from PySide6.QtCore import QPoint, Qt, QTimer
+from PySide6.QtGui import QGuiApplication
+from pytestqt.qtbot import QtBot
+
+from nep_core import messages as m
+from nep_core.p2p import PeerNetwork
+from nep_core.pubsub import Publisher
+from nep_studio.plan import PlannedNode
+from nep_studio.ui.panels.network.graph_layout import Graph, Key
+from nep_studio.ui.panels.network.graph_view import GraphView
+from nep_studio.ui.panels.network.seen import NodeSeen, Seen, TopicSeen
+from tests.ui.panels.conftest import KARATE, WAIT_MS, WATCH, Bench
+
+Start = Callable[[PlannedNode], None]
+
+
+def show(bench: Bench, qtbot: QtBot) -> None:
+    bench.window.workbench.panels.show(bench.network)
+    qtbot.waitUntil(bench.network.isVisible)
+
+
+def wait_for(bench: Bench, key: Key, qtbot: QtBot) -> None:
+    graph = bench.network.graph
+    qtbot.waitUntil(lambda: key in graph.shapes.rects, timeout=WAIT_MS)
+
+
+def many_nodes() -> tuple[Graph, Seen]:
+    names = [f"gesture_{number}" for number in range(50)]
+    says = tuple((name, "/human_behavior") for name in names)
+    graph = Graph(dict.fromkeys(names, "perceptual"), ("/human_behavior",), says)
+    topic = TopicSeen("/human_behavior", tuple(names))
+    seen = Seen(True, {name: NodeSeen(name) for name in names}, {topic.name: topic})
+    return graph, seen
+
+
+def test_an_empty_network_says_what_belongs_there_and_offers_to_run(
+    bench: Bench, qtbot: QtBot
+) -> None:
+    show(bench, qtbot)
+
+    assert bench.network.views.currentWidget() is bench.network.empty
+    with qtbot.waitSignal(bench.runner.run_asked):
+        qtbot.mouseClick(bench.network.empty.run_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bench.runner.state == "running", timeout=WAIT_MS)
+
+
+def test_real_nodes_and_their_rates_are_seen(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(KARATE)
+    start(WATCH)
+
+    wait_for(bench, ("topic", "/imu"), qtbot)
+
+    feed = bench.network._feed
+    qtbot.waitUntil(lambda: feed.seen.topics["/imu"].rate_hz > 20, timeout=WAIT_MS)
+    graph = bench.network.graph.shapes.rects
+    assert graph["node", "virtual_watch"].left() < graph["topic", "/imu"].left()
+    assert graph["topic", "/imu"].left() < graph["node", "karate"].left()
+    assert ("node", "studio") not in graph
+    assert ("topic", m.NODE_STATE) not in graph
+
+
+def test_a_click_on_a_topic_shows_its_messages(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(WATCH)
+    wait_for(bench, ("topic", "/imu"), qtbot)
+    place = bench.network.graph.place_of(("topic", "/imu")).toPoint()
+
+    qtbot.mouseClick(bench.network.graph, Qt.MouseButton.LeftButton, pos=place)
+
+    pane = bench.network.pane
+    qtbot.waitUntil(lambda: len(pane.heard.shown) > 3, timeout=WAIT_MS)
+    assert pane.heard.shown[0].sender == "virtual_watch"
+    assert '"rate_hz"' in pane.full.toPlainText()
+
+
+def test_everything_is_shown_when_it_is_asked_for(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(KARATE)
+
+    bench.network.whole_button.click()
+
+    wait_for(bench, ("node", "studio"), qtbot)
+    wait_for(bench, ("topic", m.NODE_STATE), qtbot)
+
+
+def test_the_list_says_the_same_as_the_graph(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(WATCH)
+    wait_for(bench, ("topic", "/imu"), qtbot)
+
+    bench.network.list_button.click()
+
+    view = bench.network.list
+    assert bench.network.views.currentWidget() is view
+    topics = {view.topics.child(row).text(0) for row in range(view.topics.childCount())}
+    nodes = {view.nodes.child(row).text(0) for row in range(view.nodes.childCount())}
+    assert "/imu" in topics
+    assert nodes == {"virtual_watch"}
+    with qtbot.waitSignal(view.topic_chosen):
+        view.itemActivated.emit(view.topics.child(0), 0)
+
+
+def test_a_message_is_sent_by_hand_and_arrives(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(KARATE)
+    bench.network.open_topic(m.HUMAN_BEHAVIOR)
+    pane = bench.network.pane
+    pane.tabs.setCurrentWidget(pane.send_box)
+    qtbot.waitUntil(lambda: pane.is_hearing)
+    heard: list[m.HumanBehavior] = []
+    bench.runner.arrived.connect(
+        lambda batch: heard.extend(one for _, one in batch if isinstance(one, m.HumanBehavior))
+    )
+
+    pane.send_box.send_button.click()
+
+    qtbot.waitUntil(lambda: bool(heard), timeout=WAIT_MS)
+    assert heard[0].human_state == "gesture_karate"
+    assert pane.send_box.note.text() == "Sent."
+    assert pane.send_box.history.count() == 2
+
+
+def test_a_wrong_message_is_not_sent_and_the_reason_is_told(
+    bench: Bench, start: Start, qtbot: QtBot
+) -> None:
+    show(bench, qtbot)
+    start(KARATE)
+    bench.network.open_topic(m.HUMAN_BEHAVIOR)
+    box = bench.network.pane.send_box
+    box.text.setPlainText('{"certainty": 1.0}')
+
+    box.send_now()
+
+    assert "human_state" in box.note.text()
+    assert box.history.count() == 1
+
+
+def test_without_a_network_sending_says_what_to_do(bench: Bench, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    bench.network.open_topic(m.HUMAN_BEHAVIOR)
+    box = bench.network.pane.send_box
+
+    box.send_now()
+
+    assert "press Run" in box.note.text()
+
+
+def test_reading_a_message_stops_the_list(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(WATCH)
+    bench.network.open_topic("/imu")
+    pane = bench.network.pane
+    qtbot.waitUntil(lambda: len(pane.heard.shown) > 5, timeout=WAIT_MS)
+
+    place = pane.list.visualRect(pane.heard.index(1)).center()
+    chosen = pane.heard.shown[1]
+    qtbot.mouseClick(pane.list.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    pane.copy()
+
+    assert pane.bar.pause_button.isChecked()
+    before = list(pane.heard.shown)
+    qtbot.wait(300)
+    assert list(pane.heard.shown) == before
+    assert chosen.message.source in QGuiApplication.clipboard().text()
+
+
+def test_only_messages_with_the_words_are_shown(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(KARATE)
+    bench.network.open_topic(m.HUMAN_BEHAVIOR)
+    pane = bench.network.pane
+    for state in ("gesture_karate", "heard_hello"):
+        bench.runner.send(m.HUMAN_BEHAVIOR, m.HumanBehavior(human_state=state))
+    qtbot.waitUntil(lambda: len(pane.heard.shown) == 2, timeout=WAIT_MS)
+
+    pane.bar.filter.setText("HELLO")
+
+    assert [one.message.human_state for one in pane.heard.shown] == ["heard_hello"]
+
+
+def test_a_number_of_a_message_can_be_plotted(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(WATCH)
+    bench.network.open_topic("/imu")
+    pane = bench.network.pane
+    qtbot.waitUntil(lambda: bool(pane.heard.shown), timeout=WAIT_MS)
+
+    pane._on_plot_menu()
+    [action] = [one for one in pane.bar.plot_menu.actions() if one.text() == "acc"]
+    with qtbot.waitSignal(bench.network.plot_requested) as asked:
+        action.trigger()
+
+    assert asked.args == ["/imu", "acc"]
+
+
+def test_hidden_it_costs_nothing(bench: Bench, start: Start, qtbot: QtBot) -> None:
+    show(bench, qtbot)
+    start(WATCH)
+    bench.network.open_topic("/imu")
+    assert bench.network.pane.is_hearing
+
+    bench.window.workbench.panels.show(bench.nodes)
+    bench.nodes.hide()
+
+    assert not bench.network.pane.is_hearing
+    qtbot.waitUntil(lambda: not bench.network._feed.is_watching)
+
+
+def test_5000_messages_a_second_do_not_stop_the_window(
+    bench: Bench, start: Start, qtbot: QtBot
+) -> None:
+    show(bench, qtbot)
+    start(KARATE)
+    bench.network.open_topic("/fast")
+    busy, last = [], [time.thread_time()]
+
+    def beat() -> None:  # how long the window's own thread worked since the last one
+        now = time.thread_time()
+        busy.append(now - last[0])
+        last[0] = now
+
+    def flood(publisher: Publisher) -> None:
+        begin_s = time.monotonic()
+        for number in range(15_000):
+            publisher.send({"number": number, "values": [1.0, 2.0, 3.0]})
+            while number > 5000 * (time.monotonic() - begin_s):
+                time.sleep(0.001)
+
+    with PeerNetwork("fast", master=bench.runner.local.launcher.master) as network:
+        publisher = Publisher("/fast", network=network)
+        qtbot.waitUntil(lambda: "/fast" in bench.network._feed.seen.topics, timeout=WAIT_MS)
+        thread = threading.Thread(target=flood, args=[publisher])
+        timer = QTimer(interval=5)
+        timer.timeout.connect(beat)
+        last[0] = time.thread_time()
+        timer.start()
+        thread.start()
+        feed = bench.network._feed
+        qtbot.waitUntil(lambda: feed.seen.topics["/fast"].count >= 14_000, timeout=WAIT_MS)
+        timer.stop()
+        thread.join()
+
+    assert bench.network.pane.heard.count > 1000
+    assert max(busy) < 0.05
+
+
+def test_fifty_nodes_can_still_be_read(bench: Bench, qtbot: QtBot) -> None:
+    view = GraphView(bench.window.look)
+    qtbot.addWidget(view)
+    view.resize(1000, 500)
+    view.show()
+
+    view.show_graph(*many_nodes(), {})
+    shown = view.grab()
+
+    assert view.scale >= 0.6
+    assert not shown.isNull()
+
+
+def test_the_arrow_keys_go_through_the_graph_and_enter_opens(bench: Bench, qtbot: QtBot) -> None:
+    view = GraphView(bench.window.look)
+    qtbot.addWidget(view)
+    view.resize(400, 300)
+    view.show()
+    view.show_graph(*many_nodes(), {})
+
+    qtbot.keyClick(view, Qt.Key.Key_Down)
+    first = view.selected
+    qtbot.keyClick(view, Qt.Key.Key_Down)
+    below = view.selected
+    for _ in range(8):
+        qtbot.keyClick(view, Qt.Key.Key_Right)
+
+    assert first is not None and below is not None
+    assert view.shapes.rects[below].top() > view.shapes.rects[first].top()
+    assert view.selected == ("topic", "/human_behavior")
+    with qtbot.waitSignal(view.topic_chosen):
+        qtbot.keyClick(view, Qt.Key.Key_Return)
+
+
+def test_the_graph_is_moved_and_zoomed(bench: Bench, qtbot: QtBot) -> None:
+    view = GraphView(bench.window.look)
+    qtbot.addWidget(view)
+    view.resize(400, 300)
+    view.show()
+    view.show_graph(*many_nodes(), {})
+    key = ("topic", "/human_behavior")
+    before, scale = view.place_of(key), view.scale
+
+    qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=QPoint(200, 150))
+    qtbot.mouseMove(view, QPoint(220, 160))
+    qtbot.mouseMove(view, QPoint(260, 190))
+    qtbot.mouseRelease(view, Qt.MouseButton.LeftButton, pos=QPoint(260, 190))
+    moved = view.place_of(key) - before
+    qtbot.keyClick(view, Qt.Key.Key_Plus)
+
+    assert (round(moved.x()), round(moved.y())) == (60, 40)
+    assert view.scale > scale
+    qtbot.keyClick(view, Qt.Key.Key_0)
+    assert view.scale == scale

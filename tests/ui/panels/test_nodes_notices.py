@@ -1,0 +1,121 @@
+"""What the person is told when a node changes: data in, a problem and its fixes out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from nep_studio.node_board import NodeStatus
+from nep_studio.ui.panels.nodes.notices import Circumstances, is_recovered, notice_of
+
+READY = NodeStatus("karate", "perceptual", event="ready", pid=1, health="ready")
+OURS = Circumstances(is_ours=True, was_ready=True)
+
+
+def changed(**values) -> NodeStatus:
+    return replace(READY, **values)
+
+
+def test_a_frozen_node_of_ours_can_be_restarted() -> None:
+    notice = notice_of(READY, changed(health="frozen"), OURS)
+
+    assert notice is not None
+    assert "karate" in notice.problem.title
+    assert notice.problem.checklist
+    assert notice.fixes == ("restart", "show_log")
+
+
+def test_a_frozen_node_of_somebody_else_has_no_button_that_cannot_work() -> None:
+    notice = notice_of(READY, changed(health="frozen"), Circumstances())
+
+    assert notice is not None
+    assert notice.fixes == ()
+    assert notice.problem.checklist
+
+
+def test_a_wrong_address_offers_the_robot_on_the_screen_and_the_address() -> None:
+    words = "NAO does not answer: not at 10.0.0.9.\n[ ] Is NAO switched on?\n[ ] Same network?"
+    after = changed(event="connection_failed", health="crashed", description=words)
+
+    notice = notice_of(READY, after, replace(OURS, has_block=True, address="10.0.0.9"))
+
+    assert notice is not None
+    assert notice.fixes == ("use_virtual", "change_address")
+    assert notice.problem.sentence == "NAO does not answer: not at 10.0.0.9."
+    assert notice.problem.checklist == ("Is NAO switched on?", "Same network?")
+
+
+def test_a_killed_node_that_is_started_again_says_so() -> None:
+    words = "karate was killed; it is started again"
+    after = changed(event="crashed", health="crashed", description=words)
+
+    notice = notice_of(READY, after, OURS)
+
+    assert notice is not None
+    assert (notice.kind, notice.fixes) == ("warning", ("show_log",))
+    assert "started again" in notice.problem.title
+
+
+def test_a_node_that_is_given_up_can_be_started() -> None:
+    after = changed(event="crashed", health="crashed", description="karate was killed")
+
+    notice = notice_of(READY, after, OURS)
+
+    assert notice is not None
+    assert (notice.kind, notice.fixes) == ("error", ("start", "show_log"))
+
+
+def test_the_last_words_of_a_node_itself_are_waited_out() -> None:
+    after = changed(event="crashed", health="crashed", description="division by zero")
+
+    assert notice_of(READY, after, OURS) is None
+
+
+def test_a_node_that_a_person_stopped_is_told_in_passing() -> None:
+    after = changed(event="stopped", health="stopped")
+
+    notice = notice_of(READY, after, replace(OURS, was_asked=True))
+
+    assert notice is not None
+    assert notice.passes
+    assert notice.kind == "info"
+
+
+def test_a_node_that_ends_by_itself_is_no_passing_matter() -> None:
+    notice = notice_of(READY, changed(event="stopped", health="stopped"), OURS)
+
+    assert notice is not None
+    assert not notice.passes
+    assert "start" in notice.fixes
+
+
+@pytest.mark.parametrize(("event", "health"), [("stopped", "stopped"), ("crashed", "crashed")])
+def test_nothing_is_told_while_everything_is_being_stopped(event: str, health: str) -> None:
+    after = changed(event=event, health=health, description="karate was killed")
+
+    assert notice_of(READY, after, replace(OURS, is_ending=True)) is None
+
+
+def test_lost_messages_are_a_warning() -> None:
+    words = "3 messages of /imu were lost."
+    after = changed(event="warning", health="warning", description=words)
+
+    notice = notice_of(READY, after, OURS)
+
+    assert notice is not None
+    assert (notice.kind, notice.problem.sentence) == ("warning", words)
+
+
+def test_a_heartbeat_tells_nothing() -> None:
+    frozen = changed(health="frozen")
+
+    assert notice_of(frozen, replace(frozen, heard_s=9.0), OURS) is None
+    assert notice_of(READY, replace(READY, heard_s=9.0), OURS) is None
+
+
+def test_a_node_that_answers_again_has_recovered() -> None:
+    assert is_recovered(changed(health="frozen"), READY)
+    assert is_recovered(changed(health="crashed"), READY)
+    assert not is_recovered(READY, replace(READY, heard_s=9.0))
+    assert not is_recovered(READY, changed(health="frozen"))

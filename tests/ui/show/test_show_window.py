@@ -1,0 +1,298 @@
+"""Show mode covers the screen, plays, begins again after errors, and is left on purpose only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import psutil
+import pytest
+from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from nep_studio import paths
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.show import performance as performance_module
+from nep_studio.ui.show.leaving import HOLD_MS
+from nep_studio.ui.show.mode import add_show_mode
+from nep_studio.ui.show.window import ShowWindow
+from tests.blocks.block_building import B
+
+Begin = Callable[..., ShowWindow]
+WAIT_MS = 30_000
+SAY = [B("event.started"), B("robot.say", {"text": "Good evening"})]
+WAITS = [B("event.gesture", {"gesture": "karate"}), B("robot.say", {"text": "Ha"})]
+FAILS = [B("event.started"), B("code.lines", {"code": "1 / 0"})]
+
+
+@pytest.fixture
+def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Seconds of a pause go by quickly."""
+    monkeypatch.setattr(performance_module, "TICK_MS", 20)
+
+
+def state_is(show: ShowWindow, qtbot: QtBot, state: str) -> None:
+    qtbot.waitUntil(lambda: show.performance.state == state, timeout=WAIT_MS)
+
+
+def press(button, qtbot: QtBot) -> None:
+    assert button.isVisible() and button.isEnabled()
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def test_it_covers_the_screen_and_the_window_waits_behind(
+    window: MainWindow, open_program, show: Begin
+) -> None:
+    open_program(SAY, name="The play")
+
+    shown = show()
+
+    assert shown.isFullScreen()
+    assert shown.title.text() == "The play"
+    assert not window.isVisible()
+    assert shown.run_button.isVisible()
+    assert not shown.stop_button.isVisible()
+
+
+def test_run_plays_and_tells_in_large_words_what_the_robot_says(
+    open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(SAY)
+    shown = show()
+
+    press(shown.run_button, qtbot)
+    qtbot.waitUntil(
+        lambda: any("Good evening" in line for line in shown.words.lines), timeout=WAIT_MS
+    )
+    state_is(shown, qtbot, "ready")
+
+    assert shown.run_button.isVisible()
+    assert shown.performance.restarts.total == 0
+
+
+def test_stop_stops_and_nothing_begins_again(open_program, show: Begin, qtbot: QtBot) -> None:
+    open_program(WAITS)
+    shown = show(again=True)
+    press(shown.run_button, qtbot)
+    state_is(shown, qtbot, "playing")
+
+    press(shown.stop_button, qtbot)
+    state_is(shown, qtbot, "ready")
+
+    assert shown.run_button.isVisible()
+
+
+def test_a_show_that_ended_begins_again_where_that_is_wanted(
+    hurry: None, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(SAY)
+    shown = show(again=True, runs_at_once=True)
+
+    qtbot.waitUntil(lambda: shown.performance.restarts.total == 2, timeout=WAIT_MS)
+
+    assert "begun again" in shown.state_words.text()
+
+
+def test_a_program_that_fails_is_begun_again_and_then_needs_attention(
+    hurry: None, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(FAILS)
+    shown = show(restarts=2, runs_at_once=True)
+
+    state_is(shown, qtbot, "attention")
+
+    assert shown.performance.restarts.total == 2
+    assert shown.attention.isVisible()
+    assert "rest" in shown.attention.headline.text()
+    assert "error" in shown.attention.text.text()
+    assert "Then press Run." in shown.attention.text.text()
+    press(shown.run_button, qtbot)
+    assert shown.performance.restarts.total == 0
+
+
+def test_stop_ends_the_waiting_too(hurry: None, open_program, show: Begin, qtbot: QtBot) -> None:
+    open_program(FAILS)
+    shown = show(restarts=50, runs_at_once=True)
+    state_is(shown, qtbot, "waiting")
+
+    press(shown.stop_button, qtbot)
+
+    assert shown.performance.state == "ready"
+    qtbot.wait(200)
+    assert shown.performance.state == "ready"
+
+
+def test_a_killed_robot_node_does_not_end_the_show(
+    window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(WAITS)
+    shown = show(runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+    board = window.running.runner.board
+    qtbot.waitUntil(lambda: board.nodes.get("NAO") is not None and board.nodes["NAO"].pid > 0)
+    old = board.nodes["NAO"].pid
+
+    psutil.Process(old).kill()
+
+    qtbot.waitUntil(
+        lambda: board.nodes["NAO"].pid not in (0, old) and board.nodes["NAO"].is_there,
+        timeout=WAIT_MS,
+    )
+    assert shown.performance.state == "playing"
+    assert shown.isVisible()
+
+
+def test_a_killed_program_goes_on_or_begins_again(
+    hurry: None, window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(WAITS)
+    shown = show(runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+    board = window.running.runner.board
+    qtbot.waitUntil(lambda: "program" in board.nodes and board.nodes["program"].pid > 0)
+    old = board.nodes["program"].pid
+
+    psutil.Process(old).kill()
+
+    qtbot.waitUntil(lambda: board.nodes["program"].pid not in (0, old), timeout=WAIT_MS)
+    state_is(shown, qtbot, "playing")
+
+
+def test_a_project_that_is_not_there_yet_is_looked_for_again(
+    hurry: None, window: MainWindow, show: Begin, tmp_path: Path, qtbot: QtBot
+) -> None:
+    path = tmp_path / "late.nep"
+    shown = show(path, runs_at_once=True, restarts=1000)
+    state_is(shown, qtbot, "waiting")
+
+    path.write_bytes((paths.examples() / "karate_greeting.nep").read_bytes())
+
+    state_is(shown, qtbot, "playing")
+    assert shown.title.text() == "late"
+
+
+def test_closing_the_window_by_keys_does_not_end_the_show(open_program, show: Begin) -> None:
+    open_program(SAY)
+    shown = show()
+
+    shown.close()
+
+    assert shown.isVisible()
+
+
+def test_a_short_esc_does_nothing_and_a_long_one_leaves(
+    window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(SAY)
+    shown = show()
+
+    qtbot.keyClick(shown.run_button, Qt.Key.Key_Escape)
+    was_visible = shown.isVisible()
+    qtbot.keyPress(shown.run_button, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: shown.hold_bar.isVisible())
+    qtbot.waitUntil(lambda: window.isVisible(), timeout=HOLD_MS + 5000)
+
+    assert was_visible
+    window.messages.confirm("Back")
+    assert [card.message.title for card in window.message_area.cards] == ["Back"]
+
+
+def test_holding_the_title_leaves_where_there_is_no_keyboard(
+    window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(SAY)
+    shown = show()
+
+    qtbot.mousePress(shown.title, Qt.MouseButton.LeftButton)
+
+    qtbot.waitUntil(lambda: window.isVisible(), timeout=HOLD_MS + 5000)
+
+
+def test_with_a_pin_only_the_pin_leaves(
+    window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    window.settings.set_pin("2407")
+    open_program(SAY)
+    shown = show()
+    shown.holding.held.emit()
+
+    qtbot.keyClicks(shown.pin.line, "1234")
+    qtbot.keyClick(shown.pin.line, Qt.Key.Key_Return)
+    refused = shown.pin.words.text(), shown.isVisible()
+    qtbot.keyClicks(shown.pin.line, "2407")
+    qtbot.mouseClick(shown.pin.leave_button, Qt.MouseButton.LeftButton)
+
+    assert refused == ("This is not the PIN. Try again.", True)
+    assert window.isVisible()
+    assert "2407" not in (window.settings.folder / "settings.ini").read_text(encoding="utf-8")
+
+
+def test_what_runs_goes_on_when_the_show_is_left(
+    window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(WAITS)
+    shown = show(runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+
+    shown.leave()
+
+    assert window.running.runner.state == "running"
+    assert window.isVisible()
+
+
+@pytest.mark.parametrize("size", [(640, 480), (1024, 600), (1080, 1920), (3840, 2160)])
+def test_another_screen_shows_all_of_it(
+    open_program, show: Begin, qtbot: QtBot, size: tuple[int, int]
+) -> None:
+    open_program(SAY, name="A play with quite a long name that somebody gave it")
+    shown = show()
+
+    shown.setWindowState(Qt.WindowState.WindowNoState)
+    shown.resize(*size)
+
+    def is_inside(widget: QWidget) -> bool:
+        place = QRect(widget.mapTo(shown, QPoint(0, 0)), widget.size())
+        return shown.rect().contains(place)
+
+    parts = (shown.title, shown.state_words, shown.words, shown.run_button)
+    qtbot.waitUntil(lambda: shown.size().toTuple() == size and all(map(is_inside, parts)))
+    assert shown.run_button.height() >= size[1] * 0.1
+
+
+def test_when_a_screen_is_unplugged_it_covers_the_one_that_is_left(
+    open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(SAY)
+    shown = show()
+    shown.showNormal()
+
+    QGuiApplication.instance().screenRemoved.emit(QGuiApplication.primaryScreen())
+
+    qtbot.waitUntil(shown.isFullScreen)
+
+
+def test_the_operator_has_cues_and_their_keys(open_program, show: Begin, qtbot: QtBot) -> None:
+    open_program(WAITS)
+    shown = show(has_cues=True, runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+
+    qtbot.mouseClick(shown.cues.board.buttons[0], Qt.MouseButton.LeftButton)
+
+    qtbot.waitUntil(lambda: any("Ha" in line for line in shown.words.lines), timeout=WAIT_MS)
+
+
+def test_the_action_begins_the_show(window: MainWindow, open_program, qtbot: QtBot) -> None:
+    open_program(SAY)
+    add_show_mode(window)
+
+    qtbot.keyClick(window, Qt.Key.Key_F11)
+
+    shown = next(
+        w for w in QGuiApplication.instance().topLevelWidgets() if w.objectName() == "show"
+    )
+    assert shown.isFullScreen()
+    shown.leave()
+    QTest.qWait(0)
