@@ -23,6 +23,8 @@ log = logging.getLogger(__name__)
 T = TypeVar("T")
 
 HEARTBEAT_S = 1.0
+QUIET_BEATS = 5
+"""After so many heartbeats without another lost message a node is well again."""
 STOP_SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGTERM", "SIGINT", "SIGBREAK") if hasattr(signal, name)
 )
@@ -42,6 +44,9 @@ class Node:
         self._stopping = False
         self._stopped = Wake()  # an Event could deadlock in a signal handler
         self._host = socket.gethostname()
+        self._subscribers: list[Subscriber[Any]] = []
+        self._lost: dict[str, int] = {}
+        self._beats_since_loss = QUIET_BEATS
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
         try:
             self._states = Publisher(NODE_STATE, network=self.network)
@@ -71,7 +76,9 @@ class Node:
         callback: Callable[[T], None] | None = None,
     ) -> Subscriber[T]:
         """A subscriber of this node; its waits end when the node stops."""
-        return Subscriber(topic, kind, network=self.network, callback=callback)
+        subscriber = Subscriber(topic, kind, network=self.network, callback=callback)
+        self._subscribers.append(subscriber)
+        return subscriber
 
     def state(self, event: NodeEvent, description: str = "") -> None:
         """Tell how the node is doing."""
@@ -140,3 +147,21 @@ class Node:
             self._next_beat_s = time.monotonic() + HEARTBEAT_S
             # Not latched: a late joiner wants to know that the node is ready, not that it lives.
             self._states.send(self._state("alive"), latch=False)
+            self._look_for_losses()
+
+    def _look_for_losses(self) -> None:
+        """Warn when more messages came than the node could take, and say when that is over."""
+        lost: dict[str, int] = {}
+        for subscriber in self._subscribers:
+            lost[subscriber.topic] = lost.get(subscriber.topic, 0) + subscriber.lost_so_far
+        news = {topic: n - self._lost.get(topic, 0) for topic, n in lost.items()}
+        self._lost = lost
+        if topics := [topic for topic, count in news.items() if count > 0]:
+            self._beats_since_loss = 0
+            count = sum(news[topic] for topic in topics)
+            told = f"Messages of {', '.join(topics)} were lost: {count}. It could not keep up."
+            self.state("warning", told)
+        elif self._beats_since_loss < QUIET_BEATS:
+            self._beats_since_loss += 1
+            if self._beats_since_loss == QUIET_BEATS:
+                self.state("running", "It keeps up again.")

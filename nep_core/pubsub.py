@@ -128,6 +128,11 @@ class Subscriber(Generic[T]):
         self._look_at_head()
         return self._lost
 
+    @property
+    def lost_so_far(self) -> int:
+        """How many were lost before the last frame; any thread may ask."""
+        return self._lost
+
     def receive(self, timeout_s: float | None = None) -> T | None:
         """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
         while True:

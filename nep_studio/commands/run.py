@@ -144,7 +144,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--seconds", type=seconds, metavar="N", help="stop after so long")
     parser.add_argument("--recording", metavar="CSV", help="play this instead of the sensors")
     parser.add_argument(
-        "--speed", type=_speed, default=1.0, metavar="N", help="play it N times as fast: 0.1 to 50"
+        "--speed",
+        type=_speed,
+        default=1.0,
+        metavar="N",
+        help="let the recording, or virtual watches, and virtual robots go N times as fast: "
+        "0.1 to 50",
     )
     parser.add_argument(
         "--json",

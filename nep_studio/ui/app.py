@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QApplication
 
 from nep_studio import __version__, settings
@@ -79,6 +80,7 @@ def make_application() -> QApplication:
 
 def main(arguments: list[str]) -> int:
     """Open the window, with a project if one is named; the exit code."""
+    gc.disable()  # until the window is there: what is made before stays as long as it does
     from nep_studio.ui.last_resort import LastResort
     from nep_studio.ui.main_window import MainWindow
 
@@ -88,6 +90,13 @@ def main(arguments: list[str]) -> int:
         last_resort.watch(window)
         window.show()
         window.start(Path(arguments[0]) if arguments else None)
+        QTimer.singleShot(0, _collect_from_now_on)
         code = app.exec()
         window.deleteLater()
     return code
+
+
+def _collect_from_now_on() -> None:
+    """Collect garbage, but never look through what stays: that would hold the window up."""
+    gc.freeze()
+    gc.enable()

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QObject, QRect, QSize, Qt
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QFrame, QTextBrowser, QVBoxLayout
+from PySide6.QtWidgets import QFrame, QPushButton, QTextBrowser, QVBoxLayout
 
 from nep_studio.blocks.operations.subjects import Subject, subjects_of
 from nep_studio.blocks.procedures import CALL, header_of, procedure_of
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.places import beside
 from nep_studio.ui.find_bar import FindBar
+from nep_studio.ui.help.page_names import block_page
 from nep_studio.ui.screens import room_around
 from nep_studio.ui.words import tr
 
@@ -20,7 +23,12 @@ WIDTH_LETTERS = 46
 
 
 class HelpCard(QFrame):
-    """Tells about one block; a press elsewhere or Esc takes it away."""
+    """Tells about one block; a press elsewhere or Esc takes it away.
+
+    ``more_asked`` brings the page of the block, for which there is a button and F1.
+    """
+
+    more_asked = Signal(str)
 
     def __init__(self, canvas: Canvas, block: str) -> None:
         super().__init__(canvas, Qt.WindowType.Popup)
@@ -47,6 +55,16 @@ class HelpCard(QFrame):
         box = QVBoxLayout(self)
         box.setContentsMargins(*(self.fontMetrics().height() // 2,) * 4)
         box.addWidget(self.text)
+        self.more = QPushButton(tr("More…"))
+        self.more.setProperty("kind", "quiet")
+        self.more.setToolTip(tr("The page about this block (F1)"))
+        self.more.clicked.connect(self._ask_for_more)
+        self.more.hide()
+        box.addWidget(self.more, 0, Qt.AlignmentFlag.AlignTrailing)
+
+    def offer_more(self) -> None:
+        """Have a button that leads to the page about the block."""
+        self.more.show()
 
     def show_beside(self) -> None:
         """Show it beside its block, inside the screen; what is too long scrolls."""
@@ -73,25 +91,53 @@ class HelpCard(QFrame):
         width = self.fontMetrics().averageCharWidth() * WIDTH_LETTERS
         document = self.text.document()
         document.setTextWidth(width - 2 * line)
-        wanted = round(document.size().height()) + 2 * line
+        below = 0 if self.more.isHidden() else self.more.sizeHint().height()
+        wanted = round(document.size().height()) + 2 * line + below
         return QSize(width, min(wanted, most))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Esc takes it away."""
+        """Esc takes it away, F1 leads to the page."""
         if event.key() == Qt.Key.Key_Escape:
             self.close()
+        elif event.key() == Qt.Key.Key_F1 and not self.more.isHidden():
+            self._ask_for_more()
         else:
             super().keyPressEvent(event)
 
+    def _ask_for_more(self) -> None:
+        block_type = self._canvas.editor.project.blocks[self._block].type
+        self.close()
+        self.more_asked.emit(block_page(block_type))
+
 
 class BlockOpening(QObject):
-    """What opening a block of a canvas shows: a definition, uses, or what the block is."""
+    """What opening a block of a canvas shows: a definition, uses, or what the block is.
+
+    ``page_asked`` brings the page about a block; while ``is_page_shown``, the small card is left
+    out.
+    """
+
+    page_asked = Signal(str)
 
     def __init__(self, canvas: Canvas, find_bar: FindBar) -> None:
         super().__init__(canvas)
         self._canvas, self._find_bar = canvas, find_bar
+        self.is_page_shown: Callable[[], bool] | None = None
         canvas.block_opened.connect(self.open)
         canvas.help_requested.connect(self._on_help_requested)
+
+    @property
+    def canvas(self) -> Canvas:
+        """The canvas whose blocks are opened."""
+        return self._canvas
+
+    def answer(self, block: str) -> None:
+        """Tell about a block: on its page where that is open, else on a small card."""
+        blocks = self._canvas.editor.project.blocks
+        if block in blocks and self.is_page_shown is not None and self.is_page_shown():
+            self.page_asked.emit(block_page(blocks[block].type))
+        else:
+            self.show_card(block)
 
     def open(self, block: str) -> None:
         """Show what there is to see of a block without a field."""
@@ -115,7 +161,11 @@ class BlockOpening(QObject):
         editor = self._canvas.editor
         found = editor.project.blocks.get(block)
         if found is not None and found.type in editor.language.definitions:
-            HelpCard(self._canvas, block).show_beside()
+            card = HelpCard(self._canvas, block)
+            card.more_asked.connect(self.page_asked)
+            if self.is_page_shown is not None:
+                card.offer_more()
+            card.show_beside()
 
     def _value_subject(self, block: str) -> Subject | None:
         """The variable or parameter that a block stands for, and nothing else."""
@@ -130,4 +180,4 @@ class BlockOpening(QObject):
         return subject if subject and subject.kind in ("variable", "parameter") else None
 
     def _on_help_requested(self, page: str) -> None:
-        self.show_card(self._canvas.selection.cursor)
+        self.answer(self._canvas.selection.cursor)

@@ -38,8 +38,8 @@ def card_text(editor: Editor, block_id: str) -> str:
 
 
 def _about(definition: Definition) -> Iterator[str]:
-    yield _shape(definition)
     yield from (text for text in does(definition) if text)
+    yield _shape(definition)
     flags = {
         "in_loop": tr("It belongs inside a loop."),
         "stands": tr("The robot must stand for it."),

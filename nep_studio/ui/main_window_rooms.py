@@ -8,9 +8,11 @@ from PySide6.QtGui import QAction
 
 from nep_studio.ui.command_palette.palette import add_command_palette
 from nep_studio.ui.exporting.actions import NEEDS_PROJECT, add_exporting
+from nep_studio.ui.help.adding import add_help
 from nep_studio.ui.panels.cues.panel import add_cues_panel
 from nep_studio.ui.panels.log.panel import add_log_panel
 from nep_studio.ui.panels.robots.panel import add_robots_panel
+from nep_studio.ui.panels.sensors.panel import add_sensors_panel
 from nep_studio.ui.show.mode import add_show_mode
 from nep_studio.ui.study.adding import add_study
 from nep_studio.ui.tour.tour import add_tour
@@ -26,9 +28,12 @@ def add_rooms(window: MainWindow) -> None:
     """Add the panels and their actions, in the order of their tabs; they follow the project."""
     add_robots_panel(window)
     add_cues_panel(window)
+    add_sensors_panel(window)
     add_log_panel(window)
     add_exporting(window)
     add_show_mode(window)
+    help_desk = add_help(window)
+    help_desk.try_requested.connect(window.running.try_project)
     add_tour(window)
     add_study(window)
     add_command_palette(window)

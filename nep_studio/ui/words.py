@@ -8,6 +8,8 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import takewhile
+from pathlib import Path
 from typing import Any
 
 from nep_studio import paths
@@ -79,7 +81,7 @@ def is_right_to_left() -> bool:
 
 def available_languages() -> dict[str, str]:
     """The languages a person can choose: code to name, as its speakers write it."""
-    return {ENGLISH: "English"} | {code: _table(code).get("name", code) for code in _codes()}
+    return {ENGLISH: "English"} | {code: _name(code) for code in _codes()}
 
 
 def _codes() -> list[str]:
@@ -90,9 +92,20 @@ def _known() -> Iterable[str]:
     return {ENGLISH, PSEUDO, *_codes()}
 
 
+def _name(code: str) -> str:
+    """The language's own name, which stands before the tables: those take long to read."""
+    with _path(code).open(encoding="utf-8") as lines:
+        head = takewhile(lambda line: not line.startswith("["), lines)
+        name: str = tomllib.loads("".join(head)).get("name", code)
+    return name
+
+
 def _table(code: str) -> dict[str, Any]:
-    path = paths.resources() / "translations" / f"{code}.toml"
-    return tomllib.loads(path.read_text(encoding="utf-8"))
+    return tomllib.loads(_path(code).read_text(encoding="utf-8"))
+
+
+def _path(code: str) -> Path:
+    return paths.resources() / "translations" / f"{code}.toml"
 
 
 def _catalogue(code: str) -> _Catalogue:

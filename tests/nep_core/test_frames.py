@@ -100,7 +100,7 @@ def test_a_subscriber_reads_or_skips_any_frame(
     assert "the end" in received
 
 
-@given(st.lists(st.dictionaries(st.text(), json_values), min_size=1, max_size=20))
+@given(st.lists(st.dictionaries(st.text(), json_values), min_size=1, max_size=5))
 def test_a_subscriber_reads_all_messages_of_a_frame(
     subscriber: Subscriber[object], several: list[dict[str, object]]
 ) -> None:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QCoreApplication, QEvent
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.theme import Fonts, Theme, load_fonts, load_theme, themes
 
 HERE = Path(__file__).parent
+PATIENCE_MS = 20_000
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -17,6 +22,25 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.path.is_relative_to(HERE):
             item.add_marker(pytest.mark.qt_log_ignore("This plugin does not support"))
+
+
+@pytest.fixture
+def qtbot(qapp: QApplication, request: pytest.FixtureRequest) -> QtBot:
+    """The one of pytest-qt, which waits longer: what comes late on a busy computer still comes."""
+    patient = QtBot(request)
+    for name in ("waitUntil", "waitSignal", "waitExposed", "waitActive"):
+        setattr(patient, name, partial(getattr(patient, name), timeout=PATIENCE_MS))
+    return patient
+
+
+@pytest.fixture(autouse=True)
+def leaves_no_windows() -> Iterator[None]:
+    """What is to be deleted goes now: without a running event loop it would stay.
+
+    Every later change of look would then dress the windows of all earlier tests too.
+    """
+    yield
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
 @pytest.fixture(params=themes())

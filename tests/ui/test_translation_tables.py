@@ -14,6 +14,7 @@ from message_sources import OF_THE_SYSTEM, PARTS, ROOT, templates
 
 from nep_studio import paths
 from nep_studio.blocks.slots import KINDS
+from nep_studio.examples import examples
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.canvas.fields.titles import slot_name
 from nep_studio.ui.theme import load_theme, themes
@@ -108,10 +109,17 @@ def words_of_slots() -> Iterator[str]:
     yield from (kind.noun for kind in KINDS.values())
 
 
+def words_of_examples() -> Iterator[str]:
+    """What the gallery says of the examples, which is told in resources/examples/examples.toml."""
+    for example in examples():
+        yield from example.words()
+
+
 @cache
 def window_words() -> set[str]:
     titles = {load_theme(name).title for name in themes()}
     found = {*words_of_calls(), *words_of_edits(), *words_of_data(), *words_of_slots(), *titles}
+    found.update(words_of_examples())
     return {words for words in found if words.strip()}
 
 

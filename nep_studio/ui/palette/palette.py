@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent
+from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from nep_studio.blocks.edits import CreateBlocks, Edit
@@ -67,6 +69,7 @@ class Palette(QWidget):
         self.is_narrow = False
         self._drawers: list[Drawer] = []
         self._history: History | None = None
+        self._is_behind = self._goes_to_top = False
         self._later = QTimer(self, singleShot=True, interval=0)
         self._arrange()
         self._connect()
@@ -88,16 +91,26 @@ class Palette(QWidget):
         self.fill()
 
     def fill(self, *, to_top: bool = False) -> None:
-        """Show the blocks for the page, or those that are searched for."""
+        """Show the blocks for the page, or those that are searched for.
+
+        While the palette is hidden nobody sees the blocks: they come when it is shown.
+        """
         editor = self.canvas.editor
         kind = editor.project.kind_of_page(self.canvas.page)
         recent = recent_types(self.settings, editor.language, kind)
-        stock = Stock(editor)
         drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
         if drawers != self._drawers:
             self._drawers = drawers
             self.categories.show_drawers(drawers, self.canvas.theme)
             self._fit()
+        self._goes_to_top |= to_top
+        self._is_behind = not self.isVisible()
+        if not self._is_behind:
+            self._fill_shelf(recent)
+
+    def _fill_shelf(self, recent: Sequence[str]) -> None:
+        editor = self.canvas.editor
+        stock = Stock(editor)
         typed = self.search.text().strip()
         if typed:
             samples = [s for drawer in self._drawers for s in stock.offered(drawer.id)]
@@ -107,7 +120,8 @@ class Palette(QWidget):
         else:
             kept = self.snippets.all(editor.language)
             shown = entries.entries_of(stock, self._drawers, recent, kept)
-        self.shelf.show_entries(stock, shown, to_top=to_top or bool(typed))
+        self.shelf.show_entries(stock, shown, to_top=self._goes_to_top or bool(typed))
+        self._goes_to_top = False
 
     def open_drawer(self, drawer: str) -> None:
         """Show a category; a narrow palette becomes wide."""
@@ -249,6 +263,12 @@ class Palette(QWidget):
 
     def _on_delete_area_entered(self, is_over: bool) -> None:
         self.shelf.set_delete(is_over and is_taking(self.canvas, self))
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Show the blocks that there are by now."""
+        super().showEvent(event)
+        if self._is_behind:
+            self.fill()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Show the names of the categories where there is room for them."""

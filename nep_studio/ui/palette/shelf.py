@@ -28,6 +28,13 @@ class Shelf(ShelfView):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.viewport().setMouseTracking(True)
 
+    @property
+    def marked_type(self) -> str:
+        """The type of the block under the mouse, or else at the keyboard; empty when none."""
+        number = self._hovered if self._hovered >= 0 else self._current
+        sample = self._entries[number].sample if number >= 0 else ""
+        return self._stock.project.blocks[sample].type if sample else ""
+
     # Mouse
 
     def clip_of(self, entry: Entry) -> Clip | None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from html import escape
 
-from nep_studio import paths
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.to_python import python_of
 from nep_studio.blocks.program import Project
+from nep_studio.help.texts import BlockText, block_texts
 from nep_studio.ui.words import language_code, tr
 
 from .stock import Stock
@@ -38,24 +38,9 @@ def python(project: Project, language: Language, block: str) -> str:
 
 def does(definition: Definition) -> list[str]:
     """What the blocks of a definition do, in sentences; some may be empty."""
-    told = [first_paragraph(definition.help)]
+    told = [block_texts(language_code()).get(definition.id, BlockText()).about]
     if "takes_time" in definition.flags:
         told.append(tr("The program waits here until it is done."))
     if "needs_real_robot" in definition.flags:
         told.append(tr("Needs a real robot: the one on the screen cannot do it."))
     return told
-
-
-def first_paragraph(page: str) -> str:
-    """The first words of a help page, in the person's language or else in English."""
-    folder = paths.resources() / "help"
-    for path in (
-        folder / language_code() / f"{page}.md",
-        folder / "en" / f"{page}.md",
-        folder / f"{page}.md",
-    ):
-        if page and path.is_file():
-            lines = path.read_text(encoding="utf-8").split("\n\n")
-            plain = (part.strip().replace("\n", " ") for part in lines)
-            return next((part for part in plain if part and not part.startswith("#")), "")
-    return ""

@@ -13,7 +13,9 @@ from nep_studio.blocks.checks import Problem as BlockProblem
 from nep_studio.blocks.checks.problem import page_of
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import BlocksError, CodeRefused
+from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
+from nep_studio.blocks.program import Project
 from nep_studio.plan import Choices, PlannedNode, plan
 from nep_studio.problems import problem_of
 from nep_studio.session import Ending, Watching
@@ -93,6 +95,23 @@ class RunControl(QObject):
     def close(self) -> None:
         """Stop everything, and wait for it."""
         self.runner.close()
+
+    def try_project(self, project: Project) -> None:
+        """Run a little program of the help; the project on the canvas stays as it is."""
+        if self.runner.state != "idle":
+            told = "Another program is running.", ("Stop it, then try again.",)
+            self._window.messages.refuse(*told)
+            return
+        language = self._window.studio.language
+        try:
+            code = generate_program(project, language)
+            nodes = plan(project, language, Choices(), Path.cwd())
+        except (BlocksError, NepError) as error:
+            self._window.messages.tell_error(error)
+            return
+        self._was_stopped = self._has_begun = self.is_stale = False
+        self.stage.begin(code)
+        self.runner.start(Request(code, tuple(nodes), Watching((), self.line_s)))
 
     def planned(self) -> list[PlannedNode]:
         """The nodes that the open project needs now."""
@@ -207,6 +226,14 @@ class RunControl(QObject):
     def _on_state_changed(self, state: str) -> None:
         if state == "running":
             self._has_begun = True
+            self._show_robots()
+
+    def _show_robots(self) -> None:
+        """Let a person who has never shown nor hidden the robots see them at the first run."""
+        window = self._window
+        for panel in window.workbench.panels.all:
+            if panel.name == "RobotsPanel" and not window.settings.is_chosen(panel.name):
+                window.workbench.panels.show(panel.widget)
 
     def _on_edited(self, _changes: object) -> None:
         if self.runner.state != "idle" and not self.is_stale:

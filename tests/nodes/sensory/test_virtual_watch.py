@@ -24,6 +24,20 @@ def test_it_sends_small_batches_in_real_time_and_says_that_it_is_simulated(liste
     assert batches[0].source == "simulated person 103"
 
 
+def test_it_may_live_faster_than_real_time_by_a_clock_of_its_own(listener):
+    listener.start("virtual_watch", rate_hz=50, person=103, speed=4)
+    listener.state("ready", "4 times as fast as real time")
+
+    began_s = time.monotonic()
+    batches = listener.batches_for(2.0)
+    took_s = time.monotonic() - began_s
+
+    t = [at for batch in batches for at in batch.t]
+    assert np.allclose(np.diff(t), 0.02)
+    assert took_s * 2 < t[-1] - t[0] < took_s * 4 + 1
+    assert {batch.rate_hz for batch in batches} == {50}
+
+
 def test_a_gesture_is_made_on_request_and_announced(listener):
     listener.start("virtual_watch", person=103)
     listener.state("ready")

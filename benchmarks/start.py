@@ -1,0 +1,166 @@
+"""From starting the program to a window that can be used, warm, from source.
+
+A window can be used when its first page is painted and the event loop has nothing left to do.
+Offscreen, and under Xvfb where it is installed. With ``--with-peers`` Orange Canvas, another
+editor made with Qt and Python, is measured in turn with ours: without its splash screen and
+without its welcome window, and with no widget installed, so that it has the least to do.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import peers
+from .virtual_display import NoDisplay, virtual_display
+
+ROOT = Path(__file__).resolve().parents[1]
+CHILD = Path(__file__).with_name("_start_child.py")
+MOST_S = 1.2
+ROUNDS = 9
+LONGEST_S = 60
+FETCH_S = 400
+ORANGE = ("orange-canvas-core==0.2.9", "PyQt6==6.11.0")
+"""It knows PyQt only; with the Qt that we have."""
+
+Row = dict[str, Any]
+
+
+class PeerMissing(Exception):
+    """Orange cannot be measured on this machine; the text says what is missing."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program with a window, and the Python that it is started with."""
+
+    name: str
+    python: str
+    words: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Start:
+    """One start: on the clock, and the CPU time of all threads of the process."""
+
+    wall_s: float
+    cpu_s: float
+
+
+OURS = Program("ours", sys.executable, ("PySide6", "nep_studio"))
+
+
+def run() -> list[Row]:
+    """Medians of some starts, ours and Orange's one after the other."""
+    with ExitStack() as ending:
+        programs, rows = [OURS], []
+        if peers.are_wanted():
+            try:
+                programs.append(ending.enter_context(_orange()))
+            except PeerMissing as reason:
+                missing = {"name": f"start of Orange: not measured. {reason}", "value": None}
+                rows.append({**missing, "unit": "", "goal": "to be measured", "ok": False})
+        rows += _measured("offscreen", programs, os.environ | {"QT_QPA_PLATFORM": "offscreen"})
+        try:
+            display = ending.enter_context(virtual_display())
+        except NoDisplay as reason:
+            return [*rows, {"name": f"start under Xvfb: not measured. {reason}", **_NOTHING}]
+        return rows + _measured("under Xvfb", programs, display)
+
+
+_NOTHING: Row = {"value": None, "unit": ""}
+
+
+def _measured(where: str, programs: Sequence[Program], environment: dict[str, str]) -> list[Row]:
+    """The medians of each program, after one start that fills the caches."""
+    starts: dict[str, list[Start]] = {program.name: [] for program in programs}
+    with tempfile.TemporaryDirectory(prefix="nep-start-") as home:
+        private = _private(environment, home)
+        for round_number in range(ROUNDS + 1):
+            for program in programs:
+                one = _start(program, private)
+                if round_number:
+                    starts[program.name].append(one)
+    wall_s = {name: statistics.median(one.wall_s for one in some) for name, some in starts.items()}
+    cpu_s = {name: statistics.median(one.cpu_s for one in some) for name, some in starts.items()}
+    name = f"start to a usable window, {where}"
+    goal = {"goal": f"under {MOST_S:g} s", "ok": wall_s["ours"] < MOST_S}
+    rows: list[Row] = [
+        {"name": name, "value": round(wall_s["ours"], 3), "unit": "s", **goal},
+        {"name": f"{name}: CPU", "value": round(cpu_s["ours"], 3), "unit": "s CPU"},
+    ]
+    if "Orange" in starts:
+        rows += [
+            _against_orange(name, wall_s, "s"),
+            _against_orange(f"{name}: CPU", cpu_s, "s CPU"),
+        ]
+    return rows
+
+
+def _against_orange(name: str, found_s: dict[str, float], unit: str) -> Row:
+    ratio = found_s["ours"] / found_s["Orange"]
+    return {
+        "name": f"{name}, to Orange",
+        "value": round(found_s["ours"], 3),
+        "unit": unit,
+        "reference": round(found_s["Orange"], 3),
+        "ratio": round(ratio, 3),
+        "goal": "faster than Orange",
+        "ok": ratio < 1,
+    }
+
+
+def _private(environment: dict[str, str], home: str) -> dict[str, str]:
+    """Settings of nobody: each program begins as on a computer where it was used once before."""
+    away = ("XDG_", "PYTHONDONTWRITEBYTECODE")  # a warm start finds compiled code
+    kept = {key: value for key, value in environment.items() if not key.startswith(away)}
+    folders = {"HOME": home, "NEP_STUDIO_FOLDER": str(Path(home) / "nep"), "XDG_RUNTIME_DIR": home}
+    return kept | folders | {"QT_API": "pyqt6", "PYTHONUTF8": "1"}
+
+
+def _start(program: Program, environment: dict[str, str]) -> Start:
+    command = [program.python, str(CHILD), *program.words]
+    began_s = time.perf_counter()
+    with subprocess.Popen(
+        command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as child:
+        assert child.stdout is not None
+        line = child.stdout.readline()
+        wall_s = time.perf_counter() - began_s
+        _, said = child.communicate(timeout=LONGEST_S)
+    if not line:
+        raise RuntimeError(f"{program.name} did not start:\n{said.decode(errors='replace')}")
+    return Start(wall_s, float(json.loads(line)["cpu_s"]))
+
+
+@contextmanager
+def _orange() -> Iterator[Program]:
+    """Orange Canvas in an environment of its own, which is removed afterwards.
+
+    Raises PeerMissing.
+    """
+    with tempfile.TemporaryDirectory(prefix="nep-orange-") as folder:
+        is_windows = sys.platform == "win32"
+        python = Path(folder) / ("Scripts/python.exe" if is_windows else "bin/python")
+        make = [sys.executable, "-m", "venv", folder]
+        fetch = [str(python), "-m", "pip", "install", "--quiet", "--no-input", *ORANGE]
+        for command in (make, fetch):
+            try:
+                done = subprocess.run(command, capture_output=True, text=True, timeout=FETCH_S)
+            except subprocess.TimeoutExpired as error:
+                raise PeerMissing(f"{ORANGE[0]} could not be fetched in {FETCH_S} s.") from error
+            if done.returncode != 0:
+                last = done.stderr.strip()[-400:]
+                raise PeerMissing(f"{ORANGE[0]} could not be fetched with pip: {last}")
+        words = ("PyQt6", "orangecanvas", "--no-splash", "--no-welcome")
+        yield Program("Orange", str(python), words)

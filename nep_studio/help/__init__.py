@@ -1,0 +1,1 @@
+"""What the help says, read from files: texts, how-to pages, examples, and an index of them."""

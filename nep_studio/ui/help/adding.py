@@ -1,0 +1,51 @@
+"""Brings the help into a main window: panel, menu entries, F1."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from nep_studio.ui.main_window_help import on_the_canvas, shortcuts_of
+from nep_studio.ui.words import tr
+
+from .book import Rows
+from .desk import HelpDesk
+from .panel import HelpPanel
+
+if TYPE_CHECKING:
+    from nep_studio.ui.main_window import MainWindow
+
+
+def add_help(window: MainWindow) -> HelpDesk:
+    """Add the help to a window whose menus are made; the desk goes with the workbench.
+
+    Its ``try_requested`` brings a Project that can run as it is.
+    """
+    workbench = window.workbench
+
+    def shortcuts() -> Rows:
+        return [*shortcuts_of(window.actions_by_name.by_name.values()), *on_the_canvas()]
+
+    def new_panel() -> HelpPanel:
+        return HelpPanel(workbench.canvas, window.look, window.studio.language, shortcuts)
+
+    panel, icon_name = new_panel(), "circle-question-mark"
+    window.add_side_panel(panel, tr("Help"), icon_name, "right", is_shown=False)
+    desk = HelpDesk(panel, new_panel, workbench.panels, workbench.helpers.opening)
+    _add_actions(window, desk)
+    for menu in window.menus.values():
+        desk.listen(menu)
+    return desk
+
+
+def _add_actions(window: MainWindow, desk: HelpDesk) -> None:
+    """F1 and the first entries of the Help menu."""
+    menu, add = window.menus["help"], window.actions_by_name.add
+    first = menu.actions()[0]
+    entries = [
+        add("help", tr("Help"), desk.answer, icon_name="circle-question-mark", keys="F1"),
+        add("help_contents", tr("Contents of the help"), desk.open, icon_name="book-open"),
+        add("help_search", tr("Search the help…"), desk.search, icon_name="search"),
+    ]
+    for action in entries:
+        menu.insertAction(first, action)
+    menu.insertSeparator(first)

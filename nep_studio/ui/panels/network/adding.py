@@ -1,0 +1,40 @@
+"""Brings the network panel into a window."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from nep_studio.ui.panels.nodes.adding import tell_not_saved
+from nep_studio.ui.words import tr
+
+from .feed import feed_of
+from .panel import NetworkPanel
+
+if TYPE_CHECKING:
+    from nep_studio.ui.main_window import MainWindow
+
+LEAST_SHARE = 0.45
+"""How much of the height beside the canvas a graph needs to be of use."""
+
+
+def add_network_panel(window: MainWindow) -> NetworkPanel:
+    """Add the panel below the canvas; call it each time the workbench is made.
+
+    Connect its ``plot_requested`` to the sensors panel and its ``node_chosen`` to the node panel.
+    """
+    runner, workbench = window.running.runner, window.workbench
+    feed = feed_of(window.running, lambda: runner.local.network)
+    panel = NetworkPanel(feed, lambda: runner.board.nodes, runner, window.look)
+    added = window.add_side_panel(panel, tr("Network"), "share-2", "bottom", is_shown=False)
+    panel.run_asked.connect(runner.run)
+    panel.saving_failed.connect(lambda path, reason: tell_not_saved(window, path, reason))
+
+    def make_room(is_on: bool) -> None:
+        column = workbench.panels.column
+        above, below = column.sizes()
+        wanted = round((above + below) * LEAST_SHARE)
+        if is_on and below < wanted:
+            column.setSizes([above + below - wanted, wanted])
+
+    added.action.toggled.connect(make_room)
+    return panel

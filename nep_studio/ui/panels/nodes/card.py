@@ -1,0 +1,207 @@
+"""The card of one node: what it is, how it is doing, what it costs, and what can be done."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.elided_label import ElidedLabel
+from nep_studio.ui.panels.network.graph_words import rate_words
+from nep_studio.ui.theme import Look, icon, icon_pixmap
+from nep_studio.ui.words import count_words, tr
+
+from .entries import Entry
+from .looks import icon_of, manifest_of, state_look, type_words
+
+LINES_WIDE = 19
+ARROWS = {
+    Qt.Key.Key_Left: -1,
+    Qt.Key.Key_Up: -1,
+    Qt.Key.Key_Right: 1,
+    Qt.Key.Key_Down: 1,
+}
+
+
+class NodeCard(QFrame):
+    """Shows an entry; each signal gives the node's name, ``moved`` where the arrow keys go."""
+
+    start_asked = Signal(str)
+    stop_asked = Signal(str)
+    restart_asked = Signal(str)
+    log_asked = Signal(str)
+    moved = Signal(int)
+
+    def __init__(self, entry: Entry, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self._entry: Entry | None = None
+        self._is_drawn_for = ""
+        self.setProperty("kind", "card")
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.sign, self.state_sign = QLabel(), QLabel()
+        self.name, self.kind, self.state = ElidedLabel(), ElidedLabel(), ElidedLabel()
+        self.name.setProperty("role", "heading")
+        self.figures, self.reason = ElidedLabel(), ElidedLabel()
+        for label in (self.kind, self.figures, self.reason):
+            label.setProperty("role", "hint")
+        self.start_button = self._button(tr("Start"), "play", self.start_asked)
+        self.stop_button = self._button(tr("Stop"), "square", self.stop_asked)
+        self.restart_button = self._button(tr("Restart"), "refresh-cw", self.restart_asked)
+        self.log_button = self._button(tr("Log"), "scroll-text", self.log_asked)
+        self.buttons = (
+            self.start_button,
+            self.stop_button,
+            self.restart_button,
+            self.log_button,
+        )
+        self._lay_out()
+        self.show_entry(entry)
+
+    @property
+    def entry(self) -> Entry:
+        """What it shows."""
+        assert self._entry is not None
+        return self._entry
+
+    def _lay_out(self) -> None:
+        head, state, foot = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
+        names = QVBoxLayout()
+        names.setSpacing(0)
+        names.addWidget(self.name)
+        names.addWidget(self.kind)
+        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
+        head.addLayout(names, 1)
+        state.addWidget(self.state_sign)
+        state.addWidget(self.state, 1)
+        for button in self.buttons:
+            foot.addWidget(button)
+        foot.addStretch(1)
+        box = QVBoxLayout(self)
+        box.setSpacing(self.fontMetrics().height() // 5)
+        box.addLayout(head)
+        box.addLayout(state)
+        box.addWidget(self.figures)
+        box.addWidget(self.reason)
+        box.addLayout(foot)
+
+    def show_entry(self, entry: Entry) -> None:
+        """Show how the node is doing now; nothing is done when that is as it was."""
+        if entry == self._entry:
+            return
+        self._entry = entry
+        self._draw_signs()
+        status, look = entry.status, state_look(entry.status)
+        manifest = manifest_of(status.node)
+        title = tr(manifest.title) if manifest else ""
+        kind = type_words(status.type)
+        described = " ".join(status.description.split())
+        self.name.set_words(entry.name)
+        self.kind.set_words(f"{title} · {kind}" if title else kind)
+        self.state.set_words(f"{look.word}: {described}" if described else look.word)
+        self.figures.set_words(" · ".join(figures_of(entry)))
+        self.reason.set_words(why_words(entry))
+        self.start_button.setEnabled(entry.can_start)
+        self.stop_button.setEnabled(entry.can_stop)
+        self.restart_button.setEnabled(entry.can_restart)
+        self.log_button.setEnabled(entry.has_log)
+        for button in self.buttons:
+            button.setVisible(not entry.is_foreign)
+        words = (entry.name, kind, self.state.words, self.figures.words, self.reason.words)
+        self.setAccessibleName(". ".join(word for word in words if word))
+
+    def redraw(self) -> None:
+        """Draw the icons in another theme or size."""
+        self._is_drawn_for = ""
+        self._draw_signs()
+        names = ("play", "square", "refresh-cw", "scroll-text")
+        for button, name in zip(self.buttons, names, strict=True):
+            button.setIcon(icon(name, self._look.theme))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter opens the log, the arrow keys go to the next card."""
+        key = Qt.Key(event.key())
+        if key in ARROWS:
+            self.moved.emit(ARROWS[key])
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.entry.has_log:
+            self.log_asked.emit(self.entry.name)
+        else:
+            super().keyPressEvent(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Show where the keyboard is."""
+        super().paintEvent(event)
+        if self.hasFocus():
+            line = self.fontMetrics().height() / 8
+            painter = QPainter(self)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(QPen(self._look.theme.colour("focus"), line))
+            edge = line / 2
+            rect = self.rect().toRectF().adjusted(edge, edge, -edge, -edge)
+            painter.drawRoundedRect(rect, line * 3, line * 3)
+            painter.end()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Open the log."""
+        if self.entry.has_log:
+            self.log_asked.emit(self.entry.name)
+
+    def _draw_signs(self) -> None:
+        status, state = self.entry.status, state_look(self.entry.status)
+        line = self.fontMetrics().height()
+        wanted = f"{status.node} {status.type} {state.icon} {state.colour} {line}"
+        if wanted == self._is_drawn_for:
+            return
+        self._is_drawn_for = wanted
+        theme, ratio = self._look.theme, self.devicePixelRatioF()
+        name = icon_of(status.node, status.type)
+        self.sign.setPixmap(icon_pixmap(name, theme.colour("text"), line * 1.6, ratio))
+        colour = theme.colour(state.colour)
+        self.state_sign.setPixmap(icon_pixmap(state.icon, colour, line, ratio))
+        self.state.setStyleSheet(f"color: {colour.name()}")
+
+    def _button(self, words: str, icon_name: str, asked: object) -> QToolButton:
+        button = QToolButton()
+        button.setText(words)
+        button.setToolTip(words)
+        button.setAccessibleName(words)
+        button.setIcon(icon(icon_name, self._look.theme))
+        button.clicked.connect(lambda: asked.emit(self.entry.name))  # type: ignore[attr-defined]
+        return button
+
+
+def figures_of(entry: Entry) -> list[str]:
+    """What is measured of a node, in words."""
+    found: list[str] = []
+    if entry.seen is not None:
+        found.append(rate_words(entry.seen.rate_hz))
+        if entry.seen.use is not None:
+            use = entry.seen.use
+            found.append(tr("processor {percent} %", percent=f"{use.cpu_percent:.0f}"))
+            found.append(tr("{size} MB", size=f"{use.memory_bytes / 1e6:,.0f}"))
+    if entry.status.restarts:
+        found.append(count_words(entry.status.restarts, "restarted once", "restarted {n} times"))
+    return found
+
+
+def why_words(entry: Entry) -> str:
+    """Why the node is there."""
+    if entry.is_foreign:
+        return tr("Started elsewhere: it can be stopped there.")
+    if entry.is_program:
+        return tr("Your blocks, as a program: Run starts it.")
+    planned = entry.planned
+    if planned is None:
+        return ""
+    if planned.reason:
+        return tr("Needed: {reason}", reason=tr(planned.reason))
+    return tr("Needed: it is on a page of your project") if planned.block_id else ""

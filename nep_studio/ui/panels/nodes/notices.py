@@ -1,0 +1,178 @@
+"""What a change of a node's state means for the person: a problem, and fixes by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from nep_core.process import STEP
+from nep_studio.node_board import NodeStatus
+from nep_studio.problems import Problem
+from nep_studio.ui.messages import Kind
+from nep_studio.ui.words import tr
+
+Fix = Literal[
+    "start",
+    "restart",
+    "show_log",
+    "show_settings",
+    "use_virtual",
+    "change_address",
+    "run",
+]
+
+STARTED_AGAIN = "; it is started again"
+"""How the studio's own words for a crashed node end when it has another try (see voice.py)."""
+
+BAD = frozenset({"warning", "frozen", "crashed"})
+WELL = frozenset({"ready", "busy"})
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """What is known beside the states themselves.
+
+    ``was_asked``: somebody just stopped it here. ``is_ending``: the whole program is being
+    stopped. ``was_ready``: it has been ready since it was started by a person.
+    """
+
+    is_ours: bool = False
+    is_program: bool = False
+    was_asked: bool = False
+    is_ending: bool = False
+    was_ready: bool = False
+    has_block: bool = False
+    address: str = ""
+
+
+@dataclass(frozen=True)
+class Notice:
+    """What to tell of a node. One with a ``key`` that was told last is not told again."""
+
+    node: str
+    key: str
+    kind: Kind
+    problem: Problem
+    fixes: tuple[Fix, ...] = ()
+    passes: bool = False
+
+
+def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -> Notice | None:
+    """What has to be told; None when nothing has."""
+    if before is not None and _same(before, after):
+        return None
+    if after.health == "frozen":
+        return _frozen(after, at)
+    if after.event == "connection_failed":
+        return _no_connection(after, at)
+    if after.health == "warning":
+        return _warning(after, at)
+    if after.health == "crashed":
+        return None if at.is_ending or at.is_program else _ended(after, at)
+    if after.health == "stopped" and before is not None:
+        return _stopped(after, at)
+    return None
+
+
+def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
+    """Whether what was told of a node is over: it is well again, or was started anew."""
+    is_back = after.health in WELL and (before is None or before.health not in WELL)
+    return is_back or (after.health == "stopped" and before is not None and before.is_there)
+
+
+def _same(before: NodeStatus, after: NodeStatus) -> bool:
+    mine = (before.health, before.event, before.description)
+    return mine == (after.health, after.event, after.description)
+
+
+def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
+    name = status.name
+    steps: tuple[str, ...]
+    if at.is_program:
+        steps = (tr("Stop the program and run it again."), tr("Does a rule wait for something?"))
+        problem = Problem(tr("The program does not answer"), _silent(name), steps)
+        return Notice(name, "frozen", "warning", problem, ("run", "show_log"))
+    steps = (
+        (tr("Wait a moment: is the computer busy?"), tr("Restart it."), tr("Look into its log."))
+        if at.is_ours
+        else (tr("Restart it where it was started."), tr("Is its computer still on the network?"))
+    )
+    problem = Problem(tr("“{name}” does not answer", name=name), _silent(name), steps)
+    fixes: tuple[Fix, ...] = ("restart", "show_log") if at.is_ours else ()
+    return Notice(name, "frozen", "warning", problem, fixes)
+
+
+def _silent(name: str) -> str:
+    return tr("“{name}” has said nothing for three seconds.", name=name)
+
+
+def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
+    """The node's own words are a sentence and a checklist."""
+    first, *rest = status.description.splitlines() or [""]
+    steps = tuple(tr(line.removeprefix(STEP.lstrip())) for line in rest if line.strip())
+    where = tr(
+        "The program could not reach {name} at {address}.", name=status.name, address=at.address
+    )
+    sentence = tr(first) if first else where
+    problem = Problem(tr("{name} does not answer", name=status.name), sentence, steps)
+    fixes: tuple[Fix, ...] = ("use_virtual", "change_address") if at.has_block else ()
+    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
+
+
+def _warning(status: NodeStatus, at: Circumstances) -> Notice:
+    name, described = status.name, " ".join(status.description.split())
+    steps: tuple[str, ...]
+    if status.event == "disconnected":
+        title = tr("“{name}” has lost its connection", name=name)
+        steps = (tr("It goes on trying by itself."), tr("Is the device switched on and near?"))
+    else:
+        title = tr("“{name}” needs attention", name=name)
+        steps = (tr("Look into its log."), tr("Look at its settings."))
+    problem = Problem(title, tr(described), steps)
+    fixes: list[Fix] = ["show_log"] if at.is_ours or at.is_program else []
+    if at.has_block:
+        fixes.append("show_settings")
+    return Notice(name, f"warning {described}", "warning", problem, tuple(fixes))
+
+
+def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
+    name = status.name
+    steps: tuple[str, ...]
+    described = tr(status.description.partition(STARTED_AGAIN)[0])
+    if not at.is_ours:
+        title = tr("“{name}” has ended unexpectedly", name=name)
+        steps = (tr("Start it again where it was started."),)
+        return Notice(name, "ended", "warning", Problem(title, described, steps))
+    if status.description.endswith(STARTED_AGAIN):
+        title = tr("“{name}” ended unexpectedly and is started again", name=name)
+        steps = (tr("Wait a moment: it comes back by itself."), tr("Look into its log."))
+        return Notice(
+            name, "restarting", "warning", Problem(title, described, steps), ("show_log",)
+        )
+    if not status.description.startswith(f"{name} "):
+        return None  # its own last words; what became of its process follows at once
+    if not at.was_ready:
+        return None  # who started it is told why it could not start
+    title = tr("“{name}” ended unexpectedly", name=name)
+    steps = (tr("Start it again."), tr("Look into its log: why did it end?"))
+    return Notice(name, "ended", "error", Problem(title, described, steps), ("start", "show_log"))
+
+
+def _stopped(status: NodeStatus, at: Circumstances) -> Notice | None:
+    name = status.name
+    if at.is_ending or at.is_program or not at.is_ours:
+        return None
+    if at.was_asked:
+        title = tr("“{name}” was stopped", name=name)
+        return Notice(name, "stopped", "info", Problem(title), ("start",), passes=True)
+    title = tr("“{name}” has ended by itself", name=name)
+    steps = (tr("Start it again, if the program needs it."),)
+    return Notice(name, "stopped", "info", Problem(title, "", steps), ("start", "show_log"))
+
+
+def could_not_start(name: str, problem: Problem, at: Circumstances) -> Notice:
+    """What to tell when a node that a person started did not come up."""
+    fixes: list[Fix] = ["start", "show_log"]
+    if at.has_block:
+        fixes.insert(0, "show_settings")
+    return Notice(name, "could not start", "error", problem, tuple(fixes))

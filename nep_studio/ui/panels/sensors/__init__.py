@@ -1,0 +1,1 @@
+"""Live curves of watches, phones and any number that a node sends."""

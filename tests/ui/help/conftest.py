@@ -1,0 +1,113 @@
+"""What the tests of the help share: a window with the help in it, and a panel by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from nep_studio import paths
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.program import Project
+from nep_studio.settings import FOLDER_VARIABLE, Settings
+from nep_studio.studio_language import studio_language
+from nep_studio.ui.app import Studio
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.help.adding import add_help
+from nep_studio.ui.help.book import Book
+from nep_studio.ui.help.desk import HelpDesk
+from nep_studio.ui.help.panel import HelpPanel
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.words import use_language
+
+LANGUAGE = studio_language()
+
+
+@pytest.fixture
+def book() -> Book:
+    return Book(LANGUAGE, lambda: [("Run", "F5")])
+
+
+@pytest.fixture
+def studio(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qapp):
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path / "home"))
+    settings = Settings(tmp_path / "home")
+    settings.language, settings.theme = "en", "light"
+    made = Studio(qapp, settings)
+    yield made
+    use_language("en")
+    made.look.deleteLater()
+    made.deleteLater()
+
+
+@pytest.fixture
+def window(studio: Studio, qtbot: QtBot):
+    """The window as it is at the first start."""
+    made = MainWindow(studio)
+    qtbot.addWidget(made)
+    made.show()
+    made.start(None)
+    qtbot.waitExposed(made)
+    yield made
+    made.workbench.retire()
+    if made.files.document is not None:
+        made.files.document.close()
+        made.files.document = None
+
+
+@pytest.fixture
+def desk(window: MainWindow) -> HelpDesk:
+    """The help of the window."""
+    made = getattr(window, "help_desk", None) or add_help(window)
+    yield made
+    if made._window is not None:
+        made._window.close()
+
+
+@pytest.fixture
+def karate(window: MainWindow, desk: HelpDesk, qtbot: QtBot) -> MainWindow:
+    """The window with the karate example, and with help."""
+    window.files.open_example(paths.examples() / "karate_greeting.nep")
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+    window.activateWindow()
+    window.workbench.canvas.setFocus()
+    qtbot.waitUntil(window.workbench.canvas.hasFocus)
+    return window
+
+
+@pytest.fixture
+def first_of(karate: MainWindow) -> Callable[[str], str]:
+    """The first block of a type."""
+
+    def find(block_type: str) -> str:
+        blocks = karate.workbench.canvas.editor.project.blocks.values()
+        return next(block.id for block in blocks if block.type == block_type)
+
+    return find
+
+
+@pytest.fixture
+def canvas(studio, qtbot) -> Canvas:
+    made = Canvas(Editor(Project(), LANGUAGE), studio.look.theme)
+    qtbot.addWidget(made)
+    made.resize(700, 600)
+    made.show()
+    return made
+
+
+@pytest.fixture
+def panel(canvas, studio, qtbot) -> HelpPanel:
+    made = HelpPanel(canvas, studio.look, LANGUAGE, lambda: [("Run", "F5")])
+    qtbot.addWidget(made)
+    made.resize(380, 800)
+    made.show()
+    qtbot.waitExposed(made)
+    made.activateWindow()
+    return made
+
+
+def centre(widget: QWidget):
+    return widget.mapToGlobal(widget.rect().center())

@@ -1,0 +1,261 @@
+"""The help panel: pages, links, search, ways back, examples that are dragged out and tried."""
+
+from __future__ import annotations
+
+import time
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QGuiApplication, QWheelEvent
+from PySide6.QtWidgets import QApplication
+
+from nep_studio.ui.help.book import Book
+from nep_studio.ui.help.panel import HelpPanel
+from nep_studio.ui.help.printing import print_page
+from tests.ui.help.conftest import LANGUAGE
+
+KEY, LEFT = Qt.Key, Qt.MouseButton.LeftButton
+
+
+def text(panel: HelpPanel) -> str:
+    return panel.browser.toPlainText()
+
+
+def listed(panel: HelpPanel) -> list[str]:
+    found = panel.contents.found
+    return [found.item(row).data(Qt.ItemDataRole.UserRole) for row in range(found.count())]
+
+
+def test_the_panel_opens_with_the_contents_and_every_page_can_be_shown(panel):
+    assert "Press F1 on anything" in text(panel)
+
+    for name in panel.book.titles:
+        panel.open(name)
+
+        assert panel.browser.page.name == name
+        assert len(text(panel)) > 40
+        assert "{{" not in text(panel)
+
+
+def test_pictures_are_as_sharp_as_the_screen_and_no_wider_than_the_page(panel):
+    panel.open("block/robot_moves.play_changed")
+
+    look = panel.browser.picture_look()
+    picture = panel.browser.loadResource(2, "picture:robot_moves.play_changed")
+
+    assert picture.devicePixelRatio() == look.ratio
+    assert 100 < picture.width() / look.ratio <= panel.browser.viewport().width()
+    assert panel.browser.horizontalScrollBar().maximum() == 0
+
+
+def test_no_page_is_wider_than_a_narrow_panel(panel):
+    panel.resize(320, 600)
+    wide = []
+    for name in panel.book.titles:
+        panel.open(name)
+        if panel.browser.horizontalScrollBar().maximum() > 0:
+            wide.append(name)
+
+    assert wide == []
+
+
+def test_a_link_leads_to_its_page_and_back_and_forward_lead_to_and_fro(panel, qtbot):
+    panel.open("block/robot.say")
+    bar = panel.browser.verticalScrollBar()
+    bar.setValue(bar.maximum())
+    left_at = bar.value()
+    panel.browser.anchorClicked.emit("help:block/text.join")
+    assert panel.browser.page.name == "block/text.join"
+
+    qtbot.mouseClick(panel.tools.back, LEFT)
+    assert panel.browser.page.name == "block/robot.say"
+    assert bar.value() == left_at
+    qtbot.keyClick(panel.browser, KEY.Key_Right, Qt.KeyboardModifier.AltModifier)
+    assert panel.browser.page.name == "block/text.join"
+    qtbot.keyClick(panel.browser, KEY.Key_Backspace)
+    qtbot.keyClick(panel.browser, KEY.Key_Backspace)
+
+    assert panel.browser.page.name == "home"
+    assert not panel.tools.back.isEnabled()
+
+
+def test_the_keyboard_goes_from_link_to_link(panel, qtbot):
+    panel.open("howto/first-steps")
+    panel.browser.setFocus()
+    qtbot.waitUntil(panel.browser.hasFocus)
+
+    qtbot.keyClick(panel.browser, KEY.Key_Tab)
+    qtbot.keyClick(panel.browser, KEY.Key_Return)
+
+    assert panel.browser.page.name == "howto/run-and-stop"
+
+
+def test_typing_finds_pages_and_enter_opens_the_first(panel, qtbot):
+    panel.search.setFocus()
+
+    qtbot.keyClicks(panel.search, "speak")
+    qtbot.waitUntil(lambda: panel.searching.is_whole)
+
+    assert panel.contents.isVisible()
+    assert listed(panel)[0] == "block/robot.say"
+    qtbot.keyClick(panel.search, KEY.Key_Return)
+    assert panel.browser.page.name == "block/robot.say"
+    qtbot.keyClick(panel.search, KEY.Key_Escape)
+    assert panel.search.text() == ""
+    assert not panel.contents.isVisible()
+
+
+def test_the_arrow_keys_go_from_the_search_to_what_was_found_and_back(panel, qtbot):
+    panel.search.setText("watch")
+    panel.searching.finish("watch")
+
+    qtbot.keyClick(panel.search, KEY.Key_Down)
+    qtbot.waitUntil(panel.contents.found.hasFocus)
+    qtbot.keyClick(panel.contents.found, KEY.Key_Down)
+    qtbot.keyClick(panel.contents.found, KEY.Key_Return)
+
+    assert panel.browser.page.name == listed(panel)[1]
+    panel.contents.found.setFocus()
+    panel.contents.found.setCurrentRow(0)
+    qtbot.keyClick(panel.contents.found, KEY.Key_Up)
+    qtbot.waitUntil(panel.search.hasFocus)
+
+
+def test_a_search_that_finds_nothing_says_so(panel):
+    panel.search.setText("xqzw")
+    panel.searching.finish("xqzw")
+
+    assert "xqzw" in panel.contents.found.item(0).text()
+    panel.contents.choose_found()
+    assert panel.browser.page.name == "home"
+
+
+def test_no_step_of_reading_the_pages_keeps_the_window_busy(panel, qtbot):
+    searching, slowest = panel.searching, 0.0
+    searching._index = None
+    searching.begin()
+    while not searching.is_whole:
+        start = time.perf_counter()
+        searching._go_on()
+        slowest = max(slowest, time.perf_counter() - start)
+
+    assert slowest < 0.05
+
+
+def test_each_page_is_shown_at_once(panel):
+    panel.open("block/robot.say")  # reads the files
+    slowest = {}
+    for name in ("howto/problems", "howto/words", "blocks/robot_moves", "blocks/list", "home"):
+        best = 9.0
+        for _ in range(3):
+            start = time.perf_counter()
+            panel.open(name)
+            QApplication.processEvents()
+            best = min(best, time.perf_counter() - start)
+            panel.open("block/control.wait")
+        slowest[name] = best
+
+    assert max(slowest.values()) < 0.05, slowest
+
+
+def test_the_contents_stand_beside_the_page_where_there_is_room(panel, qtbot):
+    assert not panel.contents.isVisible()
+
+    panel.resize(46 * panel.fontMetrics().height() + 60, 700)
+
+    assert panel.contents.isVisible()
+    assert panel.body.orientation() == Qt.Orientation.Horizontal
+    assert panel.contents.width() > 10 * panel.fontMetrics().height()
+
+
+def test_the_contents_of_a_narrow_panel_come_by_a_button_and_go_when_one_is_chosen(panel, qtbot):
+    qtbot.mouseClick(panel.tools.contents, LEFT)
+    tree = panel.contents.tree
+    assert tree.isVisible()
+
+    item = tree.topLevelItem(0).child(2)
+    qtbot.waitUntil(lambda: tree.viewport().rect().contains(tree.visualItemRect(item)))
+    qtbot.mouseClick(tree.viewport(), LEFT, pos=tree.visualItemRect(item).center())
+
+    assert panel.browser.page.name == "howto/connect-nao"
+    assert not panel.contents.isVisible()
+
+
+def test_a_screen_reader_hears_the_example_and_the_names_of_buttons(panel):
+    panel.open("block/robot.walk")
+
+    assert "NAO walks 0.3 m forward" in panel.example.insert.accessibleDescription()
+    for button in (panel.tools.back, panel.tools.print, panel.tools.contents):
+        assert button.accessibleName()
+
+
+def test_ctrl_and_the_wheel_make_words_and_pictures_larger(panel, qtbot):
+    panel.open("block/robot.say")
+    before = panel.browser.loadResource(2, "picture:robot.say").width()
+    at = panel.browser.viewport().rect().center()
+    event = QWheelEvent(
+        at.toPointF(),
+        panel.browser.viewport().mapToGlobal(at).toPointF(),
+        QPoint(),
+        QPoint(0, 120),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.ControlModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
+
+    QGuiApplication.sendEvent(panel.browser.viewport(), event)
+
+    assert panel.browser.zoom > 1
+    assert panel.browser.loadResource(2, "picture:robot.say").width() >= before
+    panel.browser.set_zoom(99)
+    assert panel.browser.zoom == 3
+
+
+def test_nothing_is_loaded_from_elsewhere(panel):
+    for address in ("http://example.org/x.png", "file:///etc/hostname", "picture:../x"):
+        assert (
+            not panel.browser.loadResource(2, address)
+            or panel.browser.loadResource(2, address).isNull()
+        )
+    assert panel.browser.loadResource(3, "file:///etc/hostname") is None
+
+
+def test_the_page_follows_the_theme_at_the_place_where_it_is_read(panel, studio):
+    panel.open("howto/problems")
+    bar = panel.browser.verticalScrollBar()
+    bar.setValue(bar.maximum() // 2)
+    read = panel.browser.cursorForPosition(QPoint(1, 1)).block().text()
+
+    studio.look.choose("dark")
+
+    assert panel.browser.cursorForPosition(QPoint(1, 1)).block().text() == read
+    assert studio.look.theme.colour("text").name() in panel.browser.toHtml()
+    studio.look.choose("light")
+
+
+def test_a_page_is_printed_dark_on_light(panel, tmp_path):
+    from PySide6.QtPrintSupport import QPrinter
+
+    panel.open("block/robot.say")
+    printer = QPrinter()
+    printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
+    printer.setOutputFileName(str(tmp_path / "page.pdf"))
+
+    print_page(panel.browser, printer)
+
+    assert (tmp_path / "page.pdf").stat().st_size > 5000
+
+
+def test_a_hidden_panel_reads_nothing(canvas, studio, qtbot):
+    hidden = HelpPanel(canvas, studio.look, LANGUAGE)
+    qtbot.addWidget(hidden)
+
+    assert hidden._book is None
+    assert not hidden.searching.is_whole
+
+
+def test_a_book_is_made_quickly(panel):
+    start = time.perf_counter()
+    Book(LANGUAGE).contents()
+
+    assert time.perf_counter() - start < 0.1
