@@ -154,7 +154,7 @@ class LocalNetwork:
         Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=callback)
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        if self.voice is not None and not outcome.was_successful:
+        if self.voice is not None and (not outcome.was_successful or outcome.asked):
             self.voice.tell_end(launched, outcome, again)
         for listener in self._end_listeners:
             listener(launched, outcome, again)

@@ -21,7 +21,7 @@ HEALTH: dict[NodeEvent, Health] = {
     "busy": "busy",
     "warning": "warning",
     "disconnected": "warning",
-    "connection_failed": "crashed",
+    "connection_failed": "warning",
     "crashed": "crashed",
     "stopped": "stopped",
 }

@@ -43,7 +43,7 @@ class Voice:
         state = m.NodeState(
             node=launched.name,
             type=launched.manifest.type if launched.manifest else "cognitive",
-            event="crashed",
+            event="stopped" if outcome.asked else "crashed",
             description=f"{outcome}{'; it is started again' if again else ''}",
             pid=launched.pid,
             host=socket.gethostname(),

@@ -11,8 +11,10 @@ from nep_studio.ui.exporting.actions import NEEDS_PROJECT, add_exporting
 from nep_studio.ui.help.adding import add_help
 from nep_studio.ui.panels.cues.panel import add_cues_panel
 from nep_studio.ui.panels.log.panel import add_log_panel
+from nep_studio.ui.panels.network.adding import add_network_panel
+from nep_studio.ui.panels.nodes.adding import add_nodes_panel
 from nep_studio.ui.panels.robots.panel import add_robots_panel
-from nep_studio.ui.panels.sensors.panel import add_sensors_panel
+from nep_studio.ui.panels.sensors.panel import add_sensors_panel, show_topic
 from nep_studio.ui.show.mode import add_show_mode
 from nep_studio.ui.study.adding import add_study
 from nep_studio.ui.tour.tour import add_tour
@@ -28,7 +30,11 @@ def add_rooms(window: MainWindow) -> None:
     """Add the panels and their actions, in the order of their tabs; they follow the project."""
     add_robots_panel(window)
     add_cues_panel(window)
+    nodes, network = add_nodes_panel(window), add_network_panel(window)
+    network.node_chosen.connect(lambda _name: window.workbench.panels.show(nodes))
+    network.node_chosen.connect(nodes.open_log)
     add_sensors_panel(window)
+    network.plot_requested.connect(lambda topic, field: show_topic(window, topic, field))
     add_log_panel(window)
     add_exporting(window)
     add_show_mode(window)

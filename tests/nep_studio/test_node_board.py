@@ -38,7 +38,7 @@ def test_planning_it_again_is_no_news(board: NodeBoard) -> None:
         ("connecting", "starting"),
         ("busy", "busy"),
         ("warning", "warning"),
-        ("connection_failed", "crashed"),
+        ("connection_failed", "warning"),
         ("crashed", "crashed"),
         ("stopped", "stopped"),
     ],

@@ -17,7 +17,6 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Project
 from nep_studio.plan import Choices, PlannedNode, plan
-from nep_studio.problems import problem_of
 from nep_studio.session import Ending, Watching
 from nep_studio.ui.messages import Answer
 from nep_studio.ui.words import tr
@@ -59,7 +58,6 @@ class RunControl(QObject):
         self.runner.run_asked.connect(self._on_run_asked)
         self.runner.state_changed.connect(self._on_state_changed)
         self.runner.ended.connect(self._on_ended)
-        self.runner.node_failed.connect(self._on_node_failed)
         self.breakpoints.changed.connect(self._on_watching_changed)
 
     def attach(self) -> None:
@@ -273,6 +271,3 @@ class RunControl(QObject):
 
     def _has_real_robots(self) -> bool:
         return any(one.parameters.get("driver") == "naoqi" for one in self.planned())
-
-    def _on_node_failed(self, name: str, error: NepError) -> None:
-        self._window.messages.tell_problem(problem_of(error))

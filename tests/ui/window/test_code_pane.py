@@ -70,7 +70,10 @@ def test_a_page_of_robots_shows_what_starts_them(karate: MainWindow, qtbot: QtBo
 
 
 def test_copy_puts_the_code_on_the_clipboard(karate: MainWindow, qtbot: QtBot) -> None:
-    qtbot.mouseClick(karate.workbench.code.copy_button, Qt.MouseButton.LeftButton)
+    code = karate.workbench.code
+    qtbot.waitUntil(lambda: "behavior.run()" in code.text.toPlainText())
+
+    qtbot.mouseClick(code.copy_button, Qt.MouseButton.LeftButton)
 
     assert QGuiApplication.clipboard().text().endswith("behavior.run()\n")
 
