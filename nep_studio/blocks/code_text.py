@@ -25,13 +25,15 @@ class CodeTextRefused(ValueError):
 class CodeText:
     """Python that can be in a block: its lines, and which names it reads and makes.
 
-    ``inside_texts`` are the lines that begin inside a text of several lines.
+    ``inside_texts`` are the lines that begin inside a text of several lines; ``set_here`` are
+    the names that it makes itself, and not a function inside it.
     """
 
     lines: tuple[str, ...]
     inside_texts: frozenset[int]
     read: frozenset[str]
     made: frozenset[str]
+    set_here: frozenset[str] = frozenset()
     is_empty: bool = False
     is_closed: bool = False
 
@@ -55,7 +57,8 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
         raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
     _refuse_global(tree)
     read, made = _names(tree)
-    return CodeText(tuple(lines), inside, read, made, is_empty=not tree.body)
+    here = _names_here(tree)
+    return CodeText(tuple(lines), inside, read, made, here, is_empty=not tree.body)
 
 
 @lru_cache(maxsize=1024)
@@ -150,6 +153,20 @@ def _names(tree: ast.AST) -> tuple[frozenset[str], frozenset[str]]:
         if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name):
             read.add(node.target.id)
     return frozenset(read), frozenset(made)
+
+
+def _names_here(tree: ast.AST) -> frozenset[str]:
+    """The names that are made outside of functions and classes inside."""
+    made: set[str] = set()
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        node = waiting.pop()
+        made.update(_made_by(node))
+        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+            made.add(node.id)
+        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Lambda):
+            waiting += ast.iter_child_nodes(node)
+    return frozenset(made)
 
 
 def _made_by(node: ast.AST) -> Iterator[str]:

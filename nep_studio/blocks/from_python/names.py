@@ -105,7 +105,11 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
                 if isinstance(robot, ast.Constant) and isinstance(robot.value, str):
                     _add_robot(editor, robot.value)
         case _:
-            raise CodeUnread(f"{made} needs a name in quotes here.", node.lineno)
+            raise CodeUnread(
+                f"{made} needs a name in quotes here.",
+                node.lineno,
+                checklist=('Write the name in quotes, such as "NAO".',),
+            )
 
 
 def _add_robot(editor: Editor, name: str) -> None:
@@ -125,7 +129,11 @@ def _add_robot(editor: Editor, name: str) -> None:
 def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -> None:
     given = node.args
     if given.vararg or given.kwarg or given.kwonlyargs or given.posonlyargs or given.defaults:
-        raise CodeUnread("An own block takes plain values only.", node.lineno)
+        raise CodeUnread(
+            "An own block takes plain values only.",
+            node.lineno,
+            checklist=("Write its parameters as plain names, with commas between them.",),
+        )
     wanted, gives_value = [argument.arg for argument in given.args], _gives_value(node)
     known = names.procedures.get(node.name)
     if known is not None and len(parameters(known)) == len(wanted):

@@ -81,7 +81,11 @@ def read_snippet(text: str, language: Language, base: Project) -> Clip:
     if loose:
         made.append(create_chain(scratch, _loose(reader, loose)))
     if not made:
-        raise CodeUnread("There is nothing here that blocks could be made of.", 1)
+        raise CodeUnread(
+            "There is nothing here that blocks could be made of.",
+            1,
+            checklist=("Choose lines that do something: comments alone become no blocks.",),
+        )
     ids = [block for first in made for block in scratch.project.stack_of(first).body]
     return copy(scratch.project, scratch.language, ids)
 

@@ -99,7 +99,9 @@ class Source:
 def read_source(text: str) -> Source:
     """Parse a text; raises CodeUnread with the line."""
     if len(text) > LONGEST_PROGRAM:
-        raise CodeUnread("This is too long to become blocks.", 1)
+        raise CodeUnread(
+            "This is too long to become blocks.", 1, checklist=("Take a part of it at a time.",)
+        )
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     try:
         with warnings.catch_warnings():

@@ -78,7 +78,9 @@ class StatementReader:
         try:
             read_lines(text)
         except CodeTextRefused as refused:
-            raise CodeUnread(str(refused), first + refused.line - 1) from refused
+            raise CodeUnread(
+                str(refused), first + refused.line - 1, checklist=("Correct this line.",)
+            ) from refused
         if not block_type:
             raise CodeUnread("There is no block for this.", first)
         return Made(block_type, {"code": text}, text=text)

@@ -200,7 +200,9 @@ class Expressions:
         try:
             arithmetic = calculate(text)
         except ArithmeticRefused as refused:
-            raise CodeRefused(str(refused), block=block.id) from refused
+            raise CodeRefused(
+                str(refused), block=block.id, checklist=("Correct what is written in this block.",)
+            ) from refused
         if arithmetic.needs_math:
             self.modules.add("math")
         return arithmetic.node

@@ -36,7 +36,7 @@ def note_names(code: Expressions, read: CodeText) -> frozenset[str]:
     code.robots.update(robot for robot, name in code.names.robots.items() if name in read.read)
     code.api.update(API & read.read - read.made)
     code.modules.update(MODULES & read.read - read.made)
-    return read.made & frozenset(code.names.variables.values())
+    return read.set_here & frozenset(code.names.variables.values())
 
 
 def _own_call(code: Expressions, block: Block) -> ast.expr:
@@ -58,7 +58,9 @@ def _code_value(code: Expressions, block: Block) -> ast.expr:
     try:
         read = read_value(text)
     except CodeTextRefused as refused:
-        raise CodeRefused(str(refused), block=block.id) from refused
+        raise CodeRefused(
+            str(refused), block=block.id, checklist=("Correct what is written in this block.",)
+        ) from refused
     note_names(code, read)
     return Verbatim(read.lines[0], is_closed=read.is_closed)
 

@@ -64,7 +64,11 @@ def _count(code: Expressions, block: Block) -> list[Piece]:
     step = whole(code.slot(block, "step"))
     ends, by = (known_whole(first), known_whole(last)), known_whole(step)
     if by == 0:
-        raise CodeRefused("Counting in steps of 0 never ends.", block=block.id)
+        raise CodeRefused(
+            "Counting in steps of 0 never ends.",
+            block=block.id,
+            checklist=("Make the step 1, or any number that is not zero.",),
+        )
     if by is not None and by > 0 and None not in ends and ends[0] > ends[1]:  # type: ignore[operator]
         by, step = -by, constant(-by)  # from 10 to 1: down
     arguments = [first, plus(last, -1 if by is not None and by < 0 else 1)]
@@ -99,7 +103,9 @@ def _code_lines(code: Expressions, block: Block) -> list[Piece]:
     try:
         read = read_lines(text)
     except CodeTextRefused as refused:
-        raise CodeRefused(str(refused), block=block.id) from refused
+        raise CodeRefused(
+            str(refused), block=block.id, checklist=("Correct what is written in this block.",)
+        ) from refused
     assigned = note_names(code, read)
     written = Written(read.lines, read.inside_texts, assigned)
     return [written, "pass"] if read.is_empty else [written]

@@ -35,7 +35,10 @@ def enclose(editor: Editor, block: str, run: Run) -> None:
         editor.language.definitions[project.blocks[block].type], project.blocks[block]
     )
     if not body or project.blocks[block].bodies.get(body):
-        raise EditRefused("This block has no free place for blocks inside it.")
+        raise EditRefused(
+            "This block has no free place for blocks inside it.",
+            checklist=("Take out what is inside it, or take another block.",),
+        )
     with editor.transaction("put a block around"):
         if not isinstance(place_of(project, block, 1), NewStack):
             stack, page = project.stack_of(run.first), page_of_block(project, run.first)

@@ -42,7 +42,10 @@ def paste_at(editor: Editor, clip: Clip, place: Place) -> tuple[str, ...]:
     """Put the blocks of a clip of one stack into a place; gives the new blocks of the chain."""
     _require_blocks(clip)
     if len(clip.stacks) > 1:
-        raise EditRefused("These are several stacks: they can be pasted onto a page only.")
+        raise EditRefused(
+            "These are several stacks: they can be pasted onto a page only.",
+            checklist=("Click an empty place of the page, and paste there.",),
+        )
     with editor.transaction("paste blocks"):
         return _put(editor, clip, clip.roots[0], names_for(editor, clip), place)
 

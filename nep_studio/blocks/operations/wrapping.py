@@ -40,7 +40,10 @@ def unwrap(editor: Editor, block_id: str) -> tuple[str, ...]:
     block = editor.project.blocks.get(block_id)
     definition = editor.language.definitions.get(block.type) if block is not None else None
     if block is None or definition is None or definition.shape != "c":
-        raise EditRefused("This block has no blocks inside it that could stay.")
+        raise EditRefused(
+            "This block has no blocks inside it that could stay.",
+            checklist=("Choose a block that holds others, such as “repeat”.",),
+        )
     keys = [key for key, slot in definition.keys(block.groups) if slot.kind.name == "body"]
     chains = [list(block.bodies[key]) for key in keys if block.bodies.get(key)]
     inside = tuple(inner for chain in chains for inner in chain)
@@ -80,7 +83,10 @@ def _single(editor: Editor, ids: Iterable[str]) -> Run:
             checklist=("Select blocks of one stack that are directly below each other.",),
         )
     if isinstance(place_of(editor.project, chosen[0].first, 1), InInput):
-        raise EditRefused("A block that gives a value cannot be inside another in this way.")
+        raise EditRefused(
+            "A block that gives a value cannot be inside another in this way.",
+            checklist=("Choose the block that it is a part of.",),
+        )
     return chosen[0]
 
 
@@ -90,5 +96,8 @@ def _without_hat(editor: Editor, run: Run) -> Run:
     if definition is None or definition.shape != "hat":
         return run
     if run.count == 1:
-        raise EditRefused("A “when” block begins a stack: no block goes around it.")
+        raise EditRefused(
+            "A “when” block begins a stack: no block goes around it.",
+            checklist=("Choose the blocks below it.",),
+        )
     return Run(members(editor.project, run)[1], run.count - 1)
