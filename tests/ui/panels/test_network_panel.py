@@ -6,7 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 
-from PySide6.QtCore import QPoint, Qt, QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
@@ -14,9 +14,7 @@ from nep_core import messages as m
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher
 from nep_studio.plan import PlannedNode
-from nep_studio.ui.panels.network.graph_layout import Graph, Key
-from nep_studio.ui.panels.network.graph_view import GraphView
-from nep_studio.ui.panels.network.seen import NodeSeen, Seen, TopicSeen
+from nep_studio.ui.panels.network.graph_layout import Key
 from tests.ui.panels.conftest import KARATE, WAIT_MS, WATCH, Bench
 
 Start = Callable[[PlannedNode], None]
@@ -30,15 +28,6 @@ def show(bench: Bench, qtbot: QtBot) -> None:
 def wait_for(bench: Bench, key: Key, qtbot: QtBot) -> None:
     graph = bench.network.graph
     qtbot.waitUntil(lambda: key in graph.shapes.rects, timeout=WAIT_MS)
-
-
-def many_nodes() -> tuple[Graph, Seen]:
-    names = [f"gesture_{number}" for number in range(50)]
-    says = tuple((name, "/human_behavior") for name in names)
-    graph = Graph(dict.fromkeys(names, "perceptual"), ("/human_behavior",), says)
-    topic = TopicSeen("/human_behavior", tuple(names))
-    seen = Seen(True, {name: NodeSeen(name) for name in names}, {topic.name: topic})
-    return graph, seen
 
 
 def test_an_empty_network_says_what_belongs_there_and_offers_to_run(
@@ -251,59 +240,3 @@ def test_5000_messages_a_second_do_not_stop_the_window(
 
     assert bench.network.pane.heard.count > 1000
     assert max(busy) < 0.05
-
-
-def test_fifty_nodes_can_still_be_read(bench: Bench, qtbot: QtBot) -> None:
-    view = GraphView(bench.window.look)
-    qtbot.addWidget(view)
-    view.resize(1000, 500)
-    view.show()
-
-    view.show_graph(*many_nodes(), {})
-    shown = view.grab()
-
-    assert view.scale >= 0.6
-    assert not shown.isNull()
-
-
-def test_the_arrow_keys_go_through_the_graph_and_enter_opens(bench: Bench, qtbot: QtBot) -> None:
-    view = GraphView(bench.window.look)
-    qtbot.addWidget(view)
-    view.resize(400, 300)
-    view.show()
-    view.show_graph(*many_nodes(), {})
-
-    qtbot.keyClick(view, Qt.Key.Key_Down)
-    first = view.selected
-    qtbot.keyClick(view, Qt.Key.Key_Down)
-    below = view.selected
-    for _ in range(8):
-        qtbot.keyClick(view, Qt.Key.Key_Right)
-
-    assert first is not None and below is not None
-    assert view.shapes.rects[below].top() > view.shapes.rects[first].top()
-    assert view.selected == ("topic", "/human_behavior")
-    with qtbot.waitSignal(view.topic_chosen):
-        qtbot.keyClick(view, Qt.Key.Key_Return)
-
-
-def test_the_graph_is_moved_and_zoomed(bench: Bench, qtbot: QtBot) -> None:
-    view = GraphView(bench.window.look)
-    qtbot.addWidget(view)
-    view.resize(400, 300)
-    view.show()
-    view.show_graph(*many_nodes(), {})
-    key = ("topic", "/human_behavior")
-    before, scale = view.place_of(key), view.scale
-
-    qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=QPoint(200, 150))
-    qtbot.mouseMove(view, QPoint(220, 160))
-    qtbot.mouseMove(view, QPoint(260, 190))
-    qtbot.mouseRelease(view, Qt.MouseButton.LeftButton, pos=QPoint(260, 190))
-    moved = view.place_of(key) - before
-    qtbot.keyClick(view, Qt.Key.Key_Plus)
-
-    assert (round(moved.x()), round(moved.y())) == (60, 40)
-    assert view.scale > scale
-    qtbot.keyClick(view, Qt.Key.Key_0)
-    assert view.scale == scale
