@@ -1,7 +1,9 @@
 """Starts a program that has a window, and tells when that is painted and nothing is left to do.
 
 Needs nothing but Qt, for the program may live in an environment of its own:
-``python _start_child.py PySide6 nep_studio``. One line of JSON comes out, and the program ends.
+``python _start_child.py PySide6 nep_studio``. One line of JSON comes out when the window can be
+used, and one when nothing is left to be made behind it: ours makes its workbench after its first
+page. Then the program ends.
 """
 
 from __future__ import annotations
@@ -44,10 +46,12 @@ def watch(qt: str) -> None:
         def turn(self) -> None:
             """Wait for some turns more; then tell."""
             self.turns_left -= 1
-            if self.turns_left:
-                core.QTimer.singleShot(0, self.turn)
-            else:
+            if not self.turns_left:
                 tell()
+            elif self.turns_left < 0 and is_complete(self.window):
+                tell()
+                os._exit(0)
+            core.QTimer.singleShot(0, self.turn)
 
     def run_watched(*_app: Any) -> int:
         watcher = Watcher()
@@ -58,10 +62,15 @@ def watch(qt: str) -> None:
     widgets.QApplication.exec = run_watched
 
 
+def is_complete(window: Any) -> bool:
+    """Whether a window has made all that it makes later, if it makes anything later."""
+    later = getattr(window, "later", None)
+    return later is None or bool(later.is_done)
+
+
 def tell() -> None:
-    """Print the CPU time since the process began, and end at once."""
+    """Print the CPU time since the process began."""
     print(json.dumps({"cpu_s": time.process_time()}), file=sys.__stdout__, flush=True)
-    os._exit(0)
 
 
 if __name__ == "__main__":

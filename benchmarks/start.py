@@ -1,6 +1,7 @@
 """From starting the program to a window that can be used, warm, from source.
 
-A window can be used when its first page is painted and the event loop has nothing left to do.
+A window can be used when its first page is painted and its event loop has turned some times. What
+ours makes after its first page (the workbench and the panels) is measured to its end as well.
 Offscreen, and under Xvfb where it is installed. With ``--with-peers`` Orange Canvas, another
 editor made with Qt and Python, is measured in turn with ours: without its splash screen and
 without its welcome window, and with no widget installed, so that it has the least to do.
@@ -15,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -51,10 +52,15 @@ class Program:
 
 @dataclass(frozen=True)
 class Start:
-    """One start: on the clock, and the CPU time of all threads of the process."""
+    """One start: on the clock, and the CPU time of all threads of the process.
+
+    ``all`` is when nothing is left to be made behind the window that can be used.
+    """
 
     wall_s: float
     cpu_s: float
+    all_wall_s: float
+    all_cpu_s: float
 
 
 OURS = Program("ours", sys.executable, ("PySide6", "nep_studio"))
@@ -91,9 +97,13 @@ def _measured(where: str, programs: Sequence[Program], environment: dict[str, st
                 one = _start(program, private)
                 if round_number:
                     starts[program.name].append(one)
-    wall_s = {name: statistics.median(one.wall_s for one in some) for name, some in starts.items()}
-    cpu_s = {name: statistics.median(one.cpu_s for one in some) for name, some in starts.items()}
+
+    def medians(of: Callable[[Start], float]) -> dict[str, float]:
+        return {name: statistics.median(map(of, some)) for name, some in starts.items()}
+
+    wall_s, cpu_s = medians(lambda one: one.wall_s), medians(lambda one: one.cpu_s)
     name = f"start to a usable window, {where}"
+    rest = f"start until all behind the window is made, {where}"
     goal = {"goal": f"under {MOST_S:g} s", "ok": wall_s["ours"] < MOST_S}
     rows: list[Row] = [
         {"name": name, "value": round(wall_s["ours"], 3), "unit": "s", **goal},
@@ -103,6 +113,8 @@ def _measured(where: str, programs: Sequence[Program], environment: dict[str, st
         rows += [
             _against_orange(name, wall_s, "s"),
             _against_orange(f"{name}: CPU", cpu_s, "s CPU"),
+            _against_orange(rest, medians(lambda one: one.all_wall_s), "s"),
+            _against_orange(f"{rest}: CPU", medians(lambda one: one.all_cpu_s), "s CPU"),
         ]
     return rows
 
@@ -135,12 +147,13 @@ def _start(program: Program, environment: dict[str, str]) -> Start:
         command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as child:
         assert child.stdout is not None
-        line = child.stdout.readline()
-        wall_s = time.perf_counter() - began_s
+        told = []
+        while line := child.stdout.readline():
+            told += [time.perf_counter() - began_s, float(json.loads(line)["cpu_s"])]
         _, said = child.communicate(timeout=LONGEST_S)
-    if not line:
+    if not told:
         raise RuntimeError(f"{program.name} did not start:\n{said.decode(errors='replace')}")
-    return Start(wall_s, float(json.loads(line)["cpu_s"]))
+    return Start(*told)
 
 
 @contextmanager

@@ -68,7 +68,10 @@ def read_header(head: bytes) -> Header:
     try:
         return _decode_header(head)
     except msgspec.MsgspecError as error:
-        raise BadMessage(f"A frame has an unreadable header: {error}.") from error
+        raise BadMessage(
+            f"A frame has an unreadable header: {error}.",
+            checklist=("Use the same version of NEP Studio on all computers.",),
+        ) from error
 
 
 def natural_encoding(message: Sendable) -> Encoding:
@@ -91,7 +94,10 @@ def encode(message: Sendable, encoding: Encoding) -> bytes:
             return _encode_msgpack(message)
     except CANNOT_ENCODE as error:
         raise not_encodable(encoding, error) from error
-    raise BadMessage(f"A {type(message).__name__} cannot be sent as {encoding}.")
+    raise BadMessage(
+        f"A {type(message).__name__} cannot be sent as {encoding}.",
+        checklist=("Send a dictionary of text, numbers, yes/no values and lists.",),
+    )
 
 
 def not_encodable(encoding: Encoding, error: Exception) -> BadMessage:

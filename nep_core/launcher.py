@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import shutil
 import threading
 import time
 from collections.abc import Callable, Iterable, Mapping
@@ -12,6 +13,7 @@ from pathlib import Path
 
 from nep_core.endpoints import MASTER_VARIABLE, master_endpoint
 from nep_core.errors import NameTaken, NepError, NodeStartError
+from nep_core.guard import GUARD
 from nep_core.manifest import Manifest, NodeCatalog, Value
 from nep_core.messages import NODE_STATE, NodeState
 from nep_core.network import Network
@@ -143,7 +145,7 @@ class Launcher:
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
-            command += ["--name", name, *settings]
+            command = _guarded([*command, "--name", name, *settings])
         else:
             command = program_command("node", manifest.path, f"--name={name}", *settings)
         return self._launch(LaunchedNode(name, manifest, command, restart_on_error))
@@ -214,6 +216,7 @@ class Launcher:
             launched.command,
             environment={**os.environ, **SETTINGS, MASTER_VARIABLE: self.master},
             log_file=self.logs / log_file_name(launched.name),
+            goes_on=launched.restarts > 0,
             on_end=lambda outcome: self._ended(launched, outcome),
         )
 
@@ -256,3 +259,8 @@ class Launcher:
         launched = self.nodes.get(state.node)
         if launched is not None and state.event == "ready" and launched.owns(state.pid):
             launched.ready.set()
+
+
+def _guarded(command: list[str]) -> list[str]:
+    """Let a node that knows of no life line end with us; one that cannot be found fails at once."""
+    return program_command(GUARD, *command) if shutil.which(command[0]) else command

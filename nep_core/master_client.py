@@ -82,7 +82,9 @@ class MasterClient:
             self._changed.wait_for(lambda: self._closed or self._answered(version), ANSWER_S)
             answer, answered = self._answer, self._answered(version)
         if self._closed:
-            raise NetworkError(f"The network of {told.node} is closed.")
+            raise NetworkError(
+                f"The network of {told.node} is closed.", checklist=("Start it again.",)
+            )
         if not answered or answer is None:
             raise no_master(self.master)
         if isinstance(answer, says.Refused):

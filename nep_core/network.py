@@ -73,7 +73,9 @@ class Network(ABC):
         subscriber = uuid.uuid4().hex
         with self._lock:
             if self.closed:  # a socket that close() does not know of would keep it waiting
-                raise NetworkError(f"The network of {self.node} is closed.")
+                raise NetworkError(
+                    f"The network of {self.node} is closed.", checklist=("Start it again.",)
+                )
             inbox = Inbox(
                 self.context,
                 topic,

@@ -39,6 +39,8 @@ KILL_S = 5.0
 class ChildProcess:
     """A running child; ``on_end`` is called with its Outcome, in a thread of its own.
 
+    ``goes_on``: it takes the place of one that crashed, and its log follows the other's.
+
     Raises NodeStartError when the command cannot be run.
     """
 
@@ -49,13 +51,14 @@ class ChildProcess:
         *,
         environment: dict[str, str],
         log_file: Path,
+        goes_on: bool = False,
         on_end: Callable[[Outcome], None],
     ) -> None:
         self.name = name
         self._asked = False
         self._on_end = on_end
         self._last_lines: deque[str] = deque(maxlen=KEPT_LINES)
-        self._log_file = log_file
+        self._log_file, self._goes_on = log_file, goes_on
         self._children: frozenset[psutil.Process] = frozenset()
         self._children_ended = threading.Event()
         self._started_s = time.time()
@@ -113,7 +116,8 @@ class ChildProcess:
 
     def _read(self) -> None:
         assert self._popen.stdout is not None
-        with self._popen.stdout as output, NodeLog(self._log_file) as kept:
+        node_log = NodeLog(self._log_file, goes_on=self._goes_on)
+        with self._popen.stdout as output, node_log as kept:
             while piece := output.readline(LINE_BYTES):
                 self._last_lines.append(piece.decode(errors="replace").rstrip())
                 kept.write(piece)

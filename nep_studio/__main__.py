@@ -14,6 +14,7 @@ JOBS = {
     "code": "nep_studio.commands.code:main",
     "check": "nep_studio.commands.check:main",
     "node": "nep_core.cli.node:main",
+    "guard": "nep_core.guard:main",
     "exec": "nep_studio.commands.execute:main",
     "train": "nodes.perceptual.recognition.command:main",
     "master": "nep_core.cli.services:run_master",

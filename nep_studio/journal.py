@@ -64,7 +64,8 @@ class Recoverable:
 class Journal:
     """Writes down every edit of one open project.
 
-    A failing disk does not stop the person's work: it is logged, and ``error`` says so.
+    A failing disk does not stop the person's work: it is logged, ``error`` says so, and ``flush``
+    tries again until nothing is missing any more.
     """
 
     def __init__(
@@ -76,6 +77,8 @@ class Journal:
         self._steps = 0
         self._file = -1
         self._is_flushed = True
+        self._is_behind = False
+        """Whether something is missing on the disk, so that only a new beginning helps."""
         self.error = ""
         self.folder = folder / f"{time.time_ns()}-{os.getpid()}"
         self.folder.mkdir(parents=True)
@@ -86,6 +89,8 @@ class Journal:
 
     def flush(self) -> None:
         """Put on the disk what has been written; to be called at least every two seconds."""
+        if self._is_behind:
+            self._snapshot()
         if self._is_flushed or self._file < 0:
             return
         try:
@@ -111,7 +116,7 @@ class Journal:
             shutil.rmtree(self.folder, ignore_errors=True)
 
     def _write(self, edits: tuple[Edit, ...]) -> None:
-        if self._steps >= STEPS_PER_SNAPSHOT:
+        if self._steps >= STEPS_PER_SNAPSHOT or self._is_behind:
             self._about.unsaved = True
             self._snapshot()
             return
@@ -120,7 +125,7 @@ class Journal:
             self._steps += 1
         except OSError as error:
             self._fail(error)
-            self._steps = STEPS_PER_SNAPSHOT  # a step is missing: begin anew with the next one
+            self._is_behind = self._about.unsaved = True
         self._is_flushed = False
 
     def _snapshot(self) -> None:
@@ -135,7 +140,9 @@ class Journal:
             _write_file(self.folder / "about.json", msgspec.json.encode(self._about))
         except OSError as error:
             self._fail(error)
+            self._is_behind = True
             return
+        self._is_behind, self.error = False, ""
         if self._file >= 0:
             os.close(self._file)
         for old in (f"{self._number}.nep", f"{self._number}.edits"):

@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import contextlib
 import threading
+import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Literal
 
 import msgspec
 
 from nep_core import messages as m
+from nep_core.errors import NodeStartError
 from nep_core.launcher import LaunchedNode, Launcher
 from nep_core.outcome import Outcome
 from nep_core.p2p import PeerNetwork
 from nep_core.places import log_folder
 from nep_core.pubsub import Subscriber
-from nep_studio.own_master import start_master
+from nep_studio.own_master import MASTER, READY_S, is_up, start_master
 from nep_studio.plan import PlannedNode
 from nep_studio.signals import postponed
 from nep_studio.voice import Voice
 
 STUDIO = "studio"
+LOOK_S = 0.02
 
 HEARD = (
     m.NODE_STATE,
@@ -35,6 +39,9 @@ Listener = Callable[[str, msgspec.Struct], None]
 
 EndListener = Callable[[LaunchedNode, Outcome, bool], None]
 """Called when a process ended: which, how, and whether it is started again."""
+
+MasterEvent = Literal["restarting", "back", "gone"]
+"""What becomes of a master that ended unexpectedly; those who know each other go on meanwhile."""
 
 
 class LocalNetwork:
@@ -53,6 +60,10 @@ class LocalNetwork:
         self._wanted_master = master
         self.on_open: Callable[[], None] = lambda: None
         """Called each time that nodes can be started, in the thread that opened it."""
+        self.on_master: Callable[[MasterEvent, str], None] = lambda event, sentence: None
+        """Called when the master ended unexpectedly, from several threads, with how it ended."""
+        self.has_master = False
+        """Whether its master runs, or is about to be started again by itself."""
         self._listeners: tuple[Listener, ...] = ()
         self._end_listeners: tuple[EndListener, ...] = ()
         self._stack = contextlib.ExitStack()
@@ -81,9 +92,10 @@ class LocalNetwork:
             self._end_listeners = tuple(one for one in self._end_listeners if one != on_end)
 
     def open(self) -> None:
-        """Start the master and join it, unless that is done; what is opened first closes last."""
+        """Start the master and join it, unless that is done; one that is gone is replaced."""
         with self._opening:
             if self.is_open:
+                self._replace_master()
                 return
             self._make_launchers()
             try:
@@ -103,6 +115,7 @@ class LocalNetwork:
         for topic in HEARD:
             self._hear(topic, network)
         self.network = network
+        self.has_master = True
         self.on_open()
 
     def close(self) -> None:
@@ -118,6 +131,8 @@ class LocalNetwork:
         Does not wait until they are ready; raises NepError.
         """
         with self._opening, postponed():
+            if not self.is_open:
+                raise NodeStartError("The network is closed.", checklist=("Start it again.",))
             return [self._start(one) for one in nodes]
 
     def _start(self, planned: PlannedNode) -> LaunchedNode:
@@ -135,8 +150,9 @@ class LocalNetwork:
 
     def restart(self, name: str) -> LaunchedNode:
         """Stop a node that was started here, and start it again as it was."""
+        planned = self.planned[name]
         self.stop(name)
-        return self.start([self.planned[name]])[0]
+        return self.start([planned])[0]
 
     def log_of(self, name: str) -> list[str]:
         """The last lines that a node, or the master, wrote; at most 200."""
@@ -154,7 +170,35 @@ class LocalNetwork:
         Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=callback)
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        if launched.name == MASTER:
+            self._on_master_end(launched, outcome, again)
         if self.voice is not None and (not outcome.was_successful or outcome.asked):
             self.voice.tell_end(launched, outcome, again)
         for listener in self._end_listeners:
             listener(launched, outcome, again)
+
+    def _replace_master(self) -> None:
+        """Start one where the last one was, if that is gone: all who were there come to it."""
+        if not self.has_master:
+            start_master(self._master_launcher, self.launcher.master)
+            self.has_master = True
+            self.on_master("back", "")
+
+    def _on_master_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        if launched.stopping or not self.is_open:
+            return  # it was stopped, or never answered: who starts it tells of that
+        if again:
+            self.on_master("restarting", f"{outcome}.")
+            args = (launched, self.launcher.master)
+            threading.Thread(target=self._await_master, args=args, daemon=True).start()
+        else:
+            self.has_master = False
+            self.on_master("gone", f"{outcome}.")
+
+    def _await_master(self, launched: LaunchedNode, endpoint: str) -> None:
+        """Tell when the master that was started again answers."""
+        gone_pid, until_s = launched.pid, time.monotonic() + READY_S
+        while launched.pid == gone_pid and time.monotonic() < until_s and not launched.stopping:
+            time.sleep(LOOK_S)
+        if is_up(launched, endpoint) and not launched.stopping:
+            self.on_master("back", "")

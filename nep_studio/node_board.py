@@ -77,10 +77,15 @@ class NodeBoard:
         del self.nodes[name]
         return True
 
-    def update(self, state: NodeState) -> bool:
-        """Take in what a node told, or somebody for it; whether its status has changed."""
+    def update(self, state: NodeState, heard_s: float | None = None) -> bool:
+        """Take in what a node told, or somebody for it; whether its status has changed.
+
+        ``heard_s``: when it was heard; another computer's clock may be wrong.
+        """
         before = self.nodes.get(state.node) or NodeStatus(state.node, state.type)
         after = _heard(before, state)
+        if heard_s is not None:
+            after = replace(after, heard_s=heard_s)
         self.nodes[state.node] = after
         return replace(after, heard_s=before.heard_s) != before
 
@@ -94,6 +99,12 @@ class NodeBoard:
         for name in found:
             self.nodes[name] = replace(self.nodes[name], health="frozen", since_s=now_s)
         return found
+
+    def wake(self, now_s: float) -> None:
+        """Nobody could be heard until now, as after the computer's sleep: begin anew to wait."""
+        for name, one in self.nodes.items():
+            if one.is_there and one.health != "frozen":
+                self.nodes[name] = replace(one, heard_s=now_s)
 
     def all_gone(self) -> list[str]:
         """The network is closed: nothing runs any more; those that did."""

@@ -30,7 +30,7 @@ def start_master(launcher: Launcher, wanted: str | None = None) -> str:
         command = program_command(MASTER, "--endpoint", endpoint)
         with postponed():
             launched = launcher.start_command(MASTER, command)
-        if _is_up(launched, endpoint):
+        if is_up(launched, endpoint):
             return endpoint
         launcher.stop(MASTER)
         lines = launched.process.last_lines if launched.process else []
@@ -41,7 +41,7 @@ def start_master(launcher: Launcher, wanted: str | None = None) -> str:
     )
 
 
-def _is_up(launched: LaunchedNode, endpoint: str) -> bool:
+def is_up(launched: LaunchedNode, endpoint: str) -> bool:
     """Whether the master that answers is ours: another session may have been quicker."""
     deadline = time.monotonic() + READY_S
     while time.monotonic() < deadline and not launched.ended.is_set():

@@ -226,6 +226,8 @@ class Session:
                 self._changed.notify_all()
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        if launched.name == PROGRAM and again and self.network.voice is not None:
+            self.network.voice.stop_robots()  # it begins anew, and they with it
         if again or outcome.asked:
             return
         if launched.name == PROGRAM:

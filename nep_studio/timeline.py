@@ -33,6 +33,7 @@ class Timeline:
         self._language = language
         self.tr = tr
         self._actions: dict[str, _Action] = {}
+        self._stopped: set[str] = set()
 
     def lines(self, message: msgspec.Struct) -> list[Line]:
         """Who did what; nothing for what need not be told."""
@@ -46,6 +47,8 @@ class Timeline:
 
     def _line(self, message: msgspec.Struct) -> Line | None:
         match message:
+            case m.NodeState() if self._has_stopped_before(message):
+                return None  # the node and the session both tell it
             case m.NodeState(event="alive" | "starting" | "connected"):
                 return None  # "ready" tells the same
             case m.NodeState(type="cognitive", event="stopped"):
@@ -60,6 +63,15 @@ class Timeline:
                 words = _program_words(message, self.tr)
                 return (self.tr("program"), words) if words else None
         return None
+
+    def _has_stopped_before(self, state: m.NodeState) -> bool:
+        if state.event != "stopped":
+            if state.event != "alive":  # its last heartbeat may come late
+                self._stopped.discard(state.node)
+            return False
+        has_stopped = state.node in self._stopped
+        self._stopped.add(state.node)
+        return has_stopped
 
     def _requested(self, request: m.ActionRequest) -> list[Line]:
         action = self._action(request.id)

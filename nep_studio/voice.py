@@ -44,7 +44,7 @@ class Voice:
             node=launched.name,
             type=launched.manifest.type if launched.manifest else "cognitive",
             event="stopped" if outcome.asked else "crashed",
-            description=f"{outcome}{'; it is started again' if again else ''}",
+            description=f"{outcome}; it is started again" if again else str(outcome),
             pid=launched.pid,
             host=socket.gethostname(),
         )

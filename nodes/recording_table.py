@@ -186,9 +186,9 @@ class _Rows:
             if at >= len(cells):
                 break
             if not _is_number(cells[at]):
-                what = f'"{_shown(cells[at][:40])}"' if cells[at] else "nothing"
+                told = f'"{_shown(cells[at][:40])}"' if cells[at] else "nothing"
                 return RecordingError(
-                    f"{where} has {what} in column {at + 1}, where a number belongs.",
+                    f"{where} has {told} in column {at + 1}, where a number belongs.",
                     checklist=_COLUMNS_CHECKLIST,
                 )
         return RecordingError(

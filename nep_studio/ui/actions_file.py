@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QMenu
 
-from nep_studio.ui.comparing import compare_with_saved
+from nep_studio.ui.main_window_dialogs import export_picture
 from nep_studio.ui.start_page_examples import example_files, example_title
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
@@ -43,12 +43,12 @@ def add_file_menu(window: MainWindow) -> QMenu:
     compare = actions.add(
         "compare",
         tr("Compare with the saved version…"),
-        lambda: compare_with_saved(window),
+        lambda: _compare(window),
         icon_name="file-text",
     )
     menu.addActions([save, save_as, compare])
     picture = actions.add(
-        "picture", tr("Export picture…"), window.export_picture, icon_name="image"
+        "picture", tr("Export picture…"), lambda: export_picture(window), icon_name="image"
     )
     menu.addAction(picture)
     menu.addSeparator()
@@ -58,6 +58,12 @@ def add_file_menu(window: MainWindow) -> QMenu:
     )
     menu.addAction(leave)
     return menu
+
+
+def _compare(window: MainWindow) -> None:
+    from nep_studio.ui.comparing import compare_with_saved  # not at a start
+
+    compare_with_saved(window)
 
 
 def fill_recent(menu: QMenu, window: MainWindow) -> None:

@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QActionGroup, QKeySequence
-from PySide6.QtWidgets import QMenu, QSizePolicy, QToolBar, QToolButton, QWidget
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QPalette
+from PySide6.QtWidgets import QMenu, QToolBar, QToolButton
 
-from nep_studio.settings import SYSTEM
+from nep_studio.settings import SYSTEM, Settings
 from nep_studio.ui.actions_icons import icon_room
-from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, dress_buttons
+from nep_studio.ui.main_window_dialogs import show_about, show_shortcuts
+from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, dress_buttons, keep_width
 from nep_studio.ui.theme import icon, load_theme, themes
 from nep_studio.ui.words import available_languages, tr
 
 if TYPE_CHECKING:
+    from nep_studio.ui.help.desk import HelpDesk
     from nep_studio.ui.main_window import MainWindow
 
 Key = QKeySequence.StandardKey
@@ -28,7 +30,16 @@ TOOLBAR = (
     ("check",),
     ("zoom_out", "zoom_fit", "zoom_in"),
 )
-ICON_ONLY = ("pause", "step", "zoom_out", "zoom_in", "settings", "shortcuts")
+LAST_BUTTONS = ("help", "settings")
+"""At the far end."""
+
+ICON_ONLY = ("pause", "step", "zoom_out", "zoom_in", "help", "settings")
+WORDS_KEPT = (
+    ("run", "stop", "check", "new", "open", "save"),
+    ("run", "stop", "check"),
+    RUN_BUTTONS[:2],
+)
+"""Which buttons keep their words, the narrower the window the fewer; Run and Stop always do."""
 
 
 def add_view_menu(window: MainWindow) -> QMenu:
@@ -38,39 +49,44 @@ def add_view_menu(window: MainWindow) -> QMenu:
         window.actions_by_name.add,
         window.look.theme,
     )
-    canvas = window.workbench.canvas
 
-    def zoom(factor: float) -> Callable[[], None]:
-        return lambda: canvas.zoom(canvas.camera.scale * factor)
+    def zoom(factor: float) -> None:
+        canvas = window.workbench.canvas
+        canvas.zoom(canvas.camera.scale * factor)
 
     menu.addActions(
         [
             add(
                 "zoom_in",
                 tr("Zoom in"),
-                zoom(ZOOM_STEP),
+                lambda: zoom(ZOOM_STEP),
                 icon_name="zoom-in",
                 keys=(Key.ZoomIn, "Ctrl+="),
             ),
             add(
                 "zoom_out",
                 tr("Zoom out"),
-                zoom(1 / ZOOM_STEP),
+                lambda: zoom(1 / ZOOM_STEP),
                 icon_name="zoom-out",
                 keys=Key.ZoomOut,
             ),
-            add("zoom_100", tr("Usual size"), window.workbench.zoom_usual, keys="Ctrl+0"),
-            add("zoom_fit", tr("Show all"), canvas.fit, icon_name="maximize", keys="Ctrl+9"),
+            add("zoom_100", tr("Usual size"), lambda: window.workbench.zoom_usual(), keys="Ctrl+0"),
+            add(
+                "zoom_fit",
+                tr("Show all"),
+                lambda: window.workbench.canvas.fit(),
+                icon_name="maximize",
+                keys="Ctrl+9",
+            ),
         ]
     )
     menu.addSeparator()
     panels = menu.addMenu(icon("panel-right", theme), tr("Panels"))
     panels.aboutToShow.connect(lambda: _fill_panels(panels, window))
-    helpers = window.workbench.helpers
     minimap = add("minimap", tr("Minimap"), lambda: None, icon_name="map")
     minimap.setCheckable(True)
-    minimap.setChecked(helpers.is_minimap_shown)
-    minimap.toggled.connect(helpers.show_minimap)
+    minimap.setChecked(is_minimap_shown(window.settings))
+    minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
     menu.addAction(minimap)
     check = add("check", tr("Check"), window.show_problems, icon_name="circle-check", keys="F8")
     check.setToolTip(tr("Show what is not right yet"))
@@ -99,6 +115,11 @@ def add_view_menu(window: MainWindow) -> QMenu:
     return menu
 
 
+def is_minimap_shown(settings: Settings) -> bool:
+    """Whether the person left the minimap open."""
+    return settings.is_shown("Minimap", default=False)
+
+
 def _fill_panels(menu: QMenu, window: MainWindow) -> None:
     """List the panels; some are added after the menu."""
     menu.clear()
@@ -108,19 +129,36 @@ def _fill_panels(menu: QMenu, window: MainWindow) -> None:
 def add_help_menu(window: MainWindow) -> QMenu:
     """Make the Help menu."""
     menu, add = window.menuBar().addMenu(tr("&Help")), window.actions_by_name.add
+    menu.addActions(_help_actions(window))
+    menu.addSeparator()
     menu.addAction(
         add(
             "shortcuts",
             tr("Keyboard shortcuts"),
-            window.show_shortcuts,
+            lambda: show_shortcuts(window),
             icon_name="keyboard",
             keys="Ctrl+F1",
         )
     )
-    about = add("about", tr("About NEP Studio"), window.show_about, icon_name="info")
+    about = add("about", tr("About NEP Studio"), lambda: show_about(window), icon_name="info")
     about.setMenuRole(about.MenuRole.AboutRole)
     menu.addAction(about)
     return menu
+
+
+def _help_actions(window: MainWindow) -> list[QAction]:
+    """They are there before the help, which may come a moment later."""
+    add, sign = window.actions_by_name.add, "circle-question-mark"
+
+    def desk() -> HelpDesk:
+        return window.later.help_desk
+
+    contents, search = tr("Contents of the help"), tr("Search the help…")
+    return [
+        add("help", tr("Help"), lambda: desk().answer(), icon_name=sign, keys="F1"),
+        add("help_contents", contents, lambda: desk().open(), icon_name="book-open"),
+        add("help_search", search, lambda: desk().search(), icon_name="search"),
+    ]
 
 
 def add_toolbar(window: MainWindow) -> QToolBar:
@@ -134,12 +172,9 @@ def add_toolbar(window: MainWindow) -> QToolBar:
             bar.addSeparator()
         bar.addActions([window.actions_by_name[name] for name in names])
     bar.addWidget(RunState(window, bar))
-    space = QWidget()
-    space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-    bar.addWidget(space)
-    bar.addActions([window.actions_by_name[name] for name in ("shortcuts", "settings")])
+    bar.addActions([window.actions_by_name[name] for name in LAST_BUTTONS])
     window.addToolBar(bar)
-    dress_buttons(bar)
+    dress_buttons(bar, window.look)
     size_toolbar(bar)
     return bar
 
@@ -148,11 +183,33 @@ def size_toolbar(bar: QToolBar) -> None:
     """Let the icons be as large as the text asks for, with words where there is room for them."""
     side = round(bar.fontMetrics().height() * 1.25)
     bar.setIconSize(icon_room(side))
-    bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-    for name in ICON_ONLY:
-        _button(bar, name).setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
-    if bar.sizeHint().width() > bar.window().width():
-        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
+    _dress_rest(bar, side)
+    names = [action.objectName() for action in bar.actions() if action.objectName()]
+    all_words = [name for name in names if name not in ICON_ONLY]
+    for kept in (all_words, *WORDS_KEPT):
+        for name in names:
+            style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+            if name not in kept:
+                style = Qt.ToolButtonStyle.ToolButtonIconOnly
+            _button(bar, name).ensurePolished()  # else it has not its size yet
+            _button(bar, name).setToolButtonStyle(style)
+        keep_width(_button(bar, "run"))
+        for sign in bar.findChildren(RunState):
+            sign.be_tight(kept == WORDS_KEPT[-1])
+        if (layout := bar.layout()) is not None:
+            layout.invalidate()  # it would keep the width that it had with other words
+        if bar.sizeHint().width() <= bar.window().width():
+            return
+
+
+def _dress_rest(bar: QToolBar, side: int) -> None:
+    """The button behind which a bar keeps what it has no room for: Qt's is black."""
+    more = bar.findChild(QToolButton, "qt_toolbar_ext_button")
+    if more is not None:
+        more.setIcon(icon("chevron-down", bar.palette().color(QPalette.ColorRole.WindowText)))
+        more.setIconSize(QSize(side, side))  # Qt makes it as narrow as it likes
+        more.setToolTip(tr("More"))
+        more.setAccessibleName(tr("More"))
 
 
 def _button(bar: QToolBar, name: str) -> QToolButton:

@@ -6,16 +6,18 @@ import gc
 import logging
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QApplication
 
 from nep_studio import __version__, settings
-from nep_studio.blocks.language import Language
 from nep_studio.settings import Settings
-from nep_studio.studio_language import studio_language
 from nep_studio.ui import words
 from nep_studio.ui.theme import Look, application_icon, load_fonts
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.language import Language
 
 log = logging.getLogger(__name__)
 
@@ -32,7 +34,25 @@ class Studio(QObject):
         load_fonts()
         self._use_words()
         self.look = Look(app, self.settings.theme, self.settings.text_scale)
-        self.language = self._block_language()
+        self._language: Language | None = None
+
+    @property
+    def language(self) -> Language:
+        """The blocks that there are; their files are read when somebody first asks."""
+        if self._language is None:
+            self.read_language()
+        assert self._language is not None
+        return self._language
+
+    @language.setter
+    def language(self, language: Language) -> None:
+        self._language = language
+
+    def read_language(self) -> None:
+        """Read the files of the blocks now."""
+        from nep_studio.studio_language import studio_language  # the first page needs none
+
+        self._language = studio_language(words.language_code())
 
     def choose_theme(self, name: str) -> None:
         """Use a theme from now on."""
@@ -49,7 +69,7 @@ class Studio(QObject):
         self.settings.language = code
         self._use_words()
         self.look.refresh()
-        self.language = self._block_language()
+        self._language = None
         self.words_changed.emit()
 
     def _use_words(self) -> None:
@@ -62,9 +82,6 @@ class Studio(QObject):
             Qt.LayoutDirection.RightToLeft if is_mirrored else Qt.LayoutDirection.LeftToRight
         )
         self.app.setLayoutDirection(direction)
-
-    def _block_language(self) -> Language:
-        return studio_language(words.language_code())
 
 
 def make_application() -> QApplication:
@@ -86,11 +103,12 @@ def main(arguments: list[str]) -> int:
 
     app = make_application()
     with LastResort(settings.log_file()) as last_resort:
-        window = MainWindow(Studio(app))
+        window = MainWindow(Studio(app), is_gradual=True)
         last_resort.watch(window)
+        once = Qt.ConnectionType.SingleShotConnection
+        window.later.completed.connect(_collect_from_now_on, once)
         window.show()
         window.start(Path(arguments[0]) if arguments else None)
-        QTimer.singleShot(0, _collect_from_now_on)
         code = app.exec()
         window.deleteLater()
     return code

@@ -18,7 +18,6 @@ from nep_studio.ui.words import tr
 
 log = logging.getLogger(__name__)
 
-SUFFIX = ".nep"
 FLUSH_MS = 1500
 """How often the journal goes to the disk: less than the two seconds that may be lost."""
 
@@ -27,9 +26,13 @@ Stamp = tuple[int, int]
 
 
 class Document(QObject):
-    """An editor, its file and its journal. ``changed`` tells of its title and of being saved."""
+    """An editor, its file and its journal. ``changed`` tells of its title and of being saved.
+
+    ``kept_changed`` tells that the journal cannot be written any more, or can be again.
+    """
 
     changed = Signal()
+    kept_changed = Signal()
 
     def __init__(
         self,
@@ -51,6 +54,7 @@ class Document(QObject):
         self._flush.start()
         editor.history.listen(self._on_changes)
         self._shown = (self.path, self.title, self.is_modified)
+        self._was_kept = self.is_kept
 
     @property
     def project(self) -> Project:
@@ -70,7 +74,7 @@ class Document(QObject):
     @property
     def is_kept(self) -> bool:
         """Whether a journal keeps what is not saved yet."""
-        return self._journal is not None
+        return self._journal is not None and not self._journal.error
 
     @property
     def folder(self) -> Path:
@@ -97,6 +101,7 @@ class Document(QObject):
         """Put the journal on the disk."""
         if self._journal is not None:
             self._journal.flush()
+            self._look_at_journal()
 
     def use_language(self, language: Language) -> None:
         """Show the blocks in the words of another language."""
@@ -120,7 +125,13 @@ class Document(QObject):
             self.editor.apply(rename)
 
     def _on_changes(self, changes: Changes) -> None:
+        self._look_at_journal()
         self._tell()
+
+    def _look_at_journal(self) -> None:
+        if self.is_kept != self._was_kept:
+            self._was_kept = self.is_kept
+            self.kept_changed.emit()
 
     def _tell(self) -> None:
         shown = (self.path, self.title, self.is_modified)

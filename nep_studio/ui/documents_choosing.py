@@ -9,8 +9,11 @@ from typing import Protocol
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from nep_studio.ui.documents import SUFFIX
 from nep_studio.ui.words import tr
+
+SUFFIX = ".nep"
+PICTURES = (".png", ".svg")
+"""The pictures that may have a project in them."""
 
 OnChosen = Callable[[Path], object]
 

@@ -5,23 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from nep_studio import settings
-from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
-from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import Project
-from nep_studio.journal import Recoverable
 from nep_studio.problems import problem_of
 from nep_studio.settings import Settings
-from nep_studio.ui.documents import SUFFIX, Document, new_document
-from nep_studio.ui.documents_choosing import FileChooser
-from nep_studio.ui.documents_opening import PICTURES, Opening
+from nep_studio.ui.documents_choosing import PICTURES, SUFFIX, FileChooser
 from nep_studio.ui.messages import Answer, Message, Messages
 from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.language import Language
+    from nep_studio.blocks.program import Project
+    from nep_studio.journal import Recoverable
+    from nep_studio.ui.documents import Document
+    from nep_studio.ui.documents_opening import Opening
 
 Then = Callable[[], object]
 
@@ -50,12 +52,15 @@ class Files(QObject):
         self._messages, self._chooser, self._window = messages, chooser, window
         self._opening: Opening | None = None
         self._is_warned = False
+        self._warning: Message | None = None
         self.document: Document | None = None
 
     # New, open, close
 
     def new(self) -> None:
         """Begin an empty project."""
+        from nep_studio.ui.documents import new_document  # all of the blocks: not at a start
+
         self.guard(lambda: self._show(new_document(self._language(), self)))
 
     def choose(self) -> None:
@@ -67,9 +72,14 @@ class Files(QObject):
         on_opened = self._on_example_opened if path.suffix.lower() in PICTURES else self._on_opened
         self.guard(lambda: self._read(path.absolute(), on_opened))
 
-    def open_example(self, path: Path) -> None:
-        """Open a copy of an example: it has no file until it is saved."""
-        self.guard(lambda: self._read(path, self._on_example_opened))
+    def open_example(self, path: Path, then: Then = lambda: None) -> None:
+        """Open a copy of an example: it has no file until it is saved; go on when it is open."""
+
+        def show(path: Path, project: Project) -> None:
+            self._on_example_opened(path, project)
+            then()
+
+        self.guard(lambda: self._read(path, show))
 
     def restore(self, work: Recoverable) -> None:
         """Open recovered work; it is not saved yet."""
@@ -152,6 +162,8 @@ class Files(QObject):
     # Reading
 
     def _read(self, path: Path, on_opened: Callable[[Path, Project], None]) -> None:
+        from nep_studio.ui.documents_opening import Opening
+
         self.cancel_opening()
         opening = self._opening = Opening(path, self._language(), self)
         opening.opened.connect(lambda project: self._on_read(path, project, on_opened))
@@ -166,11 +178,11 @@ class Files(QObject):
         on_opened(path, project)
 
     def _on_opened(self, path: Path, project: Project) -> None:
-        self._show(Document(Editor(project, self._language()), path, parent=self))
+        self._show(self._document(project, path))
         self._remember(path)
 
     def _on_example_opened(self, path: Path, project: Project) -> None:
-        self._show(Document(Editor(project, self._language()), parent=self))
+        self._show(self._document(project))
 
     def _on_failed(self, path: Path, error: BlocksError) -> None:
         self._end_opening()
@@ -178,21 +190,43 @@ class Files(QObject):
         self.recent_changed.emit()
 
     def _show_restored(self, work: Recoverable) -> None:
-        editor = Editor(work.project, self._language())
-        self._show(Document(editor, work.path, is_unsaved=True, parent=self))
+        self._show(self._document(work.project, work.path, is_unsaved=True))
         work.discard()  # it is in the new document's journal now
+
+    def _document(
+        self, project: Project, path: Path | None = None, *, is_unsaved: bool = False
+    ) -> Document:
+        from nep_studio.blocks.editor import Editor
+        from nep_studio.ui.documents import Document
+
+        editor = Editor(project, self._language())
+        return Document(editor, path, is_unsaved=is_unsaved, parent=self)
 
     def _show(self, document: Document | None) -> None:
         old, self.document = self.document, document
+        self._take_warning_back()
         self.document_changed.emit(document)
-        if document is not None and not document.is_kept and not self._is_warned:
-            self._warn_of_loss()
+        if document is not None:
+            document.kept_changed.connect(self._on_kept_changed)
+            if not document.is_kept and not self._is_warned:
+                self._warn_of_loss()
         if old is not None:
             old.close()
             old.deleteLater()
 
+    def _on_kept_changed(self) -> None:
+        """The disk became full, or has room again."""
+        self._take_warning_back()
+        if self.document is not None and not self.document.is_kept:
+            self._warn_of_loss()
+
+    def _take_warning_back(self) -> None:
+        if self._warning is not None:
+            self._messages.withdraw(self._warning)
+            self._warning = None
+
     def _warn_of_loss(self) -> None:
-        """Say once that nothing is kept between saves."""
+        """Say that nothing is kept between saves."""
         self._is_warned = True
         title = tr("Save often")
         sentence = tr(
@@ -200,7 +234,13 @@ class Files(QObject):
             " if the computer stops."
         )
         folder = str(settings.user_folder())
-        self._messages.tell(Message("warning", title, sentence, details=folder))
+        steps = (
+            tr("Is there room on the disk?"),
+            tr("May this program write into {folder}?", folder=folder),
+        )
+        save = Answer(tr("Save"), self.save, "primary")
+        self._warning = Message("warning", title, sentence, steps, answers=(save,))
+        self._messages.tell(self._warning)
 
     def _end_opening(self) -> None:
         if self._opening is not None:

@@ -13,14 +13,13 @@ from nep_studio.blocks.files import load
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.reading import from_bytes
+from nep_studio.ui.documents_choosing import PICTURES
 from nep_studio.ui.picture.reading import project_bytes_from
 
 log = logging.getLogger(__name__)
 
 LARGE_BYTES = 400_000
 """What is smaller is read in less than a tenth of a second."""
-
-PICTURES = (".png", ".svg")
 
 SLOW_MS = 500
 """After this time the person is shown that the file is being read, and can stop it."""

@@ -3,42 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
 from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar, QWidget
 
-from nep_studio import settings
-from nep_studio.blocks.checks import Problem
-from nep_studio.journal import recover
 from nep_studio.ui.actions import Actions
 from nep_studio.ui.actions_edit import add_edit_menu, update_edit_actions
 from nep_studio.ui.actions_file import add_file_menu
 from nep_studio.ui.actions_icons import fit_icons
 from nep_studio.ui.actions_view import add_help_menu, add_toolbar, add_view_menu, size_toolbar
 from nep_studio.ui.app import Studio
-from nep_studio.ui.documents import Document
 from nep_studio.ui.documents_choosing import FileChooser, SystemFileChooser
 from nep_studio.ui.documents_files import Files
-from nep_studio.ui.documents_opening import Opening
+from nep_studio.ui.main_window_dialogs import export_picture, offer_recovery, open_settings
 from nep_studio.ui.main_window_drops import project_in
-from nep_studio.ui.main_window_help import (
-    AboutDialog,
-    ShortcutsDialog,
-    on_the_canvas,
-    shortcuts_of,
-)
-from nep_studio.ui.main_window_panels import AreaName, Panel
-from nep_studio.ui.main_window_rooms import WITH_A_PROJECT, add_rooms
-from nep_studio.ui.main_window_workbench import Workbench
+from nep_studio.ui.main_window_later import Later
 from nep_studio.ui.messages import Answer, Message, Messages
 from nep_studio.ui.messages_area import MessageArea
-from nep_studio.ui.problems.looks import summary
+from nep_studio.ui.problems.looks import dress_check
 from nep_studio.ui.running.actions import add_run_menu
-from nep_studio.ui.running.control import RunControl
 from nep_studio.ui.start_page import StartPage
-from nep_studio.ui.theme import icon
-from nep_studio.ui.words import tr
+from nep_studio.ui.words import is_right_to_left, tr
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.checks import Problem
+    from nep_studio.ui.documents import Document
+    from nep_studio.ui.documents_opening import Opening
+    from nep_studio.ui.main_window_panels import AreaName, Panel
+    from nep_studio.ui.main_window_workbench import Workbench
+    from nep_studio.ui.running.control import RunControl
 
 FIRST_SIZE = (1280, 800)
 
@@ -47,9 +43,13 @@ class MainWindow(QMainWindow):
     """One window with at most one project.
 
     What is in it is made anew when the language changes; the project and its history stay.
+    With ``is_gradual`` the first page is there first: the workbench and what stands around it
+    are made after that has been painted, or when they are needed.
     """
 
-    def __init__(self, studio: Studio, chooser: FileChooser | None = None) -> None:
+    def __init__(
+        self, studio: Studio, chooser: FileChooser | None = None, *, is_gradual: bool = False
+    ) -> None:
         super().__init__()
         self.studio = studio
         self.settings, self.look = studio.settings, studio.look
@@ -63,25 +63,41 @@ class MainWindow(QMainWindow):
         )
         self._opening_message: Message | None = None
         self._may_close = False
-        self.running = RunControl(self)
+        self.later = Later(self)
         self.setAcceptDrops(True)
         self.resize(*FIRST_SIZE)
         self.restoreGeometry(self.settings.state("geometry"))
         self._build()
+        if is_gradual:
+            self.start_page.gallery.wait_with_pictures()
+            self.later.go_on_after_paint()
+        else:
+            self.later.finish()
         self.files.document_changed.connect(self._on_document_changed)
         self.files.opening_changed.connect(self._on_opening_changed)
         studio.words_changed.connect(self._on_words_changed)
         self.look.theme_changed.connect(self._on_theme_changed)
         self._show_title()
 
+    @property
+    def workbench(self) -> Workbench:
+        """Where the project is worked on; made when it is first asked for."""
+        return self.later.workbench
+
+    @property
+    def running(self) -> RunControl:
+        """What runs the project; made when it is first asked for."""
+        return self.later.running
+
     def _build(self) -> None:
-        """Make all that has words in it."""
+        """Make all that has words in it: the first page now, the rest later."""
+        self._is_mirrored = is_right_to_left()
         self.pages = QStackedWidget()
         self.setCentralWidget(self.pages)
-        self.workbench = Workbench(self.studio, self.messages, self)
         self.start_page = StartPage(self.studio, self.files)
         self.pages.addWidget(self.start_page)
-        self.pages.addWidget(self.workbench)
+        self.start_page.try_requested.connect(lambda path: self.running.try_example(path))
+        self.start_page.tour_requested.connect(lambda: self.later.trigger("tour"))
         self.message_area = MessageArea(self.look, self.pages)
         self.messages.show_in(self.message_area)
         self.actions_by_name = Actions(self, self.look)
@@ -93,19 +109,26 @@ class MainWindow(QMainWindow):
             "help": add_help_menu(self),
         }
         self.toolbar: QToolBar = add_toolbar(self)
-        self.running.attach()
-        add_rooms(self)
-        self.workbench.problems_found.connect(self._on_problems_found)
-        self.workbench.canvas.picture_requested.connect(self.export_picture)
-        self.workbench.canvas.layout_changed.connect(self.update_actions)
-        self.workbench.canvas.selection.changed.connect(self.update_actions)
+        self.later.begin()
         self._on_problems_found([])
         self.update_actions()
         fit_icons(self.pages)
 
+    def follow_workbench(self) -> None:
+        """Follow the workbench, now that it and all around it are made."""
+        workbench = self.workbench
+        workbench.problems_found.connect(self._on_problems_found)
+        workbench.canvas.picture_requested.connect(lambda: export_picture(self))
+        workbench.canvas.layout_changed.connect(self.update_actions)
+        workbench.canvas.selection.changed.connect(self.update_actions)
+        self.update_actions()
+        self.start_page.gallery.paint_pictures()
+
     def start(self, path: Path | None) -> None:
         """Begin with a project, or with the start page; offer what was lost the last time."""
-        self.workbench.restore(self.fontMetrics().height())
+        self.later.is_laid_out = True
+        if self.later.is_done:
+            self.workbench.restore(self.fontMetrics().height())
         if path is not None:
             self.files.open(path)
         self.offer_recovery()
@@ -118,11 +141,7 @@ class MainWindow(QMainWindow):
 
     def offer_recovery(self) -> None:
         """Offer work that was not saved when the program ended without warning."""
-        found = recover(settings.journal_folder(), self.studio.language)
-        if found:
-            from nep_studio.ui.recovery import RecoveryDialog  # at a start without, not loaded
-
-            RecoveryDialog(found, self.studio, self.files.restore, self).open()
+        offer_recovery(self)
 
     def flush(self) -> None:
         """Put all work on the disk."""
@@ -133,52 +152,30 @@ class MainWindow(QMainWindow):
 
     def open_settings(self) -> None:
         """Show the settings."""
-        from nep_studio.ui.settings_dialog import SettingsDialog
-
-        dialog = SettingsDialog(self.studio, self)
-        dialog.reset_button.clicked.connect(self.reset_panels)
-        dialog.open()
+        open_settings(self)
 
     def reset_panels(self) -> None:
         """Put the panels back to where they were at first."""
         self.settings.forget_window()
         self._rebuild()
 
-    def export_picture(self) -> None:
-        """Ask for a picture of the blocks."""
-        document = self.files.document
-        if document is not None:
-            folder = document.path.parent if document.path else self.settings.last_folder
-            from nep_studio.ui.picture.dialog import PictureDialog
-
-            PictureDialog(self.workbench.canvas, folder, document.title, self).open()
-
     def show_problems(self) -> None:
         """Check now, and show the problems."""
         self.workbench.checks.start()
         self.workbench.panels.show(self.workbench.problems)
 
-    def show_shortcuts(self) -> None:
-        """Show what the keys do."""
-        rows = [*shortcuts_of(self.actions_by_name.by_name.values()), *on_the_canvas()]
-        ShortcutsDialog(rows, self).open()
-
-    def show_about(self) -> None:
-        """Say what this program is."""
-        AboutDialog(self).open()
-
     def update_actions(self) -> None:
         """Let those actions be used that have something to do."""
         is_open = self.files.document is not None
         names = ("save", "save_as", "close", "check", "zoom_in", "zoom_out", "zoom_100", "zoom_fit")
-        self.actions_by_name.enable(is_open, *names, *WITH_A_PROJECT)
-        for panel in self.workbench.panels.all:
-            panel.action.setEnabled(is_open)
+        self.actions_by_name.enable(is_open, *names)
+        self.later.enable(is_open)
         update_edit_actions(self)
 
     # What happens
 
     def _on_document_changed(self, document: Document | None) -> None:
+        self.later.finish()
         self.running.follow(document)
         self.pages.setCurrentIndex(0 if document is None else 1)  # first: it needs its size
         self.workbench.show_document(document)
@@ -193,7 +190,8 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{document.title}[*]" if document is not None else tr("Start"))
         self.setWindowModified(document is not None and document.is_modified)
         self.setWindowFilePath("" if document is None else str(document.path or ""))
-        self.workbench.show_folder(document)
+        if self.later.is_done:
+            self.workbench.show_folder(document)
         can_compare = document is not None and document.path is not None and document.is_modified
         self.actions_by_name.enable(can_compare, "compare")
 
@@ -202,14 +200,8 @@ class MainWindow(QMainWindow):
         is_open = document is not None
         if document is not None and not document.project.blocks:
             problems = []  # that nothing happens yet is no news to somebody who begins
-        check = self.actions_by_name["check"]
-        worst = next(iter(problems), None)
-        colour = "success" if worst is None else worst.severity
-        sign = "circle-check" if worst is None else "triangle-alert"
-        theme = self.look.theme
-        check.setIcon(icon(sign, theme.colour(colour)) if is_open else icon(sign, theme))
-        check.setIconText(summary(problems) if problems else tr("Check"))
-        check.setToolTip(summary(problems))
+        dress_check(self.actions_by_name["check"], problems, self.look.theme, is_open=is_open)
+        size_toolbar(self.toolbar)
 
     def _on_opening_changed(self, opening: Opening | None) -> None:
         if self._opening_message is not None:
@@ -224,7 +216,7 @@ class MainWindow(QMainWindow):
     def _on_theme_changed(self) -> None:
         size_toolbar(self.toolbar)
         fit_icons(self.pages)
-        self._on_problems_found(self.workbench.checks.problems)
+        self._on_problems_found(self.workbench.checks.problems if self.later.is_done else [])
 
     def _on_words_changed(self) -> None:
         if self.files.document is not None:
@@ -234,20 +226,27 @@ class MainWindow(QMainWindow):
     def _rebuild(self) -> None:
         """Make the contents of the window anew, and show the same place of the same project."""
         old, page = self.workbench, self.workbench.canvas.page
-        camera, selected = old.canvas.camera, old.canvas.selection.ids
+        camera, selected = replace(old.canvas.camera), old.canvas.selection.ids
+        was_mirrored = self._is_mirrored
         old.retire()
         self.menuBar().clear()
+        for menu in self.menus.values():
+            menu.setParent(None)  # to clear the menu bar does not delete its menus
+            menu.deleteLater()
         self.removeToolBar(self.toolbar)
         self.toolbar.deleteLater()
         self.actions_by_name.retire()
         self._build()
         self._on_document_changed(self.files.document)
-        self.workbench.restore(self.fontMetrics().height())
         canvas = self.workbench.canvas
         if self.files.document is not None:
             canvas.show_page(page)
             canvas.selection.set(selected)
             canvas.zoom(camera.scale)
+            if was_mirrored == self._is_mirrored:
+                canvas.move_camera(camera.x, camera.y)
+            else:  # the page is read from its other side now
+                canvas.show_beginning()
             if selected:
                 canvas.show_block(selected[0])
 
@@ -274,11 +273,16 @@ class MainWindow(QMainWindow):
 
     def _remember(self) -> None:
         self.settings.set_state("geometry", self.saveGeometry())
-        self.workbench.panels.remember()
+        is_complete = self.later.is_done
+        self.later.stop()
+        if is_complete:
+            self.workbench.panels.remember()
         self.settings.write()
         self.hide()  # what is running takes a moment to stop
-        self.running.close()
-        self.workbench.retire()
+        if self.later.made_running is not None:
+            self.running.close()
+        if is_complete:
+            self.workbench.retire()
         if self.files.document is not None:
             self.files.document.close()
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 from PySide6.QtGui import QDropEvent
 
-from nep_studio.ui.documents import SUFFIX
-from nep_studio.ui.documents_opening import PICTURES
+from nep_studio.ui.documents_choosing import PICTURES, SUFFIX
 
 
 def project_in(event: QDropEvent) -> Path | None:

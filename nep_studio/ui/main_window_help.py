@@ -5,7 +5,7 @@ from __future__ import annotations
 import platform
 from collections.abc import Iterable
 
-from PySide6.QtCore import QSize, Qt, qVersion
+from PySide6.QtCore import QKeyCombination, QSize, Qt, qVersion
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -33,6 +33,7 @@ class ShortcutsDialog(QDialog):
         known = list(rows)
         self.table = QTableWidget(len(known), 2)
         self.table.setHorizontalHeaderLabels([tr("What it does"), tr("Keys")])
+        self.table.setAccessibleName(self.windowTitle())
         self.table.verticalHeader().hide()
         self.table.setShowGrid(False)
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -84,17 +85,26 @@ class AboutDialog(QDialog):
         ]
 
 
+FIRST_RARE_KEY = Qt.Key.Key_Back
+"""From here on come keys such as “Undo” and “Open”, which hardly a keyboard has."""
+
+
 def shortcuts_of(actions: Iterable[QAction]) -> list[tuple[str, str]]:
-    """What the actions with keys do, and the keys."""
+    """What the actions with keys do, and the keys that a keyboard has."""
     native = QKeySequence.SequenceFormat.NativeText
     return [
         (
             action.iconText().replace("&", ""),
-            ", ".join(dict.fromkeys(key.toString(native) for key in action.shortcuts())),
+            ", ".join(dict.fromkeys(key.toString(native) for key in keys)),
         )
         for action in actions
-        if action.shortcuts()
+        if (keys := [key for key in action.shortcuts() if _is_on_keyboards(key)])
     ]
+
+
+def _is_on_keyboards(keys: QKeySequence) -> bool:
+    first: QKeyCombination = keys[0]  # type: ignore[index]  # stubs lack __getitem__
+    return first.key() < FIRST_RARE_KEY
 
 
 def on_the_canvas() -> list[tuple[str, str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QObject
 
 from nep_studio.settings import Settings
+from nep_studio.ui.actions_view import is_minimap_shown
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.empty_hint import EmptyHint
 from nep_studio.ui.find_bar import FindBar
@@ -31,12 +32,7 @@ class CanvasHelpers(QObject):
         canvas.layout_changed.connect(canvas.update_scroll_bars)
         self.find_bar.hide()
         self._stack_corner()
-        self.minimap.setVisible(self.is_minimap_shown)
-
-    @property
-    def is_minimap_shown(self) -> bool:
-        """Whether the person left the minimap open."""
-        return self._settings.is_shown("Minimap", default=False)
+        self.minimap.setVisible(is_minimap_shown(settings))
 
     def show_minimap(self, is_shown: bool) -> None:
         """Show or hide the minimap."""

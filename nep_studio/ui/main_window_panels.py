@@ -44,7 +44,8 @@ class Area(QTabWidget):
         self.setDocumentMode(True)
         self.setUsesScrollButtons(True)
         self.setTabBarAutoHide(name == "left")
-        self.close_button = QToolButton()
+        self.close_button = QToolButton(self)  # without a parent it would keep this area for ever
+        self.close_button.setVisible(name != "left")
         self.close_button.setToolTip(tr("Hide this panel"))
         self.close_button.setAccessibleName(tr("Hide this panel"))
         self.close_button.clicked.connect(lambda: self.close_asked.emit(self.currentWidget()))
@@ -67,15 +68,22 @@ class Area(QTabWidget):
 
     def _fit_titles(self) -> None:
         """Show all titles where there is room, else the one on top: the others have their signs."""
-        metrics, line = self.fontMetrics(), self.fontMetrics().height()
-        shown = [one for one in self._titles if self.isTabVisible(self.indexOf(one))]
-        room = sum(metrics.horizontalAdvance(self._titles[one]) + 4 * line for one in shown)
-        is_narrow = room > self.width()
+        room = sum(self._tab_room(widget) for widget in self._titles)
+        is_narrow = room > self.width() - self.close_button.sizeHint().width()
         for widget, title in self._titles.items():
             is_short = is_narrow and widget is not self.currentWidget()
             words = "" if is_short else title
             if self.tabText(self.indexOf(widget)) != words:
                 self.setTabText(self.indexOf(widget), words)
+
+    def _tab_room(self, widget: QWidget) -> int:
+        """How wide the tab of a panel is with its title; nothing when it is hidden."""
+        index, bar = self.indexOf(widget), self.tabBar()
+        if not self.isTabVisible(index):
+            return 0
+        metrics, title = self.fontMetrics(), self._titles[widget]
+        more = metrics.horizontalAdvance(title) - metrics.horizontalAdvance(bar.tabText(index))
+        return bar.tabRect(index).width() + more + (0 if bar.tabText(index) else metrics.height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the titles the room that there is."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
@@ -26,24 +27,34 @@ WITH_A_PROJECT = (*NEEDS_PROJECT, "show_mode", "show_at_start")
 """The actions of rooms that need an open project."""
 
 
-def add_rooms(window: MainWindow) -> None:
-    """Add the panels and their actions, in the order of their tabs; they follow the project."""
+def add_rooms(window: MainWindow) -> Iterator[None]:
+    """Add the panels and their actions, in the order of their tabs: one room at each step."""
     add_robots_panel(window)
+    yield
     add_cues_panel(window)
-    nodes, network = add_nodes_panel(window), add_network_panel(window)
+    yield
+    nodes = add_nodes_panel(window)
+    yield
+    network = add_network_panel(window)
     network.node_chosen.connect(lambda _name: window.workbench.panels.show(nodes))
     network.node_chosen.connect(nodes.open_log)
+    yield
     add_sensors_panel(window)
     network.plot_requested.connect(lambda topic, field: show_topic(window, topic, field))
+    yield
     add_log_panel(window)
+    yield
     add_exporting(window)
     add_show_mode(window)
+    yield
     help_desk = add_help(window)
     help_desk.try_requested.connect(window.running.try_project)
+    yield
     add_tour(window)
+    yield
     add_study(window)
+    yield
     add_command_palette(window)
-    window.start_page.try_requested.connect(window.running.try_example)
     _put_into_menus(window)
 
 

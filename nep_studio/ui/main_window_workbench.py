@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QRect, Signal
+from PySide6.QtCore import QRect, QSignalBlocker, Signal
 from PySide6.QtGui import QFont, QFontInfo
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
@@ -129,7 +129,8 @@ class Workbench(QWidget):
 
     def retire(self) -> None:
         """Let go of the project, before this workbench is thrown away."""
-        self.show_document(None)
+        with QSignalBlocker(self.checks):  # what is not checked any more is not without problems
+            self.show_document(None)
         self.checks.cancel()
 
     def _no_editor(self) -> Editor:

@@ -39,6 +39,9 @@ class QuestionDialog(QDialog):
             row.addWidget(button)
         box.addLayout(row)
         self.setMinimumWidth(line * 24)
+        for button in self.buttons:
+            if button.isDefault():
+                button.setFocus()  # Enter means what the eye is led to
         self.finished.connect(self._on_finished)
 
     def _words(self, line: int) -> QHBoxLayout:
@@ -53,8 +56,8 @@ class QuestionDialog(QDialog):
 
     def _button(self, answer: Answer) -> QPushButton:
         button = QPushButton(answer.words)
-        button.setDefault(answer.look == "primary")
-        if answer.look:
+        button.setDefault(answer.look == "primary")  # which has its look, and moves with the focus
+        if answer.look == "quiet":
             button.setProperty("kind", answer.look)
         button.clicked.connect(lambda: self._on_answered(answer))
         return button

@@ -86,14 +86,20 @@ def read_snippet(path: Path, language: Language) -> Snippet:
     """Read a snippet's file; raises EditRefused with what is wrong."""
     try:
         if path.stat().st_size > LARGEST_BYTES:
-            raise EditRefused(tr("The file {name} is too large for a snippet.", name=path.name))
+            raise EditRefused(
+                tr("The file {name} is too large for a snippet.", name=path.name),
+                checklist=(tr("A snippet is a few blocks: keep more as a project."),),
+            )
         clip = from_text(path.read_text(encoding="utf-8"), language)
     except (OSError, UnicodeDecodeError) as error:
         raise _refused(path, error) from error
     except BlocksError as error:
         raise EditRefused(error.sentence, checklist=error.checklist) from error
     if not clip.stacks:
-        raise EditRefused(tr("There are no blocks in the file {name}.", name=path.name))
+        raise EditRefused(
+            tr("There are no blocks in the file {name}.", name=path.name),
+            checklist=(tr("Choose another file."),),
+        )
     return Snippet(path, clip.project.name, clip)
 
 
@@ -112,9 +118,14 @@ def file_stem(name: str) -> str:
 def _checked(name: str) -> str:
     name = " ".join(name.split())
     if not name:
-        raise EditRefused(tr("A snippet needs a name."))
+        raise EditRefused(
+            tr("A snippet needs a name."), checklist=(tr("Write a short name, such as greeting."),)
+        )
     if len(name) > LONGEST_NAME:
-        raise EditRefused(tr("The name can have at most {count} letters.", count=LONGEST_NAME))
+        raise EditRefused(
+            tr("The name can have at most {count} letters.", count=LONGEST_NAME),
+            checklist=(tr("Write a short name, such as greeting."),),
+        )
     return name
 
 
@@ -129,7 +140,8 @@ def _write(path: Path, text: str) -> None:
 
 
 def _refused(path: Path, error: Exception) -> EditRefused:
-    reason = getattr(error, "strerror", None) or str(error)
+    reason = tr((getattr(error, "strerror", None) or str(error)).lower())
     return EditRefused(
-        tr("The file {name} cannot be used: {reason}.", name=path.name, reason=reason)
+        tr("The file {name} cannot be used: {reason}.", name=path.name, reason=reason),
+        checklist=(tr("Choose another file."), tr("Is there room on the disk?")),
     )

@@ -21,6 +21,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from nep_studio.examples import Example, example_of, examples
+from nep_studio.ui.actions_icons import icon_room
 from nep_studio.ui.start_page_flow import Flow, begin_where_reading_begins
 from nep_studio.ui.start_page_words import Sign, difficulty_of, signs_of
 from nep_studio.ui.theme import Look, icon, paint_icon
@@ -152,6 +153,7 @@ class Card(QFrame):
         row.setContentsMargins(0, line // 4, 0, 0)
         self.try_button = QPushButton(tr("Try on the simulator"))
         self.try_button.setIcon(icon("play", self._look.theme))
+        self.try_button.setIconSize(icon_room(line))
         self.try_button.setAccessibleName(tr("Try “{example}” on the simulator", example=title))
         self.try_button.clicked.connect(self.try_requested)
         self.open_button = QPushButton(tr("Open"))

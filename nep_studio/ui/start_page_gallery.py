@@ -18,14 +18,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError
-from nep_studio.blocks.files import load
 from nep_studio.examples import Example, examples
 from nep_studio.ui.app import Studio
-from nep_studio.ui.main_window_workbench import block_font
 from nep_studio.ui.messages import announce
-from nep_studio.ui.pictures import picture_of
 from nep_studio.ui.start_page_examples import CARD_LINES, Card
 from nep_studio.ui.start_page_flow import Flow
 from nep_studio.ui.start_page_words import search_text, tag_words
@@ -71,6 +67,7 @@ class Gallery(QWidget):
         self.tag_buttons: dict[str, QPushButton] = {}
         self._columns = self._wide = 0
         self._unpainted: list[Path] = []
+        self._has_pictures = True
         self._painting = QTimer(self, interval=0)
         self._painting.timeout.connect(self._on_paint_next)
         self._settling = QTimer(self, singleShot=True, interval=SETTLED_MS)
@@ -216,6 +213,15 @@ class Gallery(QWidget):
 
     # Pictures
 
+    def wait_with_pictures(self) -> None:
+        """Paint none before ``paint_pictures``: they need all that paints blocks."""
+        self._has_pictures = False
+
+    def paint_pictures(self) -> None:
+        """Paint them from now on."""
+        self._has_pictures = True
+        self._painting.start()
+
     def showEvent(self, event: QShowEvent) -> None:
         """Go on painting."""
         super().showEvent(event)
@@ -231,10 +237,17 @@ class Gallery(QWidget):
         if self._unbuilt and self.isVisible():
             self._build_next()
             return
-        if not self._unpainted or not self.isVisible():
+        if not self._unpainted or not self._has_pictures or not self.isVisible():
             self._painting.stop()
             return
-        path = self._unpainted.pop(0)
+        self._paint(self._unpainted.pop(0))
+
+    def _paint(self, path: Path) -> None:
+        from nep_studio.blocks.editor import Editor  # all of the blocks: after the first page
+        from nep_studio.blocks.files import load
+        from nep_studio.ui.main_window_workbench import block_font
+        from nep_studio.ui.pictures import picture_of
+
         card, language = self._cards[path], self._studio.language
         try:
             editor = Editor(load(path, language), language)

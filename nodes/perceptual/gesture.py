@@ -100,8 +100,10 @@ class _Ears:
         except RecordingError as error:
             self._node.warn(" ".join([error.sentence, *error.checklist]))
             return None
-        lacking = "" if gyroscope else ", which sends no rotation"
-        self._node.state("running", f"listens to {batch.source}{lacking}")
+        if gyroscope:
+            self._node.state("running", f"listens to {batch.source}")
+        else:
+            self._node.state("running", f"listens to {batch.source}, which sends no rotation")
         return spotter
 
     def _forget_oldest(self) -> None:

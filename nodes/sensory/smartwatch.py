@@ -25,7 +25,8 @@ def run(node: Node, *, port: int, listen_on: str) -> None:
     """Publish ``/imu`` from the lines that one sender sends; PortTaken when the port is."""
     publisher = node.publisher(IMU)
     with _open(port, ADDRESSES[listen_on]) as door:
-        node.ready(f"waits for a watch on UDP port {port} ({_where(listen_on)})")
+        where = _where(listen_on)
+        node.ready(f"waits for a watch on UDP port {port} ({where})")
         ear = _Ear(node)
         while not node.stopping:
             if batch := ear.hear(_datagrams(door)):
@@ -106,8 +107,8 @@ class _Ear:
     def _read(self, datagram: Datagram) -> list[Sample]:
         readings, unreadable = read_datagram(datagram.data)
         if unreadable:
-            what = f'{self._sender} sends a line that cannot be read: "{unreadable}"'
-            self._warn(datagram.arrived_s, what)
+            told = f'{self._sender} sends a line that cannot be read: "{unreadable}"'
+            self._warn(datagram.arrived_s, told)
         if readings:
             self._heard_s = datagram.arrived_s
         return self._stream.samples(readings, datagram.arrived_s)
@@ -120,8 +121,8 @@ class _Ear:
     def _tell(self, now_s: float, *, has_samples: bool) -> None:
         if has_samples and not self._is_connected and self._stream.rate_hz:
             self._is_connected = True
-            rate = f"{self._stream.rate_hz:.0f} samples a second"
-            self._node.state("connected", f"{self._sender} sends {rate}")
+            rate_hz = self._stream.rate_hz
+            self._node.state("connected", f"{self._sender} sends {rate_hz:.0f} samples a second")
         elif self._is_connected and now_s - self._heard_s >= _SILENT_S:
             self._is_connected = False
             self._node.state("disconnected", f"{self._sender} has sent nothing for 3 seconds")

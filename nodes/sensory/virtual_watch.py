@@ -35,8 +35,13 @@ def run(
     watch = _Watch(node, rate_hz, person, seed)
     publisher = node.publisher(IMU)
     requests = node.subscriber(GESTURE_REQUEST, GestureRequest)
-    haste = "" if speed == 1.0 else f", {speed:g} times as fast as real time"
-    node.ready(f"{rate_hz:g} samples a second of simulated person {person}{haste}")
+    if speed == 1.0:
+        node.ready(f"{rate_hz:g} samples a second of simulated person {person}")
+    else:
+        node.ready(
+            f"{rate_hz:g} samples a second of simulated person {person}, "
+            f"{speed:g} times as fast as real time"
+        )
     pace = _Pace(rate_hz * speed)
     while not node.wait(_BATCH_S):
         for request in requests.pending():
@@ -111,7 +116,6 @@ class _Watch:
 
     def _tell(self, gesture: str) -> None:
         if gesture != self._told:
-            person = f"(simulated person {self._wearer.number})"
-            makes = f"makes the gesture {gesture} {person}"
+            makes = f"makes the gesture {gesture} (simulated person {self._wearer.number})"
             self._node.state("running", makes if gesture else "goes on with everyday movement")
         self._told = gesture

@@ -123,15 +123,16 @@ def code_points(ranges: str) -> set[int]:
 
 
 def japanese_words() -> set[int]:
-    """Every character of our Japanese table that Latin fonts may not have."""
-    path = HERE.parent / "translations" / "ja.toml"
-    text = path.read_text(encoding="utf-8") if path.exists() else ""
-    tomllib.loads(text)
+    """Every character of our Japanese table and help that Latin fonts may not have."""
+    table = HERE.parent / "translations" / "ja.toml"
+    tomllib.loads(table.read_text(encoding="utf-8"))
+    pages = (HERE.parent / "help" / "ja").iterdir()
+    text = "".join(path.read_text(encoding="utf-8") for path in (table, *pages))
     return {ord(character) for character in text if ord(character) > 0x2E80}
 
 
 def make_japanese(packages: Path) -> None:
-    """Cut the Japanese font to kana, the commonest kanji, and all that our own table uses."""
+    """Cut the Japanese font to kana, the commonest kanji, and all that our own words use."""
     folder = files(packages, JAPANESE)
     slices = json.loads((folder.parent / "unicode.json").read_text(encoding="utf-8"))
     numbered = sorted(

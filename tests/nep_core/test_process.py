@@ -12,7 +12,7 @@ import psutil
 import pytest
 
 from nep_core import process_tree
-from nep_core.node_log import NodeLog, log_file_name
+from nep_core.node_log import SEPARATOR, NodeLog, log_file_name
 from nep_core.outcome import Outcome
 from nep_core.places import log_folder
 from nep_core.process import LINE_BYTES, ChildProcess
@@ -136,3 +136,34 @@ def test_logs_of_a_user_without_a_home_have_a_place(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(pwd, "getpwuid", nobody)
 
     assert log_folder().is_absolute()
+
+
+def test_a_log_begins_anew_and_the_one_before_is_kept_beside_it(tmp_path: Path) -> None:
+    for words in (b"first\n", b"second\n"):
+        with NodeLog(tmp_path / "child.log") as kept:
+            kept.write(words)
+
+    assert (tmp_path / "child.log").read_bytes() == b"second\n"
+    assert (tmp_path / "child.1.log").read_bytes() == b"first\n"
+
+
+def test_the_log_of_a_node_that_was_started_again_goes_on(tmp_path: Path) -> None:
+    with NodeLog(tmp_path / "child.log") as kept:
+        kept.write(b"why it crashed\n")
+
+    with NodeLog(tmp_path / "child.log", goes_on=True) as kept:
+        kept.write(b"well again\n")
+
+    first, _, separator, last = (tmp_path / "child.log").read_text().splitlines()
+    assert (first, last) == ("why it crashed", "well again")
+    assert separator.startswith(SEPARATOR)
+
+
+def test_many_crashes_do_not_fill_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("nep_core.node_log.LOG_BYTES", 1000)
+
+    for _ in range(9):
+        with NodeLog(tmp_path / "child.log", goes_on=True) as kept:
+            kept.write(b"x" * 900)
+
+    assert sum(file.stat().st_size for file in tmp_path.iterdir()) < 5000

@@ -111,3 +111,19 @@ def test_only_a_node_that_does_not_run_can_be_forgotten(board: NodeBoard) -> Non
     board.update(state("stopped"))
     assert board.forget("karate")
     assert board.nodes == {}
+
+
+def test_the_clock_of_another_computer_freezes_no_node(board: NodeBoard) -> None:
+    board.update(state("ready", 10.0), 5000.0)
+
+    assert board.frozen(5001.0) == []
+    assert board.nodes["karate"].heard_s == 5000.0
+
+
+def test_nodes_are_not_frozen_because_the_computer_was_asleep(board: NodeBoard) -> None:
+    board.update(state("ready", 1.0))
+
+    board.wake(9000.0)
+
+    assert board.frozen(9002.0) == []
+    assert board.frozen(9004.0) == ["karate"]

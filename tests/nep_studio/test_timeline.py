@@ -158,3 +158,12 @@ def test_actions_are_told_in_another_language_too(language: Language) -> None:
         [("NAO", f"[no longer {walks}]")],
         [("NAO", "[failed to walk]")],
     ]
+
+
+def test_the_end_of_a_node_is_told_once_in_each_of_its_lives(timeline: Timeline) -> None:
+    def told(event: m.NodeEvent, description: str = "") -> int:
+        state = m.NodeState(node="watch", type="sensory", event=event, description=description)
+        return len(timeline.lines(state))
+
+    assert [told("stopped"), told("alive"), told("stopped", "watch was stopped")] == [1, 0, 0]
+    assert [told("ready"), told("stopped", "watch was stopped"), told("stopped")] == [1, 1, 0]

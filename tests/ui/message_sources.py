@@ -4,108 +4,108 @@ from __future__ import annotations
 
 import ast
 import re
+import tomllib
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+
+from message_parts import OF_THE_SYSTEM, PARTS
 
 from nep_studio import paths
 
 ROOT = Path(paths.__file__).parent.parent
 SOURCES = (
+    "nep_studio/*.py",
     "nep_studio/blocks/**/*.py",
-    "nep_studio/node_checks.py",
-    "nep_studio/problems.py",
-    "nep_studio/own_master.py",
-    "nep_studio/ui/documents_opening.py",
-    "nep_studio/ui/canvas/fields/*.py",
-    "nep_core/manifest.py",
-    "nep_core/errors.py",
-    "nep_core/process.py",
-    "nep_core/launcher.py",
-    "nep_core/node_name.py",
+    "nep_studio/ui/**/*.py",
+    "nep_core/*.py",
+    "nodes/**/*.py",
 )
-"""Where checks, refusals and errors say what they have to say."""
+"""Where checks, refusals, errors and nodes say what they have to say."""
 
 LEFT_OUT = (
-    "definition_call.py",
-    "definition_files.py",
-    "definitions.py",
-    "history.py",
-    "profile.py",
-    "sentence.py",
-    "translation.py",
+    # Errors of those who write block packs, translations and themes: these are told in English.
+    "nep_studio/blocks/definition_call.py",
+    "nep_studio/blocks/definition_files.py",
+    "nep_studio/blocks/definitions.py",
+    "nep_studio/blocks/edits/history.py",
+    "nep_studio/blocks/history.py",
+    "nep_studio/blocks/profile.py",
+    "nep_studio/blocks/sentence.py",
+    "nep_studio/blocks/translation.py",
+    "nep_studio/ui/theme/colours.py",
+    "nep_studio/ui/theme/icons.py",
 )
-"""Errors of those who write block packs and translations: these are told in English."""
+NOT_SHOWN = (
+    # What is written into files and terminals.
+    "nep_studio/__main__.py",
+    "nep_studio/python_file.py",
+    "nep_studio/ui/show/command.py",
+    "nodes/perceptual/recognition/command.py",
+    "nodes/perceptual/recognition/report.py",
+    # Training, which is started in a terminal.
+    "nodes/perceptual/recognition/passages.py",
+    "nodes/perceptual/recognition/training.py",
+)
 STILL_SAID = {"This place takes {noun}, not a value that is typed."}
 """What of these a person can meet."""
 
-NO_SENTENCES = re.compile(r"Made with NEP Studio|^[^A-Za-z]*$|^\{\w+\}\. ?$|^range\(")
-ENDINGS = re.compile(r"[.?]$|\{(reason|sentence|fault)\}$")
-PARTS = {
-    "nep_studio/blocks/values.py": [
-        "nothing",
-        "the number {value}",
-        "a very large number",
-        "the text {value}",
-        "a list or a group of values",
-    ],
-    "nep_studio/blocks/file_text.py": [
-        " at line {number}",
-        " at line {line}, block {block}",
-        " at block {block}",
-        "its beginning",
-        "a whole number",
-        "a group of values",
-        "at {place}: “{missing}” is missing.",
-        "at {place}: this is not what belongs here.",
-        "at {place}: {wanted} belongs here, not {told}.",
-    ],
-    "nep_studio/blocks/reading.py": ["in no stack", "inside itself"],
-    "nep_studio/blocks/files.py": [
-        "the system gives no reason",
-        "a text in it cannot be written",
-    ],
-    "nep_studio/blocks/own_block_changes.py": ["1 place", "{count} places"],
-    "nep_studio/blocks/operations/copying.py": ["The clipboard"],
-    "nep_studio/blocks/checks/flow.py": ["A robot cannot walk after the posture “{label}”."],
-    "nep_core/manifest.py": [
-        'a text, such as "karate"',
-        "a number, such as 0.5",
-        "a whole number, such as 50",
-        "true or false",
-        "one of the choices",
-        "the name of a file",
-        'The node {id} needs the setting "{name}": {help}',
-    ],
-}
-"""What is put together from pieces: no one text of the source has all of it."""
-OF_THE_SYSTEM = ["no such file or directory", "permission denied", "no space left on device"]
-"""Why a file cannot be opened, as the operating system says it."""
+STATES = {"ready": 0, "warn": 0, "state": 1, "Connection": 1}
+"""Where nodes tell how they are doing: which argument; these sentences need no full stop."""
+
+NO_SENTENCES = re.compile(
+    r"Made with NEP Studio|^[^A-Za-z]*$|^(\{\w+\}[.:]? ?)+\.?$|^range\(|^  \[ \] |^ - |^# "
+)
+ENDINGS = re.compile(r"[.?]$|\{(reason|sentence|fault|description)\}$")
 
 
 @cache
 def templates() -> frozenset[str]:
     """Every sentence of the sources, with a readable name at each place that is filled in."""
-    found = {words for path in _files() for words in _of_file(path)}
-    return frozenset(found.union(*PARTS.values(), OF_THE_SYSTEM))
+    return frozenset(templates_in_order())
 
 
-def _files() -> Iterator[Path]:
+@cache
+def templates_in_order() -> tuple[str, ...]:
+    """The same, in the order of the sources, so that what belongs together stays together."""
+    found = [words for path in files() for words in _of_file(path)]
+    found += [words for told in PARTS.values() for words in told]
+    return tuple(dict.fromkeys([*found, *_of_manifests(), *OF_THE_SYSTEM]))
+
+
+def files() -> Iterator[Path]:
+    """The files that say something to a person."""
     for pattern in SOURCES:
-        yield from sorted(ROOT.glob(pattern))
+        for path in sorted(ROOT.glob(pattern)):
+            if path.relative_to(ROOT).as_posix() not in NOT_SHOWN:
+                yield path
+
+
+def _of_manifests() -> Iterator[str]:
+    """What the nodes' own descriptions say of them."""
+    for path in sorted((ROOT / "nodes").glob("*/*.toml")):
+        manifest = tomllib.loads(path.read_text(encoding="utf-8"))
+        parameters = manifest.get("parameters", {}).values()
+        yield from (manifest["title"], manifest["description"])
+        yield from (one["help"] for one in parameters if one.get("help"))
 
 
 def _of_file(path: Path) -> Iterator[str]:
     tree = ast.parse(path.read_text(encoding="utf-8"))
     silent = {id(part) for node in ast.walk(tree) for part in _silent(node)}
-    for node in ast.walk(tree):
+    for node in in_order(tree):
         yield from filter(None, map(template, _told(node)))
-    for node in ast.walk(tree):
         words = "" if id(node) in silent else template(node)
-        is_said = path.name not in LEFT_OUT or words in STILL_SAID
+        is_said = path.relative_to(ROOT).as_posix() not in LEFT_OUT or words in STILL_SAID
         is_sentence = " " in words and ENDINGS.search(words) and not NO_SENTENCES.search(words)
         if is_said and is_sentence:
             yield words
+
+
+def in_order(tree: ast.AST) -> list[ast.AST]:
+    """The parts of a file from its beginning to its end."""
+    placed = (node for node in ast.walk(tree) if hasattr(node, "lineno"))
+    return sorted(placed, key=lambda node: (node.lineno, node.col_offset))
 
 
 def _silent(node: ast.AST) -> Iterator[ast.AST]:
@@ -123,13 +123,21 @@ def _silent(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def _told(node: ast.AST) -> Iterator[ast.AST]:
-    """Titles of errors and labels of fixes."""
+    """Titles of errors and problems, labels of fixes, states of nodes."""
     if isinstance(node, ast.ClassDef):
         for line in node.body:
             if isinstance(line, ast.Assign) and ast.unparse(line.targets[0]) == "title":
                 yield line.value
-    elif isinstance(node, ast.Call) and ast.unparse(node.func) == "Fix":
-        yield node.args[1]
+    elif isinstance(node, ast.Call):
+        name = ast.unparse(node.func).rpartition(".")[2]
+        if name == "Fix":
+            yield node.args[1]
+        elif name == "Problem" and node.args and " " in template(node.args[0]):
+            yield node.args[0]
+        elif name in STATES:
+            yield from node.args[STATES[name] :][:1]
+    elif isinstance(node, ast.keyword) and node.arg == "checklist":
+        yield from node.value.elts if isinstance(node.value, ast.Tuple) else ()
 
 
 def template(node: ast.AST) -> str:
@@ -159,6 +167,8 @@ def place_name(node: ast.expr) -> str:
     match node:
         case ast.Name(id=name):
             return name.strip("_").lower()
+        case ast.Attribute(attr="strerror"):
+            return "reason"
         case ast.Attribute(attr=name):
             return name.strip("_").lower()
         case ast.Call(func=ast.Name(id="sentence")):
@@ -167,7 +177,7 @@ def place_name(node: ast.expr) -> str:
             return "own_block"
         case ast.Call(func=ast.Attribute(attr="join"), args=[only]):
             return place_name(only)
-        case ast.Call(func=ast.Attribute(attr="title" | "rstrip", value=owner)):
+        case ast.Call(func=ast.Attribute(attr="title" | "rstrip" | "lower", value=owner)):
             return place_name(owner)
         case ast.Call(func=ast.Attribute(attr="unparse")):
             return "code"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import string
+import tomllib
 from collections.abc import Iterator
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from message_sources import templates
 
+from nep_studio import paths
 from nep_studio.ui import words
 from nep_studio.ui.words import available_languages, tr, use_language
 
@@ -67,9 +69,17 @@ def test_what_people_wrote_in_quotes_is_never_translated(name: str) -> None:
 def test_every_sentence_is_recognised_in_every_language() -> None:
     for code in available_languages().keys() - {"en"}:
         use_language(code)
-        filled = {w: w.format_map(_Values()) for w in templates()}
+        filled = {w: w.format_map(_Values()) for w in templates() - _same(code)}
 
         assert [w for w, text in filled.items() if tr(text) == text and "“{" not in w] == []
+
+
+def _same(code: str) -> set[str]:
+    """Words such as NAO, which are the same in a language as in English."""
+    path = paths.resources() / "translations" / f"{code}.toml"
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
+    told = {**table["messages"], **table["window"]}
+    return {words for words in told if words == told[words]}
 
 
 def test_what_no_check_says_stays_as_it_is() -> None:

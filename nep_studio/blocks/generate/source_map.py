@@ -35,12 +35,15 @@ class Code:
         """The line before which a program pauses that is to pause at a block; 0 where none is.
 
         At a rule that is the first line inside: its own line is run once, when it is made known.
+        Functions inside a rule, as for parts that go on together, are made when it gets there.
         """
-        lines = self.lines_of(block)
+        lines, text = self.lines_of(block), self.text.splitlines()
         if not lines:
             return 0
-        if not self.text.splitlines()[lines[0] - 1].lstrip().startswith(("@", "def ")):
+        if not text[lines[0] - 1].startswith(("@", "def ")):
             return lines[0]
+        if text[lines[-1] - 1].strip() == "pass":
+            return lines[-1]
         inside = range(lines[-1] + 1, len(self.blocks) + 1)
         return next((line for line in inside if self.blocks[line - 1]), 0)
 

@@ -56,7 +56,10 @@ def clip_from_clipboard(editor: Editor) -> Clip:
 def clip_of_text(editor: Editor, text: str) -> Clip:
     """Read blocks from the text of a project or from Python; raises EditRefused."""
     if not text.strip():
-        raise EditRefused(tr("There is nothing on the clipboard that can become blocks."))
+        raise EditRefused(
+            tr("There is nothing on the clipboard that can become blocks."),
+            checklist=(tr("Copy blocks, or lines of Python, first."),),
+        )
     try:
         if text.lstrip().startswith("{"):
             return from_text(text, editor.language)

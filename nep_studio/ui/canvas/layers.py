@@ -24,6 +24,8 @@ class StaticLayer:
         self._camera = Camera()
         self._dirty = QRegion()
         self._ratio = 1.0
+        self.is_outdated = True
+        """Whether nothing in the picture is of use: it must not be shown, not even stretched."""
 
     def resize(self, size: QSize, ratio: float) -> None:
         """Take the size of the view, in pixels, and the screen's pixels for each of them."""
@@ -39,6 +41,7 @@ class StaticLayer:
     def invalidate_all(self) -> None:
         """Paint everything again before it is next shown."""
         self._dirty = QRegion(self._view())
+        self.is_outdated = True
 
     def is_sharp(self, camera: Camera) -> bool:
         """Whether the picture was painted at this zoom."""
@@ -80,6 +83,7 @@ class StaticLayer:
                 self._paint_page(painter, camera.page_rect(QRectF(rect)), camera)
                 painter.restore()
         self._dirty = QRegion()
+        self.is_outdated = False
 
     def draw(self, painter: QPainter, camera: Camera, exposed: QRect, background: QColor) -> None:
         """Put the picture into the view, stretched when it was painted at another zoom."""

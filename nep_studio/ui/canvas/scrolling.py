@@ -22,6 +22,8 @@ class ScrollingView(PageView):
     """Moves the camera: by scroll bars, to a block, to the whole page."""
 
     _is_scrolling = False
+    _width = 0
+    """Of the viewport when the camera was last put where it is."""
 
     def lay_out_more(self) -> None:
         """Lay out more of a large page, and know its size better."""
@@ -92,9 +94,11 @@ class ScrollingView(PageView):
         self.show_beginning()
 
     def show_beginning(self) -> None:
-        """Look at the corner of the page where reading begins."""
-        bounds = self.page_layout.bounds() or Rect(0.0, 0.0, 0.0, 0.0)
+        """Look at the corner of the blocks where reading begins; a note beside them may wait."""
+        layout = self.page_layout
+        bounds = layout.index.bounds() or layout.bounds() or Rect(0.0, 0.0, 0.0, 0.0)
         x, margin = bounds.x, BEGINNING_PX / self.camera.scale
+        self._width = self.viewport().width()
         if self.measures.is_mirrored:
             x = bounds.right + 2 * margin - self.visible_page_rect().width
         self.move_camera(x - margin, bounds.y - margin)
@@ -105,8 +109,12 @@ class ScrollingView(PageView):
         self.update_scroll_bars()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Take the new size."""
+        """Take the new size; the side where reading begins stays where it is."""
         super().resizeEvent(event)
+        before, self._width = self._width, event.size().width()
+        if self.measures.is_mirrored and before:
+            self.camera.x += (before - self._width) / self.camera.scale
+            self.camera.align(self.devicePixelRatioF())
         self.update_scroll_bars()
 
     def update_scroll_bars(self) -> None:

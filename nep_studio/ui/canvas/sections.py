@@ -31,7 +31,7 @@ class Section:
 
     def rows(self, measures: Measures) -> list[Row]:
         """The items in rows."""
-        if not self.header:
+        if not 0 < self.header < len(self.items):  # a header without words needs no row
             return flow(self.items, measures)
         before, after = self.items[: self.header], self.items[self.header :]
         return [*flow(before, measures), *flow(after, measures)]

@@ -191,8 +191,9 @@ class PageView(QAbstractScrollArea):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the layers: what rests, what is over it, what is carried."""
-        if self._layer.is_sharp(self.camera) or not self.sharpen.isActive():
-            self._layer.repair(self.camera)
+        layer, is_zooming = self._layer, self.sharpen.isActive()
+        if not is_zooming or layer.is_outdated or layer.is_sharp(self.camera):
+            layer.repair(self.camera)
         with QPainter(self.viewport()) as painter:  # ended also when a drawing fails
             self._paint_layers(painter, event)
 

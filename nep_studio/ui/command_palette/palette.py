@@ -79,7 +79,7 @@ class CommandPalette(QFrame):
         if self.isVisible():
             self.leave()
             return
-        self._before = QApplication.focusWidget()
+        self._come_from(QApplication.focusWidget())
         self._commands = [command for source in self._sources for command in source()]
         self.line.setText(typed)
         self._on_typed(typed)
@@ -92,8 +92,21 @@ class CommandPalette(QFrame):
     def leave(self) -> None:
         """Close it, and go back to where the person was."""
         self.hide()
-        if self._before is not None and self._before.isVisible():
-            self._before.setFocus(Qt.FocusReason.PopupFocusReason)
+        before = self._before
+        self._come_from(None)
+        if before is not None and before.isVisible():
+            before.setFocus(Qt.FocusReason.PopupFocusReason)
+
+    def _come_from(self, widget: QWidget | None) -> None:
+        """Remember where the person was, as long as that is there: a field may go meanwhile."""
+        if self._before is not None:
+            self._before.destroyed.disconnect(self._on_before_destroyed)
+        self._before = widget
+        if widget is not None:
+            widget.destroyed.connect(self._on_before_destroyed)
+
+    def _on_before_destroyed(self) -> None:
+        self._before = None
 
     def run(self, number: int) -> bool:
         """Do what is in a row; False, and said why, when that cannot be now."""

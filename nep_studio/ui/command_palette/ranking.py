@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from .commands import Command
 from .matching import match
 
-MOST_SHOWN = 100
+MOST_SHOWN = 200
 RECENT_WORTH = 8.0
 """What a command that was used last is worth more than one that was not."""
 

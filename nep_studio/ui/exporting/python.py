@@ -82,7 +82,7 @@ def _not_written(error: OSError) -> Message:
     return Message(
         "error",
         tr("The Python could not be saved"),
-        tr("The computer says: {reason}.", reason=error.strerror or str(error)),
+        tr("The computer says: {reason}.", reason=tr((error.strerror or str(error)).lower())),
         (tr("Is there room on the disk?"), tr("Choose another folder.")),
         str(error),
     )

@@ -1,4 +1,4 @@
-"""Brings the help into a main window: panel, menu entries, F1."""
+"""Brings the help into a main window, whose Help menu asks it."""
 
 from __future__ import annotations
 
@@ -31,21 +31,7 @@ def add_help(window: MainWindow) -> HelpDesk:
     panel, icon_name = new_panel(), "circle-question-mark"
     window.add_side_panel(panel, tr("Help"), icon_name, "right", is_shown=False)
     desk = HelpDesk(panel, new_panel, workbench.panels, workbench.helpers.opening)
-    _add_actions(window, desk)
+    window.later.desk = desk
     for menu in window.menus.values():
         desk.listen(menu)
     return desk
-
-
-def _add_actions(window: MainWindow, desk: HelpDesk) -> None:
-    """F1 and the first entries of the Help menu."""
-    menu, add = window.menus["help"], window.actions_by_name.add
-    first = menu.actions()[0]
-    entries = [
-        add("help", tr("Help"), desk.answer, icon_name="circle-question-mark", keys="F1"),
-        add("help_contents", tr("Contents of the help"), desk.open, icon_name="book-open"),
-        add("help_search", tr("Search the help…"), desk.search, icon_name="search"),
-    ]
-    for action in entries:
-        menu.insertAction(first, action)
-    menu.insertSeparator(first)

@@ -37,9 +37,13 @@ class HelpWindow(QWidget):
 
 
 class HelpDesk(QObject):
-    """Where help is asked for. ``try_requested`` brings an example that is to be run."""
+    """Where help is asked for. ``try_requested`` brings an example that is to be run.
+
+    ``panel_made`` brings the HelpPanel of a window of its own, when that is first needed.
+    """
 
     try_requested = Signal(object)
+    panel_made = Signal(object)
 
     def __init__(
         self,
@@ -70,6 +74,7 @@ class HelpDesk(QObject):
             self._window.panel.example.can_insert = False
             self._window.panel.try_requested.connect(self.try_requested)
             self.panel.destroyed.connect(self._window.deleteLater)
+            self.panel_made.emit(self._window.panel)
         return self._window
 
     def open(self, page: str = HOME) -> None:

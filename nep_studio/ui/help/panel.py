@@ -177,7 +177,7 @@ class HelpPanel(QWidget):
         self.contents.found.left_upwards.connect(self.search.setFocus)
         self.example.try_requested.connect(self.try_requested)
         self.searching.found.connect(self._on_found)
-        self._look.theme_changed.connect(lambda theme: self.refresh())
+        self._look.theme_changed.connect(self.refresh)
 
     def _zoom(self, factor: float) -> None:
         self.browser.set_zoom(self.browser.zoom * factor)

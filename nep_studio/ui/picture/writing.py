@@ -55,7 +55,10 @@ def write_picture(canvas: Canvas, path: Path, kind: Format, options: PictureOpti
     except OSError as error:
         beside.unlink(missing_ok=True)
         raise EditRefused(
-            tr("The picture cannot be written: {reason}.", reason=error.strerror or str(error)),
+            tr(
+                "The picture cannot be written: {reason}.",
+                reason=tr((error.strerror or str(error)).lower()),
+            ),
             checklist=(tr("Choose another folder."),),
         ) from error
 
@@ -127,7 +130,10 @@ def image_of(canvas: Canvas, options: PictureOptions) -> QImage:
     width, height = round(scene.width * scale), round(scene.height * scale)
     image = QImage(width, height, QImage.Format.Format_ARGB32_Premultiplied)
     if image.isNull():
-        raise EditRefused(tr("The picture is too large for the memory of this computer."))
+        raise EditRefused(
+            tr("The picture is too large for the memory of this computer."),
+            checklist=(tr("Show less, or make the picture smaller."),),
+        )
     image.fill(Qt.GlobalColor.transparent)
     with QPainter(image) as painter:
         painter.scale(scale, scale)
@@ -159,7 +165,7 @@ def _scene(canvas: Canvas, options: PictureOptions) -> Scene:
             if options.what == "selection"
             else tr("There are no blocks yet, so that there is nothing to show.")
         )
-        raise EditRefused(words)
+        raise EditRefused(words, checklist=(tr("Choose something else to show."),))
     return scene
 
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from PySide6.QtGui import QIcon
+from PySide6.QtGui import QAction, QIcon
 from PySide6.QtWidgets import QPushButton
 
-from nep_studio.blocks.checks import Problem
 from nep_studio.ui.messages import KIND_ICONS
 from nep_studio.ui.theme import Theme, icon
 from nep_studio.ui.words import count_words, tr
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.checks import Problem
 
 
 def problem_icon(problem: Problem, theme: Theme) -> QIcon:
@@ -29,6 +32,18 @@ def summary(problems: Sequence[Problem]) -> str:
     if not problems:
         return tr("Nothing to correct")
     return count_words(len(problems), "1 problem", "{n} problems")
+
+
+def dress_check(
+    check: QAction, problems: Sequence[Problem], theme: Theme, *, is_open: bool
+) -> None:
+    """Let the action that checks say how many problems there are, and how bad they are."""
+    worst = next(iter(problems), None)
+    colour = "success" if worst is None else worst.severity
+    sign = "circle-check" if worst is None else "triangle-alert"
+    check.setIcon(icon(sign, theme.colour(colour)) if is_open else icon(sign, theme))
+    check.setIconText(summary(problems) if problems else tr("Check"))
+    check.setToolTip(summary(problems))
 
 
 def fix_button(problem: Problem) -> QPushButton | None:

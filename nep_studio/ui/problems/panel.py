@@ -43,7 +43,7 @@ class ProblemsPanel(QScrollArea):
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setAccessibleName(tr("Problems"))
-        look.theme_changed.connect(lambda theme: self._fill())
+        look.theme_changed.connect(self._fill)
         self._fill()
 
     def show_problems(self, problems: Sequence[Problem]) -> None:

@@ -2,55 +2,84 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QSize
+from PySide6.QtCore import QObject, QSize, Qt
 from PySide6.QtGui import QActionGroup
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolBar, QWidget
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QSizePolicy,
+    QToolBar,
+    QToolButton,
+    QWidget,
+)
 
-from nep_studio.ui.theme import icon
+from nep_studio.ui.elided_label import ElidedLabel
+from nep_studio.ui.theme import Look, icon
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
 
+    from .control import RunControl
+    from .runner import Runner
+
 RUN_BUTTONS = ("run", "stop", "pause", "step")
+WITH_A_PROJECT = ("breakpoint", "clear_breakpoints", "needs")
 
 
 def add_run_menu(window: MainWindow) -> QMenu:
     """Make the Run menu."""
     menu, add = window.menuBar().addMenu(tr("&Run")), window.actions_by_name.add
-    control = window.running
-    runner = control.runner
-    run = add("run", tr("Run"), runner.run, icon_name="play", keys="F5", colour="run_text")
+
+    def runner() -> Runner:
+        return window.running.runner
+
+    run = add("run", tr("Run"), lambda: runner().run(), icon_name="play", keys="F5")
     stop = add(
-        "stop", tr("Stop"), control.stop, icon_name="square", keys="Shift+F5", colour="stop_text"
+        "stop", tr("Stop"), lambda: window.running.stop(), icon_name="square", keys="Shift+F5"
     )
-    pause = add("pause", tr("Pause"), runner.pause, icon_name="pause", keys="F6")
-    step = add("step", tr("One step"), runner.step, icon_name="step-forward", keys="F10")
+    pause = add("pause", tr("Pause"), lambda: runner().pause(), icon_name="pause", keys="F6")
+    step = add(
+        "step", tr("One step"), lambda: runner().step(), icon_name="step-forward", keys="F10"
+    )
     menu.addActions([run, stop, pause, step])
     menu.addSeparator()
     _add_paces(menu.addMenu(icon("gauge", window.look.theme), tr("Speed")), window)
     toggle = add(
         "breakpoint",
         tr("Pause at this block"),
-        control.toggle_breakpoint,
+        lambda: window.running.toggle_breakpoint(),
         icon_name="pin",
         keys="F9",
     )
-    clear = add("clear_breakpoints", tr("Pause nowhere"), control.breakpoints.clear)
+    clear = add(
+        "clear_breakpoints",
+        tr("Pause nowhere"),
+        lambda: window.running.breakpoints.clear(),
+    )
     menu.addActions([toggle, clear])
     menu.addSeparator()
     needs = add(
         "needs",
         tr("What the program needs…"),
-        control.show_needs,
+        lambda: window.running.show_needs(),
         icon_name="list",
         keys="Shift+F8",
     )
     menu.addAction(needs)
-    RunLooks(window)
+    window.actions_by_name.enable(False, *RUN_BUTTONS, *WITH_A_PROJECT)
     return menu
+
+
+def follow_running(window: MainWindow) -> None:
+    """Let the actions and the toolbar follow the program from now on."""
+    RunLooks(window)
+    for sign in window.toolbar.findChildren(RunState):
+        sign.follow(window.running)
 
 
 def _add_paces(menu: QMenu, window: MainWindow) -> None:
@@ -64,7 +93,9 @@ def _add_paces(menu: QMenu, window: MainWindow) -> None:
     for line_s, words in paces:
         action = menu.addAction(words)
         action.setCheckable(True)
-        action.setChecked(line_s == window.running.line_s)
+        action.setChecked(
+            line_s == (0.0 if window.later.made_running is None else window.running.line_s)
+        )
         action.setData(line_s)
         group.addAction(action)
     group.triggered.connect(lambda action: window.running.set_pace(action.data()))
@@ -88,11 +119,27 @@ class RunLooks(QObject):
         actions.enable(state in ("starting", "running", "paused"), "stop")
         actions.enable(state == "running", "pause")
         actions.enable(state == "paused", "step")
-        actions.enable(is_open, "breakpoint", "clear_breakpoints", "needs")
+        actions.enable(is_open, *WITH_A_PROJECT)
         run = actions["run"]
-        words = {"paused": tr("Go on"), "running": tr("Run again")}
-        run.setText(words.get(state, tr("Run")))
+        run.setText(run_words(state))
         run.setIconText(run.text())
+
+
+def run_words(state: str) -> str:
+    """What Run means in a state of the program."""
+    words = {"paused": tr("Go on"), "running": tr("Run again")}
+    return words.get(state, tr("Run"))
+
+
+def state_words(state: str) -> str:
+    """How it is going, in a word or two."""
+    words = {
+        "starting": tr("Starting…"),
+        "running": tr("Running"),
+        "paused": tr("Paused"),
+        "stopping": tr("Stopping…"),
+    }
+    return words.get(state, "")
 
 
 STATES = {
@@ -105,38 +152,57 @@ STATES = {
 
 
 class RunState(QWidget):
-    """An icon and a word for the state of the program; nothing while it does not run."""
+    """An icon and a word for the state of the program; nothing while it does not run.
+
+    It has room for the usual words at all times, so that nothing moves when it says something.
+    """
 
     def __init__(self, window: MainWindow, parent: QWidget) -> None:
         super().__init__(parent)
         self._window = window
-        self._sign, self.words = QLabel(), QLabel()
+        self._running: RunControl | None = None
+        self._sign, self.words = QLabel(), ElidedLabel()
+        self._is_tight = False
         line = self.fontMetrics().height()
         row = QHBoxLayout(self)
         row.setContentsMargins(line // 2, 0, line // 2, 0)
         row.addWidget(self._sign)
-        row.addWidget(self.words)
-        window.running.runner.state_changed.connect(self.show_state)
+        row.addWidget(self.words, 1)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         window.look.theme_changed.connect(self.refresh)
         self.refresh()
 
+    def follow(self, running: RunControl) -> None:
+        """Say how this goes, from now on."""
+        self._running = running
+        running.runner.state_changed.connect(self.show_state)
+        running.became_stale.connect(self.refresh)
+        self.refresh()
+
+    def sizeHint(self) -> QSize:
+        """Room for the usual words."""
+        metrics, line = self.fontMetrics(), self.fontMetrics().height()
+        widest = max(metrics.horizontalAdvance(state_words(state)) for state in STATES)
+        room = 0 if self._is_tight else widest
+        return QSize(room + 3 * line, super().sizeHint().height())
+
+    def be_tight(self, is_tight: bool) -> None:
+        """Keep room for the sign alone, or for the words too; what is left over is taken anyway."""
+        if is_tight != self._is_tight:
+            self._is_tight = is_tight
+            self.updateGeometry()
+
     def refresh(self) -> None:
-        """Take the theme."""
-        self.show_state(self._window.running.runner.state)
+        """Take the theme, or what is new."""
+        self.show_state("idle" if self._running is None else self._running.runner.state)
 
     def show_state(self, state: str) -> None:
         """Say how it is going."""
         name, colour = STATES[state]
-        words = {
-            "starting": tr("Starting…"),
-            "running": tr("Running"),
-            "paused": tr("Paused"),
-            "stopping": tr("Stopping…"),
-        }
-        self.words.setText(words.get(state, ""))
-        is_stale = self._window.running.is_stale and state in ("running", "paused")
-        if is_stale:
-            self.words.setText(tr("Running as it was before your changes"))
+        running = self._running
+        is_stale = running is not None and running.is_stale and state in ("running", "paused")
+        stale = tr("Running as it was before your changes")
+        self.words.set_words(stale if is_stale else state_words(state))
         self.setToolTip(tr("Run again to use your changes") if is_stale else "")
         self._sign.setVisible(bool(name))
         if name:
@@ -145,8 +211,32 @@ class RunState(QWidget):
             self._sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
 
 
-def dress_buttons(bar: QToolBar) -> None:
-    """Give Run and Stop their colours."""
+def dress_buttons(bar: QToolBar, look: Look) -> None:
+    """Give Run and Stop their colours; in a menu, their icons are like the others."""
     for action in bar.actions():
-        if action.objectName() in ("run", "stop"):
-            bar.widgetForAction(action).setProperty("kind", action.objectName())
+        name, button = action.objectName(), bar.widgetForAction(action)
+        if name in ("run", "stop") and isinstance(button, QToolButton):
+            button.setProperty("kind", name)
+            dress = partial(_dress, button, look)
+            action.changed.connect(dress)
+            dress()
+
+
+def _dress(button: QToolButton, look: Look) -> None:
+    """The button takes the icon of its action each time that this changes."""
+    action = button.defaultAction()
+    name, sign = action.objectName(), {"run": "play", "stop": "square"}[action.objectName()]
+    button.setIcon(icon(sign, look.theme, f"{name}_text"))
+
+
+def keep_width(run: QToolButton) -> None:
+    """Let Run be as wide as its widest words, so that Stop never moves under the pointer."""
+    run.ensurePolished()
+    run.setMinimumWidth(0)
+    metrics, now = run.fontMetrics(), run.defaultAction().iconText()
+    widths = [
+        metrics.size(Qt.TextFlag.TextShowMnemonic, words).width()
+        for words in map(run_words, STATES)
+    ]
+    now_wide = metrics.size(Qt.TextFlag.TextShowMnemonic, now).width()
+    run.setMinimumWidth(run.sizeHint().width() - now_wide + max(widths))

@@ -6,7 +6,7 @@ import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.errors import NepError
 from nep_studio.blocks.checks import Problem as BlockProblem
@@ -36,7 +36,12 @@ log = logging.getLogger(__name__)
 
 
 class RunControl(QObject):
-    """Runs the window's project; it stays when the window's contents are made anew."""
+    """Runs the window's project; it stays when the window's contents are made anew.
+
+    ``became_stale`` tells that the blocks have changed since the program was started.
+    """
+
+    became_stale = Signal()
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
@@ -52,7 +57,7 @@ class RunControl(QObject):
         self._is_waiting = False
         self._was_stopped = False
         self._has_begun = False
-        self._is_to_run_again = self._is_to_be_tried = False
+        self._is_to_run_again = False
         self.is_stale = False
         """Whether the blocks have changed since the program was started."""
         self.runner.run_asked.connect(self._on_run_asked)
@@ -79,26 +84,27 @@ class RunControl(QObject):
         self.stop()
         self.stage.clear()
         self.breakpoints.clear()
-        if self._is_to_be_tried and document is not None:
-            self._is_to_be_tried = False
-            self._is_to_run_again = self.runner.state != "idle"
-            if not self._is_to_run_again:
-                QTimer.singleShot(0, self, self.runner.run)
 
     def try_example(self, path: Path) -> None:
-        """Open an example, and run it."""
-        self._is_to_be_tried = True
-        self._window.files.open_example(path)
+        """Open an example, and run it; only it, should the person go elsewhere instead."""
+        self._window.files.open_example(path, self._run_soon)
+
+    def _run_soon(self) -> None:
+        self._is_to_run_again = self.runner.state != "idle"
+        if not self._is_to_run_again:
+            QTimer.singleShot(0, self, self.runner.run)
 
     def close(self) -> None:
         """Stop everything, and wait for it."""
+        self.stop()
         self.runner.close()
 
     def try_project(self, project: Project) -> None:
         """Run a little program of the help; the project on the canvas stays as it is."""
-        if self.runner.state != "idle":
-            told = "Another program is running.", ("Stop it, then try again.",)
-            self._window.messages.refuse(*told)
+        if self.runner.state != "idle" or self._preparation is not None:
+            self._window.messages.refuse(
+                "Another program is running.", ("Stop it, then try again.",)
+            )
             return
         language = self._window.studio.language
         try:
@@ -108,7 +114,7 @@ class RunControl(QObject):
             self._window.messages.tell_error(error)
             return
         self._was_stopped = self._has_begun = self.is_stale = False
-        self.stage.begin(code)
+        self.stage.clear()  # its blocks are not on the canvas: there others may have their names
         self.runner.start(Request(code, tuple(nodes), Watching((), self.line_s)))
 
     def planned(self) -> list[PlannedNode]:
@@ -155,8 +161,8 @@ class RunControl(QObject):
             )
             return
         if self.runner.state == "running":
-            self._is_to_run_again = True
             self.stop()
+            self._is_to_run_again = True
             return
         self._is_waiting = True
         self._window.workbench.checks.start()
@@ -210,6 +216,7 @@ class RunControl(QObject):
     def stop(self) -> None:
         """Stop everything that moves."""
         self._was_stopped = True
+        self._is_waiting = self._is_to_run_again = False
         if self._preparation is not None:
             self._preparation.cancel()
             self._preparation = None
@@ -229,6 +236,8 @@ class RunControl(QObject):
     def _show_robots(self) -> None:
         """Let a person who has never shown nor hidden the robots see them at the first run."""
         window = self._window
+        if not any("robot" in one.parameters for one in self.planned()):
+            return
         for panel in window.workbench.panels.all:
             if panel.name == "RobotsPanel" and not window.settings.is_chosen(panel.name):
                 window.workbench.panels.show(panel.widget)
@@ -236,7 +245,7 @@ class RunControl(QObject):
     def _on_edited(self, _changes: object) -> None:
         if self.runner.state != "idle" and not self.is_stale:
             self.is_stale = True
-            self.runner.state_changed.emit(self.runner.state)
+            self.became_stale.emit()
 
     def _on_ended(self, ending: Ending) -> None:
         if self._is_to_run_again:

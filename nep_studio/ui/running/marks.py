@@ -50,6 +50,8 @@ class Marks:
                 block = self.code.block_at(state.line)
                 if block is not None:
                     self.counts[block] += 1
+            case "started":
+                self._begin()
             case "finished" | "failed":
                 self.still()
 
@@ -57,6 +59,13 @@ class Marks:
         """Nothing runs any more; counts and values stay, for whoever wants to read them."""
         self.glowing = self.around = frozenset()
         self.paused.clear()
+
+    def _begin(self) -> None:
+        """Nothing has run yet: it has just been started, perhaps again after it was killed."""
+        self.still()
+        self.counts.clear()
+        self.values.clear()
+        self.results.clear()
 
     def _value(self, name: str, text: str) -> None:
         if not name.startswith(CALL):

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.starting import add_start
+from nep_studio.ui.actions_icons import icon_room
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
 
@@ -59,10 +60,12 @@ class NeedsDialog(QDialog):
         self._scroll = QScrollArea()
         self._scroll.setWidgetResizable(True)
         self._scroll.setFrameShape(QFrame.Shape.NoFrame)
+        self._scroll.setAccessibleName(self.windowTitle())
         buttons = QDialogButtonBox()
         self.run_button = buttons.addButton(tr("Run"), QDialogButtonBox.ButtonRole.AcceptRole)
         self.run_button.setProperty("kind", "run")
         self.run_button.setIcon(icon("play", window.look.theme, "run_text"))
+        self.run_button.setIconSize(icon_room(line))
         close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.RejectRole)
         close.clicked.connect(self.reject)
         self.run_button.clicked.connect(self._on_run)
@@ -139,6 +142,15 @@ class NeedsDialog(QDialog):
             column.addWidget(self._row(need, line))
         column.addStretch(1)
         self._scroll.setWidget(inner)
+        self._lead_on(inner if missing else None)
+
+    def _lead_on(self, rows: QWidget | None) -> None:
+        """Let Enter do what comes next: the first thing that is missing, at last Run."""
+        fix = rows.findChild(QPushButton) if rows is not None else None
+        button = self.run_button if rows is None else fix
+        if button is not None:
+            button.setDefault(True)
+            button.setFocus()
 
     def _row(self, need: Need, line: int) -> QWidget:
         row = QFrame()

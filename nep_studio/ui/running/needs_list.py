@@ -57,7 +57,8 @@ def needs_of(
     ``answers`` tells whether a real robot answered at its address; a robot that is not in there
     is still looked for.
     """
-    needs = [_problem(problem) for problem in problems if problem.severity == "error"]
+    errors = [problem for problem in problems if problem.severity == "error"]
+    needs = [_problem(problem) for problem in errors if problem.kind != "no_rule"]
     if not has_rules:
         needs.append(_rules())
     needs.append(_master(is_connected))

@@ -52,7 +52,8 @@ class Play(QThread):
         except Exception as error:
             log.exception("the program could not be run")
             sentence = f"{type(error).__name__}: {error}"
-            self.ending = Ending(Problem("The program could not be started", sentence))
+            steps = ("Try it once more.", "Save the project, and start NEP Studio again.")
+            self.ending = Ending(Problem("The program could not be started", sentence, steps))
 
     def _play(self) -> Ending:
         with tempfile.TemporaryDirectory(prefix="nep-", ignore_cleanup_errors=True) as folder:

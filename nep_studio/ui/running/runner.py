@@ -18,6 +18,7 @@ from nep_core.node_log import log_file_name
 from nep_studio.local_network import LocalNetwork
 from nep_studio.monitor import Monitor
 from nep_studio.node_board import NodeBoard
+from nep_studio.own_master import MASTER
 from nep_studio.plan import PlannedNode
 from nep_studio.session import Watching
 
@@ -30,13 +31,16 @@ log = logging.getLogger(__name__)
 State = Literal["idle", "starting", "running", "paused", "stopping"]
 LOOK_MS = 250
 """How often it is looked whether a node has fallen silent."""
+SLEPT_S = 2.0
+"""When it was not looked for so long, the computer was asleep, and the nodes with it."""
 
 
 class Runner(QObject):
     """The window's door to a running program and its nodes; nothing in here waits.
 
     ``arrived`` gives (topic, message) pairs of what was heard, at most 30 times a second;
-    ``node_failed`` the NepError of a node that could not be started by hand.
+    ``node_failed`` the NepError of a node that could not be started by hand; ``master_changed``
+    what became of a master that ended unexpectedly (a MasterEvent), and how it ended.
     """
 
     state_changed = Signal(str)
@@ -47,6 +51,7 @@ class Runner(QObject):
     nodes_changed = Signal(list)
     ended = Signal(object)
     node_failed = Signal(str, object)
+    master_changed = Signal(str, str)
     _came_up = Signal()
 
     def __init__(
@@ -63,7 +68,10 @@ class Runner(QObject):
         self.local = LocalNetwork(logs=logs)
         self.local.listen(self._on_message)
         self.local.on_open = self._came_up.emit
+        self.local.on_master = self.master_changed.emit
         self.play: Play | None = None
+        self._is_closed = False
+        self._looked_s = 0.0
         self._sender = Sender()
         self._taps: list[Tap] = []
         self._monitor = Monitor()
@@ -88,7 +96,7 @@ class Runner(QObject):
 
     def start(self, request: Request) -> None:
         """Run this, which has been checked; ``ended`` tells how it went."""
-        if self.state != "idle":
+        if self.state != "idle" or self._is_closed:
             return
         self._set_state("starting")
         play = self.play = Play(request, self.local)
@@ -136,6 +144,10 @@ class Runner(QObject):
 
         self._aside(planned.name, start)
 
+    def open_network(self) -> None:
+        """Open the network, or start its master again when that is gone."""
+        self._aside(MASTER, self.local.open)
+
     def stop_node(self, name: str) -> None:
         """Stop a node that was started here."""
         self._aside(name, lambda: self.local.stop(name))
@@ -174,7 +186,8 @@ class Runner(QObject):
         return self._sender.send(self.local.network, topic, message)
 
     def close(self) -> None:
-        """Stop everything and wait for it; before the window goes."""
+        """Stop everything and wait for it; before the window goes. Nothing starts after it."""
+        self._is_closed = True
         if self.play is not None:
             self.play.end()
             self.play.wait()
@@ -194,9 +207,11 @@ class Runner(QObject):
 
         def run() -> None:
             try:
-                do()
+                if not self._is_closed:
+                    do()
             except NepError as error:
-                self.node_failed.emit(name, error)
+                if not self._is_closed:  # else nobody is there to be told
+                    self.node_failed.emit(name, error)
 
         threading.Thread(target=run, name=f"nep-studio-{name}", daemon=True).start()
 
@@ -230,7 +245,8 @@ class Runner(QObject):
             changed = {
                 message.node: None
                 for _, message in batch
-                if isinstance(message, m.NodeState) and self.board.update(message)
+                if isinstance(message, m.NodeState) and message.node != MASTER
+                if self.board.update(message, time.time())
             }
             if changed:
                 self.nodes_changed.emit(list(changed))
@@ -246,7 +262,11 @@ class Runner(QObject):
             self._set_state("paused")
 
     def _on_look(self) -> None:
-        if frozen := self.board.frozen(time.time()):
+        now_s, before_s = time.time(), self._looked_s
+        self._looked_s = now_s
+        if not 0 <= now_s - before_s < SLEPT_S:
+            self.board.wake(now_s)
+        if frozen := self.board.frozen(now_s):
             self.nodes_changed.emit(frozen)
 
     def _set_state(self, state: State) -> None:

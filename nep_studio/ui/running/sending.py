@@ -44,7 +44,7 @@ class Sender:
         while (sent := self._waiting.get()) is not None:
             try:
                 self._publisher(sent[0], sent[1]).send(sent[2])
-            except NepError as error:
+            except (NepError, ValueError, TypeError) as error:  # also what JSON cannot carry
                 log.warning("%s was not sent: %s", sent[1], error)
 
     def _publisher(self, network: PeerNetwork, topic: str) -> Publisher:

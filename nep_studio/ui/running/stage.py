@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
@@ -64,12 +63,13 @@ class Stage(QObject):
         if not states:
             return
         before = self._shown()
-        values, results = dict(self.marks.values), deepcopy(self.marks.results)
+        values, results = dict(self.marks.values), _copied(self.marks.results)
         paused = dict(self.marks.paused)
         counts = self.marks.counts.copy()
         for state in states:
             self.marks.take(state)
-        if (values, results) != (self.marks.values, self.marks.results):
+        has_fewer = bool(counts - self.marks.counts)  # the program was started again
+        if has_fewer or (values, results) != (self.marks.values, self.marks.results):
             self._repaint_all()
         else:
             self._touch(before ^ self._shown())
@@ -116,6 +116,10 @@ class Stage(QObject):
         words = tr("Do not pause here any more") if is_on else tr("Pause here")
         toggle = self._breakpoints.toggle
         return [MenuEntry("breakpoint", words, lambda: toggle([block]), "pause", True, "F9")]
+
+
+def _copied(results: dict[str, dict[str, str]]) -> dict[str, dict[str, str]]:
+    return {statement: dict(given) for statement, given in results.items()}
 
 
 def statement_at(canvas: Canvas, block: str) -> str:

@@ -46,11 +46,11 @@ class Tap(QObject):
         self._monitor = Monitor(BATCHES_HZ, most)
         self._monitor.arrived.connect(self._on_arrived)
         self._monitor.start()
-        self._ear: _Ear | None = None
+        self._ears: list[_Ear] = []  # one, or none
         self._lost = 0
         self._is_closed = False
-        monitor = self._monitor
-        self.destroyed.connect(lambda: monitor.end())
+        monitor, ears = self._monitor, self._ears
+        self.destroyed.connect(lambda: _end(monitor, ears))
 
     @property
     def dropped(self) -> int:
@@ -60,16 +60,16 @@ class Tap(QObject):
     @property
     def lost(self) -> int:
         """How many messages were sent but did not arrive."""
-        return self._lost + (self._ear.lost if self._ear is not None else 0)
+        return self._lost + sum(ear.lost for ear in self._ears)
 
     def listen(self, network: PeerNetwork | None) -> None:
         """Hear this network from now on; None: nothing."""
-        if self._ear is not None:
-            self._lost += self._ear.lost
-            self._ear.close()
-            self._ear = None
+        while self._ears:
+            ear = self._ears.pop()
+            self._lost += ear.lost
+            ear.close()
         if network is not None and not self._is_closed:
-            self._ear = _Ear(self.topic, self.kind, network, self._monitor)
+            self._ears.append(_Ear(self.topic, self.kind, network, self._monitor))
 
     def close(self) -> None:
         """Hear no more."""
@@ -86,6 +86,13 @@ class Tap(QObject):
                 self.arrived.emit(batch)
         finally:
             self._monitor.taken()
+
+
+def _end(monitor: Monitor, ears: list[_Ear]) -> None:
+    """End what a tap leaves that went with its parent."""
+    while ears:
+        ears.pop().close()
+    monitor.end()
 
 
 class _Ear:

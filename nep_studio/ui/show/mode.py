@@ -11,11 +11,10 @@ from nep_studio.settings import ShowOptions
 from nep_studio.ui.messages import Message
 from nep_studio.ui.words import tr
 
-from .performance import Performance
-from .window import ShowWindow
-
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
+
+    from .window import ShowWindow
 
 
 class _Silence:
@@ -41,6 +40,9 @@ class ShowMode(QObject):
 
     def begin(self, options: ShowOptions | None = None, path: Path | None = None) -> ShowWindow:
         """Cover the screen; ``path`` is a project that is opened when it is needed."""
+        from .performance import Performance  # loaded for a show only
+        from .window import ShowWindow
+
         if self.show is not None:
             return self.show
         window, chosen = self._window, options or self._window.settings.show_options
@@ -68,14 +70,18 @@ class ShowMode(QObject):
 
 def add_show_mode(window: MainWindow) -> None:
     """Make the actions of show mode, for the View menu: ``show_mode`` and ``show_at_start``."""
-    from .startup_dialog import StartupDialog
-
     mode = window.findChild(ShowMode) or ShowMode(window)
     add = window.actions_by_name.add
     add("show_mode", tr("Show mode"), mode.begin, icon_name="monitor", keys="F11")
     add(
         "show_at_start",
         tr("Start with the computer…"),
-        lambda: StartupDialog(window).open(),
+        lambda: _open_startup(window),
         icon_name="power",
     )
+
+
+def _open_startup(window: MainWindow) -> None:
+    from .startup_dialog import StartupDialog
+
+    StartupDialog(window).open()

@@ -128,7 +128,8 @@ class Performance(QObject):
             self._set_state("opening")
             self._window.files.open(self._path)
         else:
-            self._fail(Problem(tr("There is no project to play")))
+            steps = (tr("Open a project in the studio first."),)
+            self._fail(Problem(tr("There is no project to play"), "", steps))
 
     def _play(self, document: Document) -> None:
         self.lines.clear()
@@ -139,6 +140,7 @@ class Performance(QObject):
         except (BlocksError, NepError) as error:
             self._fail(problem_of(error))
             return
+        self._window.running.stage.begin(code)
         self._runner.start(Request(code, tuple(nodes)))
 
     def _fail(self, problem: Problem) -> None:

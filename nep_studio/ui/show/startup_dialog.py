@@ -49,7 +49,7 @@ class StartupDialog(QDialog):
         self.text.setFont(code_font(self.font().pointSizeF()))
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.write_button = QPushButton(tr("Write these files"))
-        self.remove_button = QPushButton(tr("Take them away"))
+        self.remove_button = QPushButton(tr("Remove these files"))
         self.close_button = QPushButton(tr("Close"))
         self._lay_out()
         self.runs_at_once.toggled.connect(self.refresh)
@@ -89,8 +89,8 @@ class StartupDialog(QDialog):
         line = self.fontMetrics().height()
         about = QLabel(
             tr(
-                "The show starts when somebody logs in to this computer, and again when it fails "
-                "or is killed. Who leaves the show and quits the studio ends it."
+                "The show starts when somebody logs in to this computer, and starts again if it "
+                "ends by accident. To end it, leave the show and quit NEP Studio."
             )
         )
         about.setWordWrap(True)
@@ -112,7 +112,7 @@ class StartupDialog(QDialog):
             do(self.files)
         except OSError as error:
             self.refresh()
-            reason = error.strerror or str(error)
+            reason = tr((error.strerror or str(error)).lower())
             self.state.setText(tr("That did not work. The computer says: {reason}.", reason=reason))
             return
         self.refresh()

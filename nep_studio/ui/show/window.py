@@ -19,6 +19,7 @@ from nep_studio.settings import ShowOptions
 from nep_studio.ui.elided_label import ElidedLabel
 from nep_studio.ui.messages import announce
 from nep_studio.ui.panels.cues.panel import CuePanel
+from nep_studio.ui.screens import screen_around
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import count_words, tr
 
@@ -80,9 +81,7 @@ class ShowWindow(QWidget):
 
     def open(self) -> None:
         """Cover the screen that the window is on."""
-        screen = self._window.screen()
-        if screen is not None:
-            self.setGeometry(screen.geometry())
+        self.setGeometry(screen_around(self._window))
         self.showFullScreen()
         self.activateWindow()
         self.run_button.setFocus()
@@ -201,9 +200,8 @@ class ShowWindow(QWidget):
             QTimer.singleShot(0, self, self._cover)
 
     def _cover(self) -> None:
-        screen = self.screen() or QGuiApplication.primaryScreen()
-        if self.isVisible() and screen is not None:
-            self.setGeometry(screen.geometry())
+        if self.isVisible():
+            self.setGeometry(screen_around(self))
             self.showFullScreen()
 
     def _dress(self) -> None:

@@ -13,19 +13,19 @@ from PySide6.QtWidgets import QMenu, QWidget
 from nep_studio.study.records import Reply, Sitting
 from nep_studio.study.tables import write_events, write_replies
 from nep_studio.ui.help.desk import HelpDesk
+from nep_studio.ui.help.panel import HelpPanel
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.panels.log.saving import save_text
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import count_words, tr
 
-from .form import QuestionnaireDialog
 from .recorder import StudyRecorder
-from .results import ResultsDialog
 from .sign import StudySign
-from .start import StartDialog, what_is_recorded
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
+
+    from .results import ResultsDialog
 
 Record = TypeVar("Record")
 HELP_PAGES = "help"
@@ -87,23 +87,31 @@ class StudyKit(QObject):
 
     def start(self) -> None:
         """Ask who takes part, and what is to be recorded."""
+        from .start import StartDialog  # dialogs are loaded when they are opened
+
         dialog = StartDialog(self._folder, self._window)
         dialog.started.connect(self._on_started)
         dialog.open()
 
     def tell_what(self) -> None:
         """Say what a study keeps."""
+        from .start import what_is_recorded
+
         title, *sentences = what_is_recorded(self._folder)
         self._window.messages.tell(Message("info", title, "\n\n".join(sentences)))
 
     def fill_in(self) -> None:
         """Show the questionnaire."""
+        from .form import QuestionnaireDialog
+
         dialog = QuestionnaireDialog(self._folder, self._window.look, self._window)
         dialog.answered.connect(self._on_answered)
         dialog.open()
 
     def show_results(self) -> None:
         """Show what was answered."""
+        from .results import ResultsDialog
+
         dialog = ResultsDialog(self._folder, self._window)
         dialog.answers_asked.connect(lambda: self._save_answers(dialog))
         dialog.events_asked.connect(lambda: self._save_events(dialog))
@@ -163,18 +171,21 @@ class StudyKit(QObject):
         except OSError as error:
             title = tr("Not everything could be deleted")
             words = tr("Delete the folder {folder} yourself.", folder=self._folder.folder)
-            self._window.messages.tell(Message("error", title, words, details=str(error)))
+            self._window.messages.tell(Message("error", title, "", (words,), str(error)))
             return
         self._window.messages.confirm(tr("All answers and events are deleted"))
 
     def _follow_help(self, menu: QMenu) -> None:
         """Note which pages of the help are shown, and what else its menu opens."""
         for desk in self._window.findChildren(HelpDesk):
-            for panel in (desk.panel, desk.window.panel):
-                panel.page_shown.connect(partial(self._on_page_shown, panel))
+            desk.panel_made.connect(self._follow_panel)
+            self._follow_panel(desk.panel)
         for action in menu.actions():
             if action.iconText() and not action.objectName().startswith(HELP_PAGES):
                 action.triggered.connect(self._note_help(action.iconText()))
+
+    def _follow_panel(self, panel: HelpPanel) -> None:
+        panel.page_shown.connect(partial(self._on_page_shown, panel))
 
     def _on_page_shown(self, panel: QWidget, page: str) -> None:
         if panel.isVisible() and page != self._page:  # the same one is drawn again, as for a theme

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.study.records import Reply, StudyFolder
 from nep_studio.study.sus import BROOKE, PAPER, Answers, questionnaire
+from nep_studio.ui.screens import room_around
 from nep_studio.ui.theme import Look
 from nep_studio.ui.words import count_words, tr
 
@@ -73,7 +74,7 @@ class QuestionnaireDialog(QDialog):
         box = QVBoxLayout(self)
         box.addWidget(self.area, 1)
         box.addLayout(foot)
-        room = self.screen().availableSize()
+        room = room_around(self).size()
         self.resize(min(line * 52, room.width()), min(line * 46, room.height()))
 
     def _ask_items(self) -> None:

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 from nep_studio.study.records import StudyFolder
 from nep_studio.study.summary import Spread, Summary, summarize
 from nep_studio.study.sus import BROOKE, PAPER, questionnaire
+from nep_studio.ui.screens import room_around
 from nep_studio.ui.words import count_words, tr
 
 
@@ -83,7 +84,7 @@ class ResultsDialog(QDialog):
         for widget in (self.which, self.overall, tabs, self.note):
             box.addWidget(widget)
         box.addLayout(foot)
-        room = self.screen().availableSize()
+        room = room_around(self).size()
         self.resize(min(line * 44, room.width()), min(line * 32, room.height()))
 
     def _connect(self) -> None:

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.study.records import Sitting, StudyFolder
+from nep_studio.ui.screens import room_around
 from nep_studio.ui.words import tr
 
 from .who import Who
@@ -75,8 +76,8 @@ class StartDialog(QDialog):
         box.setSpacing(line)
         box.addWidget(area, 1)
         box.addLayout(foot)
-        room = self.screen().availableSize()
-        self.resize(min(line * 34, room.width()), min(line * 32, room.height()))
+        room = room_around(self).size()
+        self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
 
     def _show_whether_it_may_start(self) -> None:
         self.start_button.setEnabled(bool(self.who.participant))

@@ -138,6 +138,8 @@ class _DrawnIcon(QIconEngine):
         self, size: QSize, mode: QIcon.Mode, state: QIcon.State, scale: float
     ) -> QPixmap:
         pixels = size * scale
+        if pixels.isEmpty():  # of a widget that has no room just now
+            return QPixmap()
         key = (pixels.width(), pixels.height(), scale, mode == QIcon.Mode.Disabled)
         if key not in self._pixmaps:
             pixmap = QPixmap(pixels)

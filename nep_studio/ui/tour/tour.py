@@ -190,7 +190,7 @@ def _parts_of(window: QWidget) -> list[QWidget]:
 
 
 def add_tour(window: MainWindow) -> Tour:
-    """Put the tour into the Help menu and let the start page offer it; once for each build.
+    """Put the tour into the Help menu; once for each build.
 
     The window's contents may be made anew while the tour goes on: it stays.
     """
@@ -204,5 +204,4 @@ def add_tour(window: MainWindow) -> Tour:
         help_menu.addAction(action)
     else:
         help_menu.insertAction(first, action)
-    window.start_page.tour_requested.connect(tour.start)
     return tour

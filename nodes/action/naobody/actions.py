@@ -139,7 +139,8 @@ def read_action(name: str, args: dict[str, Any]) -> Action:
     try:
         return msgspec.convert(args, kind)
     except msgspec.ValidationError as error:
-        raise ActionFailed(f'"{name}" cannot be done: {_plain(error)} {_takes(kind)}') from error
+        told, fields = _plain(error), _fields(kind)
+        raise ActionFailed(f'"{name}" cannot be done: {told} It takes {fields}.') from error
 
 
 def _plain(error: msgspec.ValidationError) -> str:
@@ -150,9 +151,9 @@ def _plain(error: msgspec.ValidationError) -> str:
     return f"{place.rstrip('`')} {what}.".strip().replace("`", "")
 
 
-def _takes(kind: type[Action]) -> str:
+def _fields(kind: type[Action]) -> str:
     fields = [
         field.name if field.required else f"{field.name} (may be left out)"
         for field in msgspec.structs.fields(kind)
     ]
-    return f"It takes {', '.join(fields)}."
+    return ", ".join(fields)

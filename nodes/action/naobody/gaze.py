@@ -21,8 +21,8 @@ HIP_DOWN_M, ANKLE_UP_M = 0.085, 0.045
 SEATED_TORSO_M = 0.12
 """About how high the torso is above the ground when NAO sits or lies."""
 POINTING_SPEED = 0.3
-UNSEEN = "Show it one, or try it with a real NAO."
-NOUNS = {"face": "a face", "ball": "the red ball", "sound": "a sound", "mark": "a mark"}
+NOUNS = {"face": "a face", "ball": "the red ball", "mark": "a mark"}
+NAMED = {"face": "the face {name}", "mark": "the mark {name}"}
 
 
 def torso_height_m(robot: VirtualRobot) -> float:
@@ -114,9 +114,14 @@ def place_of(robot: VirtualRobot, thing: str) -> Place:
     """
     if thing not in robot.sees:
         kind, _, name = thing.partition("_")
-        noun = f"{kind} {name}" if name else NOUNS.get(kind, kind)
-        sense = "hear" if kind == "sound" else "see"
-        raise ActionFailed(f"{robot.name} does not {sense} {noun}. {UNSEEN}")
+        if kind == "sound":
+            raise ActionFailed(
+                f"{robot.name} does not hear a sound. Make one, or try it with a real NAO."
+            )
+        noun = NAMED[kind].format(name=name) if name and kind in NAMED else NOUNS.get(kind, thing)
+        raise ActionFailed(
+            f"{robot.name} does not see {noun}. Show it one, or try it with a real NAO."
+        )
     return robot.sees[thing]
 
 

@@ -72,7 +72,7 @@ def _other_limbs(robot: VirtualRobot, action: a.Action) -> frozenset[Limb]:
         case s.Listen():
             return frozenset({Limb.EARS})
     if reason := s.NEEDS_REAL_ROBOT.get(type(action)):
-        raise ActionFailed(f"The virtual {robot.name} cannot {reason}. A real NAO can.")
+        raise ActionFailed(reason.format(name=robot.name))
     return frozenset()
 
 
@@ -86,8 +86,9 @@ def task_of(robot: VirtualRobot, action: a.Action) -> tasks.Task:
 
 def _locked(robot: VirtualRobot, parts: frozenset[str], task: tasks.Task) -> tasks.Task:
     if loose := sorted(parts & robot.released):
+        part = PLAIN_NAMES[loose[0]]
         raise ActionFailed(
-            f"{robot.name}'s {PLAIN_NAMES[loose[0]]} is released and cannot move. "
+            f"{robot.name}'s {part} is released and cannot move. "
             "Lock it first, or let the robot wake up."
         )
     return (yield from task)

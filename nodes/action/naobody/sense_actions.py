@@ -106,10 +106,10 @@ SENSE_ACTIONS: dict[str, type[msgspec.Struct]] = {
 }
 
 NEEDS_REAL_ROBOT: dict[type[msgspec.Struct], str] = {
-    LearnFace: "learn a face: it has no camera",
-    ForgetFace: "forget a face: it has learnt none",
-    TakePicture: "take a picture: it has no camera",
-    RecordVideo: "record a video: it has no camera",
-    PlaySound: "play a sound: it has no files of its own",
+    LearnFace: "The virtual {name} cannot learn a face: it has no camera. A real NAO can.",
+    ForgetFace: "The virtual {name} cannot forget a face: it has learnt none. A real NAO can.",
+    TakePicture: "The virtual {name} cannot take a picture: it has no camera. A real NAO can.",
+    RecordVideo: "The virtual {name} cannot record a video: it has no camera. A real NAO can.",
+    PlaySound: "The virtual {name} cannot play a sound: it has no files. A real NAO can.",
 }
 """What the robot on the screen cannot do, and why."""

@@ -123,23 +123,26 @@ class UnreachedNao:
         ).start()
 
     def _failed(self, *, has_answered: bool) -> Connection:
-        lines: tuple[str, ...]
+        steps: tuple[str, ...]
         if has_answered:
-            lines = (
+            sentence = (
                 f"A program answers at {self._place}, but this version of NEP Studio can drive "
-                f"the virtual NAO only: {self.robot} will not move.",
-                f"[ ] Let {self.robot} be the virtual NAO: set its driver to virtual.",
+                f"the virtual NAO only: {self.robot} will not move."
             )
+            steps = (f"Let {self.robot} be the virtual NAO: set its driver to virtual.",)
         else:
-            lines = (
-                f"{self.robot} does not answer: the program could not reach it at {self._place}.",
-                f"[ ] Is {self.robot} switched on? Its chest button should glow.",
-                f"[ ] Is this computer on the same network as {self.robot}?",
-                f"[ ] Press {self.robot}'s chest button once: it says its address. "
-                f"Is it {self.address[0]}?",
-                "[ ] Try the program on the robot on your screen first.",
+            sentence = (
+                f"{self.robot} does not answer: the program could not reach it at {self._place}."
             )
-        return Connection("connection_failed", "\n".join(lines))
+            steps = (
+                f"Is {self.robot} switched on? Its chest button should glow.",
+                f"Is this computer on the same network as {self.robot}?",
+                f"Press {self.robot}'s chest button once: it says its address. "
+                f"Is it {self.address[0]}?",
+                "Try the program on the robot on your screen first.",
+            )
+        told = "\n".join([sentence, *(f"[ ] {step}" for step in steps)])
+        return Connection("connection_failed", told)
 
 
 def _not_an_address(text: str) -> ParameterError:

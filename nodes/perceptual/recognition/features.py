@@ -20,6 +20,15 @@ _GRAVITY_SPAN = 13  # points: the moving average over 40 % of a window is taken 
 _EARTH_M_S2 = 9.81
 
 
+IN_WORDS = {
+    (False, False): "acceleration",
+    (True, False): "acceleration with gravity",
+    (False, True): "acceleration and rotation",
+    (True, True): "acceleration with gravity and rotation",
+}
+"""What a sensor must have: gravity in its acceleration, a gyroscope."""
+
+
 @dataclass(frozen=True)
 class Channels:
     """What a model listens to besides the acceleration of the body."""
@@ -40,8 +49,7 @@ class Channels:
     @property
     def in_words(self) -> str:
         """For people: what the sensor must have."""
-        acceleration = "acceleration with gravity" if self.gravity else "acceleration"
-        return f"{acceleration} and rotation" if self.gyroscope else acceleration
+        return IN_WORDS[self.gravity, self.gyroscope]
 
 
 @dataclass(frozen=True)

@@ -53,6 +53,27 @@ def test_a_breakpoint_on_the_head_of_a_rule_pauses_where_it_begins(
     assert heard.paused() == (8, "breakpoint")
 
 
+@pytest.mark.parametrize("line", [2, 5])
+def test_a_breakpoint_pauses_where_a_function_inside_is_made_and_where_nothing_is_done(
+    follow: Follow, line: int
+) -> None:
+    program = follow("""
+        def rule():
+            def part():
+                x = 1
+            def empty():
+                pass
+            part()
+            empty()
+        rule()
+        """)
+    program.order("set", breakpoints=[line])
+
+    heard = program.start()
+
+    assert heard.paused() == (line, "breakpoint")
+
+
 def test_a_program_that_runs_for_ever_pauses_and_goes_on(follow: Follow) -> None:
     program = follow(FOR_EVER)
     heard = program.start()

@@ -151,3 +151,14 @@ def test_a_sprite_is_drawn_exactly_over_the_blocks_that_it_shows(view, scale) ->
     view.set_sprite(make_sprite(view, [chain], view.page_layout.index.rect(stack)))
 
     assert is_same(view.viewport().grab(inside).toImage(), before)
+
+
+def test_a_new_size_is_never_shown_unpainted_while_zooming(view: ScrollingView) -> None:
+    view.zoom(1.7)
+
+    view.resize(900, 650)
+
+    assert view.sharpen.isActive()
+    shown = picture(view)
+    view.sharpen.stop()
+    assert is_same(shown, painted_anew(view))

@@ -6,7 +6,8 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.edits import MoveStack
+from nep_studio.blocks.edits import AddNote, MoveStack
+from nep_studio.blocks.program import Note
 from tests.blocks.block_building import B
 
 
@@ -93,3 +94,22 @@ def test_the_wide_side_of_a_carried_stack_stays_under_the_pointer(mirrored) -> N
 
     moved = mirrored.canvas.view_rect_of(block)
     assert moved.right() == pytest.approx(rect.right() - 120, abs=1)
+
+
+def test_the_right_side_stays_where_it_is_when_a_panel_takes_room(mirrored) -> None:
+    canvas = mirrored.canvas
+    canvas.show_beginning()
+    right = canvas.visible_page_rect().right
+
+    canvas.resize(canvas.width() - 140, canvas.height())
+
+    assert canvas.visible_page_rect().right == pytest.approx(right, abs=1)
+
+
+def test_a_note_beside_the_blocks_does_not_push_them_out_of_view(mirrored) -> None:
+    mirrored.editor.apply(AddNote(Note("n1", "behaviour", 1500, 0, 200, 100, "Read me")))
+
+    mirrored.canvas.show_beginning()
+
+    blocks, seen = mirrored.canvas.page_layout.index.bounds(), mirrored.canvas.visible_page_rect()
+    assert seen.x < blocks.right < seen.right

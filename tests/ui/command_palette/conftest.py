@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from nep_studio.ui.command_palette.palette import CommandPalette, add_command_palette
+from nep_studio.ui.command_palette.palette import CommandPalette
 from nep_studio.ui.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
@@ -14,4 +14,6 @@ __all__ = ["answer", "chooser", "home", "karate", "palette", "studio", "window"]
 @pytest.fixture
 def palette(karate: MainWindow) -> CommandPalette:
     """The palette of a window with the karate example."""
-    return add_command_palette(karate)
+    made = karate.findChild(CommandPalette)
+    assert isinstance(made, CommandPalette)
+    return made

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
-import psutil
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_core import messages as m
-from nep_studio.plan import PlannedNode
-from nep_studio.settings import Settings
+from nep_studio.own_master import MASTER
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.messages import Message
 from nep_studio.ui.panels.nodes.adding import add_nodes_panel
 from nep_studio.ui.panels.nodes.panel import NodesPanel
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
+
+pytest.importorskip("resource", reason="signals and limits of processes are those of Unix")
 
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
 
@@ -74,8 +74,15 @@ class Scene:
     def kill(self, name: str) -> int:
         """Kill a node's process without warning; its number."""
         pid = self.pid(name)
+        assert pid
         os.kill(pid, signal.SIGKILL)
         return pid
+
+    def signal_master(self, number: int) -> None:
+        """Send the master's process a signal."""
+        pid = self.local._master_launcher.nodes[MASTER].pid
+        assert pid  # 0 would be the tests themselves
+        os.kill(pid, number)
 
     # What is seen of it
 
@@ -93,15 +100,16 @@ class Scene:
 
     @property
     def said(self) -> list[str]:
-        """What the robot began to say."""
-        ids = {
-            one.id for one in self.heard if isinstance(one, m.ActionResult) and one.state == "started"
-        }
-        return [
-            one.args["text"]
-            for one in self.heard
-            if isinstance(one, m.ActionRequest) and one.action == "say" and one.id in ids
-        ]
+        """What the robot began to say; each sentence once, however often it was asked for."""
+        ids = self.results("started")
+        requests = [one for one in self.heard if isinstance(one, m.ActionRequest)]
+        said = {one.id: one.args["text"] for one in requests if one.action == "say"}
+        return [text for id, text in said.items() if id in ids]
+
+    def results(self, state: str) -> list[str]:
+        """The ids of the requests of which a robot said that."""
+        results = [one for one in self.heard if isinstance(one, m.ActionResult)]
+        return [one.id for one in results if one.state == state]
 
     @property
     def shown(self) -> list[str]:

@@ -16,7 +16,6 @@ from nep_studio.settings import FOLDER_VARIABLE, Settings
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.app import Studio
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.help.adding import add_help
 from nep_studio.ui.help.book import Book
 from nep_studio.ui.help.desk import HelpDesk
 from nep_studio.ui.help.panel import HelpPanel
@@ -61,7 +60,7 @@ def window(studio: Studio, qtbot: QtBot):
 @pytest.fixture
 def desk(window: MainWindow) -> HelpDesk:
     """The help of the window."""
-    made = getattr(window, "help_desk", None) or add_help(window)
+    made = window.later.help_desk
     yield made
     if made._window is not None:
         made._window.close()

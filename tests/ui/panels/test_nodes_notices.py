@@ -7,7 +7,12 @@ from dataclasses import replace
 import pytest
 
 from nep_studio.node_board import NodeStatus
-from nep_studio.ui.panels.nodes.notices import Circumstances, is_recovered, notice_of
+from nep_studio.ui.panels.nodes.notices import (
+    Circumstances,
+    is_recovered,
+    master_notice,
+    notice_of,
+)
 
 READY = NodeStatus("karate", "perceptual", event="ready", pid=1, health="ready")
 OURS = Circumstances(is_ours=True, was_ready=True)
@@ -119,3 +124,23 @@ def test_a_node_that_answers_again_has_recovered() -> None:
     assert is_recovered(changed(health="crashed"), READY)
     assert not is_recovered(READY, replace(READY, heard_s=9.0))
     assert not is_recovered(READY, changed(health="frozen"))
+
+
+def test_a_killed_program_that_begins_again_says_so_and_can_be_stopped() -> None:
+    words = "program was killed; it is started again"
+    after = changed(name="program", event="crashed", health="crashed", description=words)
+
+    notice = notice_of(READY, after, Circumstances(is_program=True))
+
+    assert notice is not None
+    assert notice.fixes == ("stop", "show_log")
+    assert notice.problem.checklist
+
+
+@pytest.mark.parametrize("event", ["restarting", "gone"])
+def test_a_master_that_ended_is_told_as_the_network(event: str) -> None:
+    notice = master_notice(event, "master was killed.")
+
+    assert "network" in notice.problem.title
+    assert notice.problem.checklist
+    assert ("start" in notice.fixes) == (event == "gone")

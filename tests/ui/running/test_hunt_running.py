@@ -157,6 +157,22 @@ def test_a_tap_that_goes_with_its_parent_hears_no_more(window: MainWindow, qtbot
     qtbot.waitUntil(lambda: "nep-tap-/hunted" not in _threads(), timeout=5000)
 
 
+def test_a_message_that_cannot_be_sent_does_not_silence_the_next(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    runner = window.running.runner
+    with qtbot.waitSignal(runner.connected, timeout=WAIT_MS):
+        runner.open_network()
+    tap = runner.tap("/hunted", parent=window)
+    heard: list[object] = []
+    tap.arrived.connect(lambda batch: heard.extend(one.message for one in batch))
+
+    runner.send("/hunted", {"half a letter": "\ud800"})
+    runner.send("/hunted", {"whole": 1})
+
+    qtbot.waitUntil(lambda: {"whole": 1} in heard)
+
+
 def _threads() -> set[str]:
     return {thread.name for thread in threading.enumerate()}
 

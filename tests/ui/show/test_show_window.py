@@ -17,7 +17,6 @@ from nep_studio import paths
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.show import performance as performance_module
 from nep_studio.ui.show.leaving import HOLD_MS
-from nep_studio.ui.show.mode import add_show_mode
 from nep_studio.ui.show.window import ShowWindow
 from tests.blocks.block_building import B
 
@@ -286,7 +285,6 @@ def test_the_operator_has_cues_and_their_keys(open_program, show: Begin, qtbot: 
 
 def test_the_action_begins_the_show(window: MainWindow, open_program, qtbot: QtBot) -> None:
     open_program(SAY)
-    add_show_mode(window)
 
     qtbot.keyClick(window, Qt.Key.Key_F11)
 

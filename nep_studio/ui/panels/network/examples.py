@@ -60,7 +60,7 @@ def read_message(topic: str, text: str) -> msgspec.Struct | dict[str, Any]:
     except msgspec.DecodeError as error:
         raise _not_json(text, str(error)) from error
     if not isinstance(data, dict):
-        raise NotAMessage("A message is written between { and }.")
+        raise NotAMessage("A message begins and ends with a curly bracket.")
     kind = m.BY_TOPIC.get(topic)
     if kind is None:
         return data

@@ -58,6 +58,7 @@ def add_nodes_panel(window: MainWindow) -> NodesPanel:
 
 def tell_not_saved(window: MainWindow, path: str, reason: str) -> None:
     """Say that a file could not be written, and what to try."""
-    sentence = tr("The file {path} could not be written: {reason}.", path=path, reason=reason)
+    why = tr(reason.lower())
+    sentence = tr("The file {path} could not be written: {reason}.", path=path, reason=why)
     steps = ("Choose another folder.", "Is there room on the disk?")
     window.messages.tell_problem(Problem("The file was not saved", sentence, steps))

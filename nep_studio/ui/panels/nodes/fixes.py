@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from nep_studio.blocks.deployment import ROBOT_BLOCK
 from nep_studio.blocks.edits import SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.own_master import MASTER
 from nep_studio.plan import PlannedNode
 from nep_studio.ui.messages import Answer
 from nep_studio.ui.words import tr
@@ -46,6 +47,7 @@ class NodeFixes:
             "use_virtual": tr("Use the robot on the screen"),
             "change_address": tr("Change the address"),
             "run": tr("Run again"),
+            "stop": tr("Stop"),
         }
         look = "primary" if fix in ("start", "restart", "use_virtual", "run") else "quiet"
         return Answer(words[fix], lambda: self.do(fix, name), look)  # type: ignore[arg-type]
@@ -67,9 +69,14 @@ class NodeFixes:
                 self._change_address(name)
             case "run":
                 self._window.running.runner.run()
+            case "stop":
+                self._window.running.stop()
 
     def start(self, name: str) -> None:
-        """Start a node as it is wanted now."""
+        """Start a node as it is wanted now; or the network, when its master is gone."""
+        if name == MASTER:
+            self._window.running.runner.open_network()
+            return
         plan = self.plan_of(name)
         if plan is not None:
             self._window.running.runner.start_node(plan)

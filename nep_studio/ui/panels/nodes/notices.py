@@ -7,7 +7,9 @@ from typing import Literal
 
 from nep_core.process import STEP
 from nep_studio.node_board import NodeStatus
+from nep_studio.own_master import MASTER
 from nep_studio.problems import Problem
+from nep_studio.session import PROGRAM
 from nep_studio.ui.messages import Kind
 from nep_studio.ui.words import tr
 
@@ -19,6 +21,7 @@ Fix = Literal[
     "use_virtual",
     "change_address",
     "run",
+    "stop",
 ]
 
 STARTED_AGAIN = "; it is started again"
@@ -68,7 +71,9 @@ def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -
     if after.health == "warning":
         return _warning(after, at)
     if after.health == "crashed":
-        return None if at.is_ending or at.is_program else _ended(after, at)
+        if at.is_program:
+            return None if at.is_ending else _program_ended(after)
+        return None if at.is_ending else _ended(after, at)
     if after.health == "stopped" and before is not None:
         return _stopped(after, at)
     return None
@@ -156,6 +161,43 @@ def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
     title = tr("“{name}” ended unexpectedly", name=name)
     steps = (tr("Start it again."), tr("Look into its log: why did it end?"))
     return Notice(name, "ended", "error", Problem(title, described, steps), ("start", "show_log"))
+
+
+def _program_ended(status: NodeStatus) -> Notice | None:
+    """Only when it was killed: what else may end it, Run tells of."""
+    described, words, _ = status.description.partition(STARTED_AGAIN)
+    if not words:
+        return None
+    title = tr("The program ended unexpectedly and begins again")
+    steps = (
+        tr("Stop it, if it should not begin again."),
+        tr("Does it use more and more memory? Its log may say so."),
+    )
+    problem = Problem(title, tr(described), steps)
+    return Notice(status.name, "restarting", "warning", problem, ("stop", "show_log"))
+
+
+def started_again(name: str, problem: Problem) -> Notice:
+    """What stands there for a while when a node is well again: it was too quick to be read."""
+    titles = {
+        PROGRAM: tr("The program has begun again"),
+        MASTER: tr("The network is open again"),
+    }
+    title = titles.get(name) or tr("“{name}” was started again", name=name)
+    again = Problem(title, problem.sentence)
+    return Notice(name, "started again", "info", again, ("show_log",), passes=True)
+
+
+def master_notice(event: str, sentence: str) -> Notice:
+    """What to tell of a master that ended unexpectedly."""
+    if event == "restarting":
+        title = tr("The network ended unexpectedly and is opened again")
+        steps = (tr("Wait a moment: what runs goes on."), tr("Look into its log."))
+        problem = Problem(title, tr(sentence), steps)
+        return Notice(MASTER, "restarting", "warning", problem, ("show_log",))
+    steps = (tr("Start it again: what runs goes on."), tr("Look into its log: why did it end?"))
+    problem = Problem(tr("The network ended unexpectedly"), tr(sentence), steps)
+    return Notice(MASTER, "gone", "error", problem, ("start", "show_log"))
 
 
 def _stopped(status: NodeStatus, at: Circumstances) -> Notice | None:

@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from nep_core.errors import NepError
 from nep_studio.node_board import NodeStatus
+from nep_studio.own_master import MASTER
 from nep_studio.problems import Problem, problem_of
 from nep_studio.session import PROGRAM
 from nep_studio.ui.messages import Message
@@ -18,7 +19,16 @@ from nep_studio.ui.words import count_words, tr
 
 from .fixes import NodeFixes
 from .looks import is_running
-from .notices import WELL, Circumstances, Notice, could_not_start, is_recovered, notice_of
+from .notices import (
+    WELL,
+    Circumstances,
+    Notice,
+    could_not_start,
+    is_recovered,
+    master_notice,
+    notice_of,
+    started_again,
+)
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
@@ -54,6 +64,7 @@ class NodeTelling(QObject):
         self._runner.nodes_changed.connect(self._on_nodes_changed)
         self._runner.state_changed.connect(self._on_state_changed)
         self._runner.node_failed.connect(self._on_node_failed)
+        self._runner.master_changed.connect(self._on_master_changed)
 
     def expect_start(self, name: str) -> None:
         """A person starts a node: that it is ready will be told."""
@@ -77,7 +88,7 @@ class NodeTelling(QObject):
                 continue
             self._before[name] = after
             if is_recovered(before, after):
-                self._take_back(name)
+                self._recover(name)
             notice = notice_of(before, after, self._circumstances(after))
             if notice is not None:
                 self.tell(notice)
@@ -102,11 +113,19 @@ class NodeTelling(QObject):
             is_ours=runner.is_ours(name),
             is_program=name == PROGRAM,
             was_asked=name in self._asked,
-            is_ending=self._is_ending or name in self._restarted,
+            is_ending=self._is_ending or name in self._restarted or self._is_news_of_a_stop(status),
             was_ready=name in self._was_ready,
             has_block=bool(self.fixes.block_of(name)),
             address=str(plan.parameters.get("address", "")) if plan is not None else "",
         )
+
+    def _is_news_of_a_stop(self, status: NodeStatus) -> bool:
+        """Whether the studio stopped it, with a run that is over, or to start it anew."""
+        launched = self._runner.local.launcher.nodes.get(status.name)
+        if status.health != "stopped" or status.name in self._asked or launched is None:
+            return False
+        ran_s = time.monotonic() - launched.started_s
+        return launched.stopping or status.since_s < time.time() - ran_s
 
     @property
     def _is_ending(self) -> bool:
@@ -138,6 +157,19 @@ class NodeTelling(QObject):
         told = self._told.pop(name, None)
         if told is not None:
             self._window.messages.withdraw(told[1])
+
+    def _recover(self, name: str) -> None:
+        """It is well again: take back what was told, but let what passed quickly be read."""
+        key, message = self._told.get(name, ("", None))
+        self._take_back(name)
+        if key == "restarting" and message is not None and not self._is_ending:
+            self.tell(started_again(name, Problem(message.title, message.sentence)))
+
+    def _on_master_changed(self, event: str, sentence: str) -> None:
+        if event == "back":
+            self._recover(MASTER)
+        else:
+            self.tell(master_notice(event, sentence))
 
     def _on_state_changed(self, state: str) -> None:
         if state == "idle":

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from nep_core.messages import RobotState
 from nep_studio.blocks.language import Language
+from nep_studio.ui.actions_icons import icon_room
 from nep_studio.ui.elided_label import ElidedLabel
 from nep_studio.ui.panels.nodes.looks import StateLook
 from nep_studio.ui.theme import Look, icon, icon_pixmap
@@ -156,6 +157,7 @@ class RobotCard(QFrame):
     def _dress(self) -> None:
         theme = self._look.theme
         self.touch.setIcon(icon("hand", theme))
+        self.touch.setIconSize(icon_room(self.fontMetrics().height()))
         if self._health is not None:
             side, ratio = self.fontMetrics().height(), self.devicePixelRatioF()
             colour = theme.colour(self._health.colour)

@@ -242,5 +242,9 @@ class Workspace(QWidget):
 
 def _kept(paths: list[Path]) -> str:
     """What to say of files that were written."""
-    one, many = "“{name}” is kept", "{n} files are kept, the first is “{name}”"
-    return count_words(len(paths), one, many, name=paths[0].name)
+    return count_words(
+        len(paths),
+        "“{name}” is kept",
+        "{n} files are kept, the first is “{name}”",
+        name=paths[0].name,
+    )

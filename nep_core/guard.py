@@ -1,0 +1,63 @@
+"""Stands by a node of any language, and ends it when the program that started it is gone.
+
+Such a node knows nothing of its life line, so the launcher starts this, and this starts the node.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+from typing import Any
+
+import psutil
+
+from nep_core import lifeline, process_tree
+from nep_core.node import STOP_SIGNALS
+
+GUARD = "guard"
+CANNOT_START = 127
+GRACE_S = 1.0
+"""Less than the guard itself has when it is orphaned."""
+
+
+def main(words: list[str]) -> int:
+    """Run a command to its end, and end as it did; the exit code."""
+    stopped = threading.Event()
+    lifeline.on_parent_end(stopped.set)
+    try:
+        child = subprocess.Popen(words, stdin=subprocess.DEVNULL)
+    except (OSError, ValueError) as error:
+        print(f"{words[0]}: {getattr(error, 'strerror', None) or error}", file=sys.stderr)
+        return CANNOT_START
+    threading.Thread(target=_end_when, args=(stopped, child), daemon=True).start()
+    for number in STOP_SIGNALS:
+        signal.signal(number, lambda number, _frame: _pass_on(child, number))
+    return _ended_like(child.wait())
+
+
+def _pass_on(child: subprocess.Popen[bytes], number: int) -> None:
+    if sys.platform != "win32":  # there the whole group has it already
+        with contextlib.suppress(OSError):
+            child.send_signal(number)
+
+
+def _end_when(stopped: threading.Event, child: subprocess.Popen[bytes]) -> None:
+    """Ask the node to stop when nobody is there any more, and end it with all that it started."""
+    stopped.wait()
+    started: Any = process_tree.descendants(os.getpid())
+    child.terminate()
+    psutil.wait_procs(started, timeout=GRACE_S)
+    process_tree.kill(started | process_tree.descendants(os.getpid()))
+
+
+def _ended_like(code: int) -> int:
+    """End by the signal that ended the node, so that the launcher knows of it."""
+    if code < 0:
+        with contextlib.suppress(OSError, ValueError):
+            signal.signal(-code, signal.SIG_DFL)
+        os.kill(os.getpid(), -code)
+    return code

@@ -1,0 +1,58 @@
+"""The dialogs that the main window's actions open; none of them is loaded before."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from nep_studio import settings
+
+if TYPE_CHECKING:
+    from nep_studio.ui.main_window import MainWindow
+
+
+def open_settings(window: MainWindow) -> None:
+    """Show the settings."""
+    from nep_studio.ui.settings_dialog import SettingsDialog
+
+    dialog = SettingsDialog(window.studio, window)
+    dialog.reset_button.clicked.connect(window.reset_panels)
+    dialog.open()
+
+
+def export_picture(window: MainWindow) -> None:
+    """Ask for a picture of the blocks."""
+    from nep_studio.ui.picture.dialog import PictureDialog
+
+    document = window.files.document
+    if document is not None:
+        folder = document.path.parent if document.path else window.settings.last_folder
+        PictureDialog(window.workbench.canvas, folder, document.title, window).open()
+
+
+def show_shortcuts(window: MainWindow) -> None:
+    """Show what the keys do."""
+    from nep_studio.ui.main_window_help import ShortcutsDialog, on_the_canvas, shortcuts_of
+
+    rows = [*shortcuts_of(window.actions_by_name.by_name.values()), *on_the_canvas()]
+    ShortcutsDialog(rows, window).open()
+
+
+def show_about(window: MainWindow) -> None:
+    """Say what this program is."""
+    from nep_studio.ui.main_window_help import AboutDialog
+
+    AboutDialog(window).open()
+
+
+def offer_recovery(window: MainWindow) -> None:
+    """Offer work that was not saved when the program ended without warning."""
+    folder = settings.journal_folder()
+    if not any(folder.glob("*-*")):
+        return
+    from nep_studio.journal import recover
+
+    found = recover(folder, window.studio.language)
+    if found:
+        from nep_studio.ui.recovery import RecoveryDialog
+
+        RecoveryDialog(found, window.studio, window.files.restore, window).open()

@@ -1,0 +1,144 @@
+"""The first page is there first; what is behind it comes by itself, or when it is needed."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from importlib.util import find_spec
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from nep_studio.ui.app import Studio
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.main_window_later import MODULES
+from nep_studio.ui.tour.tour import Tour
+
+
+@pytest.fixture
+def gradual(studio: Studio, qtbot: QtBot) -> Iterator[MainWindow]:
+    """A window as the program makes it, before it has been painted."""
+    made = MainWindow(studio, is_gradual=True)
+    qtbot.addWidget(made)
+    yield made
+    made.later.stop()
+    if made.later.made_running is not None:
+        made.running.close()
+    if made.later.made_workbench is not None:
+        made.workbench.retire()
+    if made.files.document is not None:
+        made.files.document.close()
+        made.files.document = None
+
+
+def test_the_first_page_needs_no_workbench(gradual: MainWindow) -> None:
+    shown = gradual.pages.currentWidget()
+
+    assert shown is gradual.start_page
+    assert gradual.later.made_workbench is None
+    assert gradual.later.made_running is None
+
+
+def test_the_rest_comes_by_itself_once_the_window_is_painted(
+    gradual: MainWindow, qtbot: QtBot
+) -> None:
+    gradual.show()
+    gradual.start(None)
+
+    qtbot.waitUntil(lambda: gradual.later.is_done, timeout=30_000)
+
+    assert gradual.pages.currentWidget() is gradual.start_page
+    assert "palette" in gradual.actions_by_name.by_name
+    assert not gradual.actions_by_name["show_mode"].isEnabled()
+
+
+def test_the_rest_is_there_once(gradual: MainWindow, qtbot: QtBot) -> None:
+    told: list[bool] = []
+    gradual.later.completed.connect(lambda: told.append(True))
+    gradual.later.finish()
+
+    gradual.show()
+    gradual.start(None)
+    qtbot.waitExposed(gradual)
+    qtbot.waitUntil(lambda: not gradual.later.is_waiting)
+
+    assert told == [True]
+    assert gradual.pages.count() == 2
+
+
+def test_a_button_pressed_before_the_rest_is_there_does_what_it_says(
+    gradual: MainWindow, qtbot: QtBot
+) -> None:
+    gradual.show()
+    gradual.start(None)
+
+    qtbot.mouseClick(gradual.start_page.new_button, Qt.MouseButton.LeftButton)
+
+    assert gradual.workbench.canvas.isVisible()
+    assert gradual.actions_by_name["run"].isEnabled()
+    assert gradual.actions_by_name["show_mode"].isEnabled()
+
+
+def test_the_tour_can_be_taken_before_the_rest_is_there(gradual: MainWindow, qtbot: QtBot) -> None:
+    gradual.show()
+    gradual.start(None)
+
+    gradual.start_page.tour_requested.emit()
+
+    tour = gradual.findChild(Tour)
+    assert isinstance(tour, Tour)
+    qtbot.waitUntil(lambda: tour.is_running)
+    tour.end()
+
+
+@pytest.mark.parametrize("steps", [0, len(MODULES) + 3])
+def test_the_language_can_change_while_the_rest_is_made(gradual: MainWindow, steps: int) -> None:
+    gradual.show()
+    gradual.start(None)
+    for _ in range(steps):
+        gradual.later.step()
+
+    gradual.studio.choose_language("es")
+
+    assert gradual.later.is_done
+    assert gradual.menus["file"].title() == "&Archivo"
+    assert gradual.pages.count() == 2
+
+
+def test_a_window_closed_before_the_rest_is_there_makes_no_more(gradual: MainWindow) -> None:
+    gradual.show()
+    gradual.start(None)
+
+    gradual.close()
+    gradual.update_actions()  # as the clipboard asks for it
+
+    assert gradual.later.made_workbench is None
+
+
+def test_a_step_that_fails_ends_the_steps(
+    gradual: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, MODULES[0], None)  # as if it could not be imported
+
+    with pytest.raises(ImportError):
+        gradual.later.finish()
+
+    assert not gradual.later.is_done
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_the_modules_that_are_loaded_step_by_step_exist(name: str) -> None:
+    assert find_spec(name) is not None
+
+
+def test_pictures_of_examples_wait_for_what_paints_blocks(
+    gradual: MainWindow, qtbot: QtBot
+) -> None:
+    gradual.show()
+    gradual.start(None)
+
+    qtbot.waitUntil(lambda: gradual.later.is_done, timeout=30_000)
+
+    cards = gradual.start_page.gallery.cards
+    qtbot.waitUntil(lambda: all(card.is_painted() for card in cards.values()), timeout=30_000)
