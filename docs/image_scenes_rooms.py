@@ -1,4 +1,4 @@
-"""What the pictures of the rooms around the canvas show: help, cues, nodes, all that can be done."""
+"""What the pictures of the rooms around the canvas show: help, cues, nodes, commands."""
 
 from __future__ import annotations
 

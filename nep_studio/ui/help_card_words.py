@@ -39,7 +39,7 @@ def card_text(editor: Editor, block_id: str) -> str:
 
 def _about(definition: Definition) -> Iterator[str]:
     yield from (text for text in does(definition) if text)
-    yield _shape(definition)
+    yield shape_words(definition)
     flags = {
         "in_loop": tr("It belongs inside a loop."),
         "stands": tr("The robot must stand for it."),
@@ -51,7 +51,7 @@ def _about(definition: Definition) -> Iterator[str]:
     yield tr("Blocks like this are in “{category}”.", category=definition.category.title)
 
 
-def _shape(definition: Definition) -> str:
+def shape_words(definition: Definition) -> str:
     """What such blocks are for, by their shape."""
     if definition.is_last:
         return tr("It ends what is above it: no block comes after it.")

@@ -151,6 +151,17 @@ class Panels(QObject):
                 panel.action.setChecked(True)
                 panel.area.setCurrentWidget(widget)
 
+    def give_room(self, panel: Panel, share: float) -> None:
+        """Let a panel of the bottom have at least this share of the height when it is opened."""
+
+        def grow(is_on: bool) -> None:
+            above, below = self.column.sizes()
+            wanted = round((above + below) * share)
+            if is_on and below < wanted:
+                self.column.setSizes([above + below - wanted, wanted])
+
+        panel.action.toggled.connect(grow)
+
     def hide_at_first(self, area: AreaName) -> None:
         """Hide the panels of an area that the person has not shown or hidden yet."""
         for panel in self.all:

@@ -125,7 +125,7 @@ def test_a_table_that_cannot_be_written_leaves_the_old_one(tmp_path: Path) -> No
     there = tmp_path / "folder"
     there.mkdir()
 
-    with pytest.raises(OSError, match="answers|folder"):
+    with pytest.raises(OSError, match=r"answers|folder"):
         write_replies(there, [])
 
     assert list(tmp_path.iterdir()) == [there]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..edits import CreateBlocks
 from ..editor import Editor
+from ..edits import CreateBlocks
 from ..places import InStack
 
 STARTED = "event.started"

@@ -12,12 +12,12 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.to_python import python_of
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.sentence import Slot
-from nep_studio.blocks.slots import RESULTS
 from nep_studio.blocks.text import field_text
 from nep_studio.help.examples import Example, example_of
 from nep_studio.help.markdown import code_html, inline
 from nep_studio.help.texts import BlockText, block_texts
 from nep_studio.ui.canvas.fields.titles import slot_name
+from nep_studio.ui.help_card_words import shape_words
 from nep_studio.ui.words import language_code, tr
 
 from .page_names import BLOCK, CATEGORY, HOW_TO
@@ -74,16 +74,7 @@ def needs(definition: Definition) -> Iterator[str]:
 def _shape(definition: Definition) -> str:
     if definition.page != "behaviour":
         return tr("It is a line of its page: the order does not matter.")
-    if definition.is_last:
-        return tr("It ends what is above it: no block comes after it.")
-    if definition.shape == "reporter":
-        result = tr(RESULTS[definition.result or "any"])
-        return tr("It is a value to put into a place of another block: {result}.", result=result)
-    return {
-        "hat": tr("It begins a stack: the blocks below it belong to it."),
-        "c": tr("It holds other blocks, and decides when or how often they run."),
-        "boolean": tr("It answers yes or no, in a place with the same pointed shape."),
-    }.get(definition.shape, tr("It is one step: when it is done, the block below it follows."))
+    return shape_words(definition)
 
 
 def tip_html(tip: str) -> str:

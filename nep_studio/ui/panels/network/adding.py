@@ -29,12 +29,5 @@ def add_network_panel(window: MainWindow) -> NetworkPanel:
     panel.run_asked.connect(runner.run)
     panel.saving_failed.connect(lambda path, reason: tell_not_saved(window, path, reason))
 
-    def make_room(is_on: bool) -> None:
-        column = workbench.panels.column
-        above, below = column.sizes()
-        wanted = round((above + below) * LEAST_SHARE)
-        if is_on and below < wanted:
-            column.setSizes([above + below - wanted, wanted])
-
-    added.action.toggled.connect(make_room)
+    workbench.panels.give_room(added, LEAST_SHARE)
     return panel

@@ -64,15 +64,7 @@ def add_sensors_panel(window: MainWindow) -> SensorsPanel:
     """Put the plots of sensors below the canvas; call it each time the workbench is made."""
     panel = SensorsPanel(lambda: _workspace(window))
     added = window.add_side_panel(panel, tr("Sensors"), "activity", "bottom", is_shown=False)
-    column = window.workbench.panels.column
-
-    def make_room(is_on: bool) -> None:
-        above, below = column.sizes()
-        wanted = round((above + below) * LEAST_SHARE)
-        if is_on and below < wanted:
-            column.setSizes([above + below - wanted, wanted])
-
-    added.action.toggled.connect(make_room)
+    window.workbench.panels.give_room(added, LEAST_SHARE)
     return panel
 
 
