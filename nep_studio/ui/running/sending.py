@@ -25,7 +25,7 @@ class Sender:
         self._network: PeerNetwork | None = None
         self._publishers: dict[str, Publisher] = {}
         self._waiting: queue.SimpleQueue[Sent | None] = queue.SimpleQueue()
-        threading.Thread(target=self._run, name="nep-studio-send", daemon=True).start()
+        self._thread: threading.Thread | None = None
 
     def send(
         self, network: PeerNetwork | None, topic: str, message: msgspec.Struct | dict[str, Any]
@@ -34,6 +34,9 @@ class Sender:
         if network is None or network.closed:
             return False
         self._waiting.put((network, topic, message))
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._run, name="nep-studio-send", daemon=True)
+            self._thread.start()
         return True
 
     def close(self) -> None:

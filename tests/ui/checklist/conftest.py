@@ -48,6 +48,7 @@ def window(studio: Studio, qtbot: QtBot) -> Iterator[MainWindow]:
         dialog.blockSignals(True)
         dialog.close()
     made.workbench.canvas.fields.close()
+    made.running.close()
     made.workbench.retire()
     if made.files.document is not None:
         made.files.document.close()

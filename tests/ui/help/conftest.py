@@ -51,6 +51,7 @@ def window(studio: Studio, qtbot: QtBot):
     made.start(None)
     qtbot.waitExposed(made)
     yield made
+    made.running.close()
     made.workbench.retire()
     if made.files.document is not None:
         made.files.document.close()
