@@ -13,6 +13,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import psutil
 import pytest
+from hypothesis import HealthCheck, settings
 
 from benchmarks.virtual_display import NoDisplay, virtual_display
 from nep_core.default_network import set_default_network
@@ -25,6 +26,10 @@ PROJECT = Path(__file__).resolve().parent.parent
 
 def pytest_configure() -> None:
     """Let compiled code be kept: hundreds of processes would each compile all that they import."""
+    settings.register_profile(
+        "busy", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    )  # another program may have the processor for seconds
+    settings.load_profile("busy")
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
 

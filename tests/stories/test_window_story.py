@@ -92,7 +92,6 @@ def newcomer(window: MainWindow, qtbot: QtBot) -> Iterator[Newcomer]:
     window.running.close()
 
 
-@pytest.mark.qt_log_ignore("This plugin does not support")
 @pytest.mark.timeout(240)
 def test_a_newcomer_tries_the_karate_example_and_makes_a_rule(
     newcomer: Newcomer, window: MainWindow, qtbot: QtBot

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QButtonGroup, QScrollArea, QToolButton, QVBoxLayou
 from nep_studio.ui.theme import Theme
 from nep_studio.ui.words import tr
 
-from .entries import Drawer
+from .entries import RECENT, Drawer, recent_drawer
 from .shelf_painter import paint_badge
 
 WORDS_SCALE = 0.9
@@ -29,6 +29,8 @@ class CategoryColumn(QScrollArea):
         self.buttons: dict[str, QToolButton] = {}
         self._is_narrow = False
         self._words_width = self.wide_width = 0
+        self._to_come: QToolButton | None = None
+        """The button of what was used last: its room is kept, so that nothing moves later."""
         self._group = QButtonGroup(self)
         self.setWidgetResizable(True)
         self.setFrameShape(QScrollArea.Shape.NoFrame)
@@ -46,6 +48,11 @@ class CategoryColumn(QScrollArea):
         for button in self.buttons.values():
             column.addWidget(button)
         column.addStretch(1)
+        self._to_come = None
+        if RECENT not in self.buttons:
+            self._to_come = self._button(recent_drawer(), theme, inner)
+            self._group.removeButton(self._to_come)
+            self._to_come.hide()
         self.setWidget(inner)
         self._fit()
 
@@ -54,7 +61,7 @@ class CategoryColumn(QScrollArea):
         if is_narrow == self._is_narrow:
             return
         self._is_narrow = is_narrow
-        for button in self.buttons.values():
+        for button in self._measured():
             button.setToolButtonStyle(self._style())
         self._fit()
 
@@ -88,11 +95,15 @@ class CategoryColumn(QScrollArea):
         styles = Qt.ToolButtonStyle
         return styles.ToolButtonIconOnly if self._is_narrow else styles.ToolButtonTextBesideIcon
 
+    def _measured(self) -> list[QToolButton]:
+        """The buttons, also the one that is to come."""
+        return [*self.buttons.values(), *([self._to_come] if self._to_come is not None else [])]
+
     def _fit(self) -> None:
-        for button in self.buttons.values():
+        for button in self._measured():
             button.ensurePolished()  # before that the style sheet does not count
             button.setMinimumWidth(0)
-        widest = max((b.sizeHint().width() for b in self.buttons.values()), default=40)
+        widest = max((b.sizeHint().width() for b in self._measured()), default=40)
         for button in self.buttons.values():
             button.setMinimumWidth(widest)
         self._words_width = widest + 4
@@ -103,7 +114,9 @@ class CategoryColumn(QScrollArea):
     def _make_room(self) -> None:
         """Be as wide as the words, with a scroll bar only where one is needed."""
         inner = self.widget()
-        is_long = inner is not None and inner.sizeHint().height() > self.viewport().height()
+        more = self._to_come.sizeHint().height() if self._to_come is not None else 0
+        high = inner.sizeHint().height() + more if inner is not None else 0
+        is_long = high > self.viewport().height()
         bar = self.verticalScrollBar().sizeHint().width() if is_long else 0
         self.setFixedWidth(self._words_width + bar)
 

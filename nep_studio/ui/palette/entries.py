@@ -50,9 +50,14 @@ class Entry:
         return self.kind in ("block", "button", "snippet")
 
 
+def recent_drawer() -> Drawer:
+    """The drawer with what was used last."""
+    return Drawer(RECENT, tr("Recently used"), "history")
+
+
 def drawers_of(editor: Editor, kind: str, *, has_recent: bool) -> list[Drawer]:
     """The drawers for a kind of page: what was used last, the categories, the snippets."""
-    drawers = [Drawer(RECENT, tr("Recently used"), "history")] if has_recent else []
+    drawers = [recent_drawer()] if has_recent else []
     for category in editor.language.categories:
         if category.page == kind:
             icon = category_icon_name(category.colour, category.id)

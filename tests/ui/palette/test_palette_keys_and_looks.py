@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible
 
@@ -37,6 +38,20 @@ def test_the_list_stays_where_it_is_when_something_is_used(palette, qtbot):
     qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
 
     assert abs(place() - before) <= 1
+
+
+@pytest.mark.parametrize("height", [560, 620, 640, 660, 680, 700])
+def test_the_column_of_categories_is_as_wide_before_anything_was_used(
+    window, palette, qtbot, height
+):
+    window.resize(1100, height)
+    qtbot.waitUntil(lambda: palette.height() <= height)
+    before = palette.categories.width()
+
+    click(palette, "math.number")
+    qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
+
+    assert palette.categories.width() == before
 
 
 def test_the_list_stays_where_it_is_when_the_palette_becomes_narrower(palette, qtbot):
