@@ -22,6 +22,10 @@ def walks(forward_m: float) -> Step:
     return "walk", {"forward_m": forward_m}
 
 
+GREETING = "<greeting>"
+"""Stands for what fits the hour at which the example plays."""
+
+
 def greeting() -> str:
     hour = time.localtime().tm_hour
     return "Good morning" if hour < 12 else "Good afternoon" if hour < 18 else "Good evening"
@@ -156,13 +160,13 @@ PLAYS: dict[str, list[Step]] = {
     "morning_greeter": [
         "I look out for people.",
         0,
-        f"{greeting()}, anna. Have a good day.",
+        f"{GREETING}, anna. Have a good day.",
         1,
         0,
         "Nice to see you again, anna.",
         1,
         2,
-        f"{greeting()}. I am NAO.",
+        f"{GREETING}. I am NAO.",
     ],
     "interrupted_guide": [
         "I am your guide. Come in front of me to begin.",
@@ -210,7 +214,7 @@ def take(step: Step, stage: Stage) -> None:
     if step == FINISHED:
         stage.sees_end()
     elif isinstance(step, str):
-        stage.sees("say", text=step)
+        stage.sees("say", text=step.replace(GREETING, greeting()))
     elif isinstance(step, int):
         stage.tries(step)
     else:
