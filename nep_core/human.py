@@ -45,6 +45,7 @@ class HumanListener:
         self._state = ""
         self._heard_s = 0.0
         self._seen: dict[str, Seen] = {}
+        self._told_s: dict[str, float] = {}
         self._remembered_until_s: dict[str, float] = {}
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
@@ -73,6 +74,10 @@ class HumanListener:
     def heard_s(self) -> float:
         """When anything was last heard, time.monotonic(); 0 when nothing was."""
         return self._heard_s
+
+    def told_s(self, source: str) -> float:
+        """When a robot or node told of the person last, on its own clock, in s; 0 is never."""
+        return self._told_s.get(source, 0.0)
 
     def seen(self, state: str) -> Seen:
         """When a state was last seen, and how often; times 0 when never."""
@@ -117,6 +122,7 @@ class HumanListener:
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         with self._lock:
             self._state, self._heard_s = behavior.human_state, time.monotonic()
+            self._told_s[behavior.source] = behavior.time
             self._note(behavior.human_state)
             if not self._listeners:
                 self._kept.append(behavior)

@@ -6,6 +6,7 @@ from typing import Any
 
 from nep_core.actions import action_client, not_answering
 from nep_core.errors import RobotError
+from nep_core.human import human_listener
 from nep_core.messages import RobotState
 from nep_core.network import Network
 from nep_core.robot_states import robot_listener
@@ -40,10 +41,11 @@ class RobotRequests:
         action_client(self._network).send(self.robots, action, args)
 
     def _state(self) -> RobotState:
-        """The newest state, told after all that the robot was seen to do."""
+        """The newest state, told after all that the robot was seen to do, or told of the person."""
         robot = self.robots[0]
         done = action_client(self._network).last_done.get(robot, 0.0)
-        state = robot_listener(self._network).newest(robot, done)
+        told = human_listener(self._network).told_s(robot)  # a rule may have fired just now
+        state = robot_listener(self._network).newest(robot, max(done, told))
         if state is None:
             raise not_answering(robot)
         return state

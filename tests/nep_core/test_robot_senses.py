@@ -70,6 +70,20 @@ def test_a_state_is_read_that_is_newer_than_what_was_done(outside: Outside) -> N
     assert outside.robot.volume() == 80.0
 
 
+def test_a_state_is_read_that_is_newer_than_what_the_robot_told_of_the_person(
+    outside: Outside,
+) -> None:
+    outside.robot_is(sees={})
+    assert not outside.robot.sees("face")
+    later = threading.Timer(0.2, lambda: outside.robot_is(sees={"face": (1.0, 0.0, 0.0)}))
+
+    outside.does("seen_face_now", source="NAO")
+    seen("seen_face_now")
+    later.start()
+
+    assert outside.robot.place_of("face") == 100.0
+
+
 def test_a_question_is_answered_by_a_word_that_counts(outside: Outside) -> None:
     def answer() -> None:
         wait_until(lambda: "listen" in [action for action, _ in outside.nao.asked])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -25,9 +24,6 @@ from nep_studio.studio_language import studio_language
 WAIT_S = 20.0
 FAST = 50.0
 EXAMPLES = {example.path.stem: example for example in examples()}
-
-A_MOMENT_S = 0.3
-"""How long a person needs to go before somebody else comes."""
 
 
 class Stage:
@@ -99,9 +95,6 @@ class Stage:
         self._publishers[what.topic].send(what.message())
         self._has_tried = True
         self._touching = what if what.is_touch else None
-        if what.sense and not what.value:
-            # Nothing answers to what goes: the program hears of it by the robot's state alone.
-            time.sleep(A_MOMENT_S)
 
     def let_go(self) -> None:
         if self._touching is not None:
