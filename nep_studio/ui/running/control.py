@@ -140,7 +140,7 @@ class RunControl(QObject):
 
     def use_simulator(self) -> None:
         """Let the robots on the screen play the parts of the real ones, and run."""
-        self._virtual = frozenset(
+        self._virtual |= frozenset(  # those that it stands in for already stay with it
             planned.name
             for planned in self.planned()
             if planned.parameters.get("driver") == "naoqi"
