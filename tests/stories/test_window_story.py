@@ -18,10 +18,10 @@ from pytestqt.qtbot import QtBot
 from nep_core import messages as m
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.running.needs import NeedsDialog
-from tests.ui.checklist.conftest import studio, window
+from tests.ui.checklist.conftest import home, studio, window
 from tests.ui.checklist.person import Key, Person
 
-__all__ = ["studio", "window"]
+__all__ = ["home", "studio", "window"]
 
 WAIT_MS = 60_000
 LEFT = Qt.MouseButton.LeftButton

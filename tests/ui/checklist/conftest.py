@@ -3,34 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QPointingDevice
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog
 from pytestqt.qtbot import QtBot
 
-from nep_studio.settings import FOLDER_VARIABLE, Settings
 from nep_studio.ui.app import Studio
 from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.words import use_language
 from tests.ui.checklist.person import CTRL, Fingers, Key, Person
+from tests.ui.window.conftest import home, studio
 
-
-@pytest.fixture
-def studio(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qapp: QApplication) -> Iterator[Studio]:
-    """The program with settings of its own."""
-    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path / "home"))
-    settings = Settings(tmp_path / "home")
-    settings.language, settings.theme = "en", "light"
-    made = Studio(qapp, settings)
-    yield made
-    use_language("en")
-    made.look.deleteLater()
-    made.deleteLater()
-    qapp.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+__all__ = ["home", "studio"]
 
 
 @pytest.fixture

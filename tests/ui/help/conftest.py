@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from PySide6.QtWidgets import QWidget
@@ -12,7 +11,6 @@ from pytestqt.qtbot import QtBot
 from nep_studio import paths
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
-from nep_studio.settings import FOLDER_VARIABLE, Settings
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.app import Studio
 from nep_studio.ui.canvas.canvas import Canvas
@@ -20,7 +18,9 @@ from nep_studio.ui.help.book import Book
 from nep_studio.ui.help.desk import HelpDesk
 from nep_studio.ui.help.panel import HelpPanel
 from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.words import use_language
+from tests.ui.window.conftest import home, studio
+
+__all__ = ["home", "studio"]
 
 LANGUAGE = studio_language()
 
@@ -28,18 +28,6 @@ LANGUAGE = studio_language()
 @pytest.fixture
 def book() -> Book:
     return Book(LANGUAGE, lambda: [("Run", "F5")])
-
-
-@pytest.fixture
-def studio(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qapp):
-    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path / "home"))
-    settings = Settings(tmp_path / "home")
-    settings.language, settings.theme = "en", "light"
-    made = Studio(qapp, settings)
-    yield made
-    use_language("en")
-    made.look.deleteLater()
-    made.deleteLater()
 
 
 @pytest.fixture
