@@ -6,6 +6,7 @@ import json
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 
 from nep_studio.plan import PlannedNode
@@ -22,6 +23,8 @@ MESSAGES = 15_000
 BLOCKS = 5_000
 STACK_BLOCKS = 100
 RUN_S = 4.0
+
+_RUNS = count(1)
 
 FLOOD = f"""\
 for number in range({LINES}):
@@ -60,22 +63,22 @@ def start_ten_nodes(window: MainWindow, folder: Path, wait: Wait) -> None:
 
 def flood_a_log(window: MainWindow, folder: Path, wait: Wait) -> None:
     """A node writes lines as fast as it can."""
-    _run_text(window, folder, "flood", FLOOD, wait)
+    name = _run_text(window, folder, "flood", FLOOD, wait)
     runner = window.running.runner
-    wait(lambda: any(f"line {LINES - 1} of" in line for line in runner.log_of("flood")[-5:]))
+    wait(lambda: any(f"line {LINES - 1} of" in line for line in runner.log_of(name)[-5:]))
 
 
 def hear_many_messages(window: MainWindow, folder: Path, wait: Wait) -> None:
     """Somebody speaks 5,000 times a second for some seconds."""
     heard = [0]
 
-    def count(batch: list[object]) -> None:
+    def hear(batch: list[object]) -> None:
         heard[0] += len(batch)
 
     runner = window.running.runner
-    runner.arrived.connect(count)
+    runner.arrived.connect(hear)
     _run_text(window, folder, "talk", TALK, wait)
-    runner.arrived.disconnect(count)
+    runner.arrived.disconnect(hear)
     assert heard[0] > MESSAGES / 10, f"only {heard[0]} of {MESSAGES} messages were heard"
 
 
@@ -159,11 +162,14 @@ LOADS: dict[str, Load] = {
 }
 
 
-def _run_text(window: MainWindow, folder: Path, name: str, text: str, wait: Wait) -> None:
+def _run_text(window: MainWindow, folder: Path, title: str, text: str, wait: Wait) -> str:
+    """Run a program to its end; its name is new each time, as an earlier one has ended already."""
+    name = f"{title}{next(_RUNS)}"
     file = folder / f"{name}.py"
     file.write_text(text, encoding="utf-8")
     window.running.runner.start_node(PlannedNode("cognitive/program", name, {"file": str(file)}))
     wait(lambda: _health(window, name) == "stopped")
+    return name
 
 
 def _health(window: MainWindow, name: str) -> str:
