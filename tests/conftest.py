@@ -27,8 +27,11 @@ PROJECT = Path(__file__).resolve().parent.parent
 def pytest_configure() -> None:
     """Let compiled code be kept: hundreds of processes would each compile all that they import."""
     settings.register_profile(
-        "busy", deadline=None, suppress_health_check=[HealthCheck.too_slow]
-    )  # another program may have the processor for seconds
+        "busy",
+        deadline=None,  # another program may have the processor for seconds
+        suppress_health_check=[HealthCheck.too_slow],
+        derandomize=bool(os.environ.get("CI")),  # there a change is judged, elsewhere we explore
+    )
     settings.load_profile("busy")
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from .definition_files import read_choices, read_toml
@@ -21,7 +21,7 @@ class RobotProfile:
     name: str
     title: str
     node: str
-    choices: Mapping[str, Mapping[str, str]]
+    choices: Mapping[str, Mapping[str, str]] = field(repr=False)
     standing: frozenset[str]
 
 

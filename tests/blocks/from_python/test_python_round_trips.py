@@ -44,7 +44,7 @@ def questions(depth: int):
         signs,
         numbers(1),
         value,
-    )
+    ).filter(lambda b: not asks_for_no_rest(b))
     plain = st.sampled_from(
         [
             B("logic.truth", {"truth": "true"}),
@@ -62,6 +62,17 @@ def questions(depth: int):
         inner.filter(lambda b: b.type != "logic.junction"),
     )
     return compare | plain | junction | st.builds(lambda a: filled("logic.not", {}, a=a), inner)
+
+
+def asks_for_no_rest(compare: B) -> bool:
+    """Whether it is the same Python as "is divisible by", which is what such Python becomes."""
+    rest = compare.inputs.get("a")
+    return (
+        rest is not None
+        and rest.fields.get("operation") == "remainder"
+        and compare.fields["comparison"] == "equal"
+        and compare.fields.get("b") == 0
+    )
 
 
 def filled(block_type: str, fields: dict, **slots) -> B:
