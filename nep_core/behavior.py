@@ -13,7 +13,9 @@ from nep_core.default_network import default_network
 from nep_core.goals import Goal, GoalEvent, Goals, Interrupted, Priority
 from nep_core.human import human_listener
 from nep_core.messages import (
+    EXPECTED_WORDS,
     PROGRAM_STATE,
+    ExpectedWords,
     HumanBehavior,
     ProgramEvent,
     ProgramState,
@@ -21,7 +23,7 @@ from nep_core.messages import (
 from nep_core.network import Network
 from nep_core.pubsub import Publisher
 from nep_core.tasks import POLL_S, PROGRAM, Part, current_task
-from nep_core.words import state_of_thing, state_of_word
+from nep_core.words import state_of_thing, state_of_word, word_of_state
 
 Action = Callable[[], object]
 Condition = Callable[[], object]
@@ -154,6 +156,8 @@ class Behavior:
         """Run until the program is stopped; raises the first error of any of its parts."""
         network = self._network or default_network()
         self._states = Publisher(PROGRAM_STATE, network=network)
+        words = Publisher(EXPECTED_WORDS, network=network)
+        words.send(ExpectedWords(words=self._expected_words()))
         listener = human_listener(network)
         self._busy_s = time.monotonic()
         listener.listen(self._on_behavior)
@@ -165,6 +169,12 @@ class Behavior:
             self._cancel_all()
             PROGRAM.end_undone()
             self._states.close()
+            words.close()
+
+    def _expected_words(self) -> list[str]:
+        """The words that rules and goals wait for: real robots must know them before."""
+        states = [*(rule.state for rule in self._rules), *self._goals.states]
+        return list(dict.fromkeys(filter(None, map(word_of_state, states))))
 
     def _begin(self) -> None:
         for rule in self._rules:

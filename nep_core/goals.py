@@ -62,6 +62,11 @@ class Goals:
         return bool(self._goals or self._hooks)
 
     @property
+    def states(self) -> list[str]:
+        """The states that begin a goal or stop it."""
+        return [state for goal in self._goals for state in (goal.state, goal.stop)]
+
+    @property
     def is_busy(self) -> bool:
         """Whether a goal runs or waits."""
         return self._running is not None or bool(self._waiting)

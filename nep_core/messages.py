@@ -22,6 +22,8 @@ PROGRAM_STATE = "/program_state"
 PROGRAM_CONTROL = "/program_control"
 GESTURE_REQUEST = "/gesture_request"
 SENSE_REQUEST = "/sense_request"
+SURROUNDINGS = "/surroundings"
+EXPECTED_WORDS = "/expected_words"
 
 NodeType = Literal["sensory", "perceptual", "cognitive", "action"]
 NodeEvent = Literal[
@@ -55,6 +57,7 @@ ProgramEvent = Literal[
     "failed",
 ]
 
+ThingKind = Literal["person", "ball", "wall", "mark"]
 ProgramCommand = Literal["start", "stop", "pause", "resume", "step", "set"]
 
 
@@ -126,11 +129,15 @@ class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
     m/s², rad/s, kg and A, touch sensors 0 or 1. ``sees`` is where things are that it sees or hears
     ("face", "face_anna", "ball", "sound", "mark_64"): x, y, z m in front of, left of, above its
     feet. ``settings`` are how it is set: volume, language, awake, ... ``listening`` are the words
-    that it waits for.
+    that it waits for. ``torso`` is where the torso is above the floor: x, y, z m, and roll, pitch,
+    yaw rad, turned about z, then y, then x; None when that is not known. ``fallen``: it lies there
+    because it lost its balance. ``model`` is which robot it is: the name of its folder in
+    resources/robots, or a path to one's own; "" is a NAO.
     """
 
     robot: str
     joints: dict[str, float]
+    model: str = ""
     base: tuple[float, float, float] = (0.0, 0.0, 0.0)
     posture: str = ""
     leds: dict[str, int] = {}
@@ -141,6 +148,8 @@ class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
     sees: dict[str, tuple[float, float, float]] = {}
     settings: dict[str, bool | float | str] = {}
     listening: list[str] = []
+    torso: tuple[float, float, float, float, float, float] | None = None
+    fallen: bool = False
     time: float = msgspec.field(default_factory=time.time)
 
 
@@ -191,7 +200,8 @@ class SenseRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
 
     ``sense`` is a sensor ("head_front", "sonar_left", "battery"), which gets the ``value``; or
     "face", "ball", "sound" or "mark", there while ``value`` is above 0, at ``place`` (x, y, z m
-    from its feet), a face or mark with a ``name``; or "word", with the ``name`` that was said.
+    from its feet), a face or mark with a ``name``; or "word", with the ``name`` that was said. Or
+    hands: "push" towards a ``place``; "place" puts it down there (x, y m, theta rad on the floor).
     """
 
     robot: str
@@ -199,6 +209,40 @@ class SenseRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
     value: float = 1.0
     name: str = ""
     place: tuple[float, float, float] = (1.0, 0.0, 0.5)
+
+
+class Thing(msgspec.Struct, kw_only=True, omit_defaults=True, frozen=True):
+    """Something that stands on the floor near virtual robots.
+
+    ``place`` is x, y m on the floor and z m, how high it is above it (a ball on a table);
+    ``heading`` rad is where a person or a mark faces, and a wall's front. ``size`` is how wide,
+    deep and high it is, m. ``name`` is a person's, or a mark's number.
+    """
+
+    id: str
+    kind: ThingKind
+    place: tuple[float, float, float]
+    heading: float = 0.0
+    size: tuple[float, float, float] = (0.4, 0.3, 1.7)
+    name: str = ""
+
+
+class Surroundings(msgspec.Struct, kw_only=True):
+    """All that stands around virtual robots (``/surroundings``), each time that it changes.
+
+    Robots notice by themselves what is near enough and in sight.
+    """
+
+    things: list[Thing]
+
+
+class ExpectedWords(msgspec.Struct, kw_only=True):
+    """The words that rules of a program wait for (``/expected_words``).
+
+    Real robots hear only words that they listen for.
+    """
+
+    words: list[str]
 
 
 BY_TOPIC: dict[str, type[msgspec.Struct]] = {
@@ -212,7 +256,9 @@ BY_TOPIC: dict[str, type[msgspec.Struct]] = {
     PROGRAM_CONTROL: ProgramControl,
     GESTURE_REQUEST: GestureRequest,
     SENSE_REQUEST: SenseRequest,
+    SURROUNDINGS: Surroundings,
+    EXPECTED_WORDS: ExpectedWords,
 }
 
-LATCHED = frozenset({NODE_STATE, ROBOT_STATE})
+LATCHED = frozenset({NODE_STATE, ROBOT_STATE, SURROUNDINGS, EXPECTED_WORDS})
 """Topics whose last message a late joiner gets."""

@@ -27,3 +27,11 @@ def log_folder() -> Path:
         return Path(platformdirs.user_log_dir("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home
         return Path(tempfile.gettempdir()) / "nep-studio"
+
+
+def cache_folder() -> Path:
+    """Where files are kept that can be made again."""
+    try:
+        return Path(platformdirs.user_cache_dir("nep-studio", appauthor=False))
+    except RuntimeError:  # a user without a home
+        return Path(tempfile.gettempdir()) / "nep-studio"

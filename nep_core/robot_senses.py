@@ -20,11 +20,16 @@ class RobotSenses(RobotRequests):
     """What a robot measures; names of sensors are those of ``/robot_state``."""
 
     def sensor(self, name: str) -> float:
-        """What a sensor measures: "sonar_left" in cm, "battery" in percent, else in SI units."""
+        """What a sensor measures: "sonar_left" in cm, "angle_x" in degrees, "battery" in percent.
+
+        All others in SI units.
+        """
         state = self._state()
         if name == "battery":
             return round(state.battery * 100.0, 1)
         value = state.sensors.get(name, 0.0)
+        if name.startswith("angle_"):
+            return round(math.degrees(value), 1)
         return round(value * 100.0 if name.startswith("sonar") else value, 3)
 
     def current(self, joint: str) -> float:
@@ -73,7 +78,10 @@ class RobotSenses(RobotRequests):
         return distance == ("close" if way_m < CLOSE_M else "middle" if way_m < MIDDLE_M else "far")
 
     def is_doing(self, what: str) -> bool:
-        """Whether it is "speaking", "moving", "listening", "awake", "breathing" or "aware"."""
+        """Whether it is "speaking", "moving", "listening", "awake", "breathing", "aware".
+
+        "fallen": it lies because it lost its balance.
+        """
         state = self._state()
         if what in ("awake", "breathing"):
             return bool(state.settings.get(what))
@@ -83,6 +91,7 @@ class RobotSenses(RobotRequests):
             "speaking": bool(state.saying),
             "moving": state.moving,
             "listening": bool(state.listening),
+            "fallen": state.fallen,
         }.get(what, False)
 
     def is_in(self, posture: str) -> bool:

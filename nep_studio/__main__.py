@@ -15,6 +15,7 @@ JOBS = {
     "check": "nep_studio.commands.check:main",
     "node": "nep_core.cli.node:main",
     "guard": "nep_core.guard:main",
+    "naoqi": "nep_studio.commands.naoqi:main",
     "exec": "nep_studio.commands.execute:main",
     "train": "nodes.perceptual.recognition.command:main",
     "master": "nep_core.cli.services:run_master",
@@ -31,6 +32,7 @@ USAGE = """NEP Studio: give a social robot its behaviour with blocks.
   nep-studio run FILE.nep      play a project, on the robots on the screen unless it names others
   nep-studio code FILE.nep     the Python that the blocks make
   nep-studio check FILE.nep    what is not right yet, in plain words
+  nep-studio naoqi             offer a NAO on the screen to programs made for a real one
   nep-studio exec PROGRAM.py   run a Python program as a cognitive node
   nep-studio node TYPE/NAME    run one node in this terminal
   nep-studio train DIRECTORY   learn gestures from recordings

@@ -141,6 +141,7 @@ class LocalNetwork:
             if self.planned.get(planned.name) == planned:
                 return running
             self.launcher.stop(planned.name)
+        _write_files(planned)
         self.planned[planned.name] = planned
         return self.launcher.launch(planned.node, planned.name, planned.parameters)
 
@@ -202,3 +203,16 @@ class LocalNetwork:
             time.sleep(LOOK_S)
         if is_up(launched, endpoint) and not launched.stopping:
             self.on_master("back", "")
+
+
+def _write_files(planned: PlannedNode) -> None:
+    """Write what a node will read, as the motions of the project."""
+    try:
+        if planned.files is not None:
+            planned.files.write()
+    except OSError as error:
+        raise NodeStartError(
+            f"What {planned.name} needs could not be written: {error.strerror or error}.",
+            checklist=("Is there room on the disk?",),
+            details=str(error),
+        ) from error

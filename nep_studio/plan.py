@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from nep_studio.animation_files import AnimationFiles, animation_files
 from nep_studio.blocks.deployment import (
     NodeEntry,
     RobotEntry,
@@ -28,13 +29,17 @@ Setting = str | float | int | bool
 
 @dataclass(frozen=True)
 class PlannedNode:
-    """A node to start, and why, in words; ``block_id`` is its block, if it has one."""
+    """A node to start, and why, in words; ``block_id`` is its block, if it has one.
+
+    ``files`` are written before it starts.
+    """
 
     node: str
     name: str
     parameters: Mapping[str, Setting] = field(default_factory=dict)
     reason: str = ""
     block_id: str = ""
+    files: AnimationFiles | None = None
 
     @property
     def is_sensory(self) -> bool:
@@ -64,6 +69,8 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     nodes = [_listed(entry, folder) for entry in listed]
     names = {node.name for node in nodes}
     nodes += [robot for robot in robots if robot.name not in names]
+    if (files := animation_files(project)) is not None:
+        nodes = [_with_animations(node, files, language.profile.node) for node in nodes]
     known = language.choices.get("gestures", {})
     nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
     wanted = [gesture for gesture in gestures_used(project, language) if gesture in known]
@@ -82,7 +89,17 @@ def _robot(entry: RobotEntry, choices: Choices, node: str) -> PlannedNode:
     if entry.name in choices.virtual:
         driver = "virtual"
     settings: dict[str, Setting] = {"robot": entry.name, "driver": driver, "address": address}
+    if entry.model:
+        settings["model"] = entry.model
     return PlannedNode(node, entry.name, settings, block_id=entry.block_id)
+
+
+def _with_animations(planned: PlannedNode, files: AnimationFiles, robot: str) -> PlannedNode:
+    """A robot's node with the animations of the project; others as they are."""
+    if planned.node != robot or "animations" in planned.parameters:
+        return planned
+    settings = {**planned.parameters, "animations": str(files.folder)}
+    return replace(planned, parameters=settings, files=files)
 
 
 def _hurried(planned: PlannedNode, speed: float, robot: str) -> PlannedNode:

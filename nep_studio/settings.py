@@ -227,6 +227,15 @@ class Settings:
     def tour_done(self, is_done: bool) -> None:
         self._values.setValue("help/tour", "done" if is_done else "no")
 
+    @property
+    def has_sound(self) -> bool:
+        """Whether robots on the screen are heard."""
+        return self._text("robots/sound", "on") == "on"
+
+    @has_sound.setter
+    def has_sound(self, is_on: bool) -> None:
+        self._values.setValue("robots/sound", "on" if is_on else "off")
+
     def is_shown(self, panel: str, *, default: bool) -> bool:
         """Whether a person left a panel open."""
         return self._text(f"panels/{panel}", "yes" if default else "no") == "yes"

@@ -20,12 +20,16 @@ GESTURE_STATE = "gesture_"
 
 @dataclass(frozen=True, slots=True)
 class RobotEntry:
-    """A robot of the Robots page; ``driver`` is virtual or naoqi, ``address`` host or host:port."""
+    """A robot of the Robots page; ``driver`` is virtual or naoqi, ``address`` host or host:port.
+
+    ``model`` is "" for a NAO; the block's driver "virtual_pepper" is a virtual one of model pepper.
+    """
 
     name: str
     driver: str
     address: str
     block_id: str
+    model: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +46,9 @@ def robot_entries(project: Project, language: Language) -> tuple[RobotEntry, ...
     """The robots of the Robots page, in its order."""
     entries = []
     for block in _entries(project, "robots", ROBOT_BLOCK):
-        name, driver, address = _values(language, block, "name", "driver", "address")
-        entries.append(RobotEntry(str(name), str(driver), str(address), block.id))
+        name, kind, address = _values(language, block, "name", "driver", "address")
+        driver, _, model = str(kind).partition("_")
+        entries.append(RobotEntry(str(name), driver, str(address), block.id, model))
     return tuple(entries)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from weakref import WeakKeyDictionary
 
 from .definitions import Category, Definition
+from .own_animations import choices_with
 from .procedures import definitions_of
 from .profile import RobotProfile
 from .program import Block, Project, split_slot
@@ -15,10 +16,10 @@ from .sentence import Slot
 
 @dataclass(slots=True)
 class _Own:
-    """The language of one project, and the revision of the own blocks that it was made for."""
+    """The language of one project, and the revision of what it keeps that it was made for."""
 
     language: Language
-    revision: int = -1
+    revision: tuple[int, int] = (-1, -1)
 
 
 @dataclass(frozen=True, slots=True, weakref_slot=True)
@@ -30,20 +31,21 @@ class Language:
     in the language of the person, by the English ones.
     """
 
-    definitions: Mapping[str, Definition]
-    categories: tuple[Category, ...]
-    choices: Mapping[str, Mapping[str, str]]
+    definitions: Mapping[str, Definition] = field(repr=False)
+    categories: tuple[Category, ...] = field(repr=False)
+    choices: Mapping[str, Mapping[str, str]] = field(repr=False)
     profile: RobotProfile
-    words: Mapping[str, str] = field(default_factory=dict)
+    words: Mapping[str, str] = field(default_factory=dict, repr=False)
     _base: Language | None = field(default=None, repr=False, compare=False)
     _own: WeakKeyDictionary[Project, _Own] = field(
         default_factory=WeakKeyDictionary, repr=False, compare=False
     )
 
     def of(self, project: Project) -> Language:
-        """This language with the own blocks of a project, as they are now.
+        """This language with the own blocks and animations of a project, as they are now.
 
-        For one project it is always the same object, whose definitions follow the project.
+        For one project it is always the same object; its definitions and choices follow the
+        project.
         """
         base = self._base or self
         own = base._own.get(project)
@@ -52,20 +54,25 @@ class Language:
                 Language(
                     dict(base.definitions),
                     base.categories,
-                    base.choices,
+                    dict(base.choices),
                     base.profile,
                     base.words,
                     base,
                 )
             )
             base._own[project] = own
-        if own.revision != project.procedure_revision:
-            own.revision = project.procedure_revision
+        revision = project.procedure_revision, project.extra_revision
+        if own.revision[0] != revision[0]:
             definitions = own.language.definitions
             assert isinstance(definitions, dict)
             definitions.clear()
             definitions |= base.definitions
             definitions |= definitions_of(project.procedures.values(), base.words)
+        if own.revision[1] != revision[1]:
+            choices = own.language.choices
+            assert isinstance(choices, dict)
+            choices.update(choices_with(base.choices, project))
+        own.revision = revision
         return own.language
 
     def word(self, english: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from .definition_files import load_definitions
 from .generate.registry import generator_names
 from .language import Language
-from .profile import load_profile
+from .profile import drivers_beside, load_profile
 
 
 def load_language(
@@ -29,6 +29,7 @@ def load_language(
         "gestures": gestures or {},
         "nodes": nodes or {},
         **profile.choices,
+        **drivers_beside(robot_file, profile),
         **found.choices,
     }
     return Language(found.definitions, tuple(found.categories), choices, profile)

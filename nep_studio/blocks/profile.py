@@ -39,3 +39,18 @@ def load_profile(path: Path) -> RobotProfile:
         if isinstance(entry, dict) and entry.get("stands") is True
     )
     return RobotProfile(data["name"], data["title"], data["node"], choices, standing)
+
+
+def drivers_beside(path: Path, profile: RobotProfile) -> dict[str, Mapping[str, str]]:
+    """The table of drivers with those of the robots in the folders beside a robot's own.
+
+    So a folder with another robot adds it to the Robots page. Raises DefinitionError.
+    """
+    own = profile.choices.get("drivers")
+    if own is None or path.parent.name != profile.name:
+        return {}
+    drivers = dict(own)
+    for other in sorted(path.parent.parent.glob("*/robot.toml")):
+        for driver, label in load_profile(other).choices.get("drivers", {}).items():
+            drivers.setdefault(driver, label)
+    return {"drivers": drivers}

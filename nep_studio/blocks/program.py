@@ -162,6 +162,8 @@ class Project:
         self.changes = Changes()
         """What has changed since History told its listeners last."""
         self.extra: dict[str, Any] = {}
+        self.extra_revision = 0
+        """How often ``extra`` has changed; never goes back, not even by undo."""
         self._last_id = 0
 
     def new_id(self, prefix: str) -> str:
@@ -235,6 +237,11 @@ class Project:
     def touch_procedures(self) -> None:
         """Say that the own blocks have changed."""
         self.procedure_revision += 1
+        self.changes.whole = True
+
+    def touch_extra(self) -> None:
+        """Say that what is kept beside the program has changed."""
+        self.extra_revision += 1
         self.changes.whole = True
 
     def touch_whole(self) -> None:

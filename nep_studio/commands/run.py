@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import logging
-import math
 import sys
 import tempfile
 from dataclasses import replace
@@ -21,6 +20,7 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
+from nep_studio.commands.arguments import speed
 from nep_studio.commands.check import tell_errors
 from nep_studio.commands.printer import Printer
 from nep_studio.commands.project import UNUSABLE, explain, read_project
@@ -29,7 +29,6 @@ from nep_studio.session import Ending, Session
 from nep_studio.signals import interrupt_once
 
 FAILED = 1
-SLOWEST, FASTEST = 0.1, 50
 
 
 def main(arguments: list[str]) -> int:
@@ -125,16 +124,6 @@ def _choices(options: argparse.Namespace, robots: list[str]) -> Choices:
     return Choices(recording, options.speed, addresses)
 
 
-def _speed(word: str) -> float:
-    try:
-        speed = float(word)
-    except ValueError:
-        speed = math.nan
-    if not SLOWEST <= speed <= FASTEST:
-        raise argparse.ArgumentTypeError(f'"{word}" is not a number from {SLOWEST} to {FASTEST}')
-    return speed
-
-
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="nep-studio run",
@@ -145,7 +134,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--recording", metavar="CSV", help="play this instead of the sensors")
     parser.add_argument(
         "--speed",
-        type=_speed,
+        type=speed,
         default=1.0,
         metavar="N",
         help="let the recording, or virtual watches, and virtual robots go N times as fast: "

@@ -10,7 +10,9 @@ from PySide6.QtGui import QAction
 from nep_studio.ui.command_palette.palette import add_command_palette
 from nep_studio.ui.exporting.actions import NEEDS_PROJECT, add_exporting
 from nep_studio.ui.help.adding import add_help
+from nep_studio.ui.motion.adding import add_motion
 from nep_studio.ui.panels.cues.panel import add_cues_panel
+from nep_studio.ui.panels.human.panel import add_human_panel
 from nep_studio.ui.panels.log.panel import add_log_panel
 from nep_studio.ui.panels.network.adding import add_network_panel
 from nep_studio.ui.panels.nodes.adding import add_nodes_panel
@@ -30,6 +32,8 @@ WITH_A_PROJECT = (*NEEDS_PROJECT, "show_mode", "show_at_start")
 def add_rooms(window: MainWindow) -> Iterator[None]:
     """Add the panels and their actions, in the order of their tabs: one room at each step."""
     add_robots_panel(window)
+    yield
+    add_human_panel(window)
     yield
     add_cues_panel(window)
     yield
@@ -53,6 +57,7 @@ def add_rooms(window: MainWindow) -> Iterator[None]:
     add_tour(window)
     yield
     add_study(window)
+    add_motion(window)
     yield
     add_command_palette(window)
     _put_into_menus(window)

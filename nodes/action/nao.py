@@ -4,74 +4,141 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from pathlib import Path
 
 from nep_core.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
+    EXPECTED_WORDS,
     HUMAN_BEHAVIOR,
     ROBOT_STATE,
     SENSE_REQUEST,
+    SURROUNDINGS,
     ActionRequest,
     ActionResult,
+    ExpectedWords,
     HumanBehavior,
     SenseRequest,
+    Surroundings,
 )
 from nep_core.node import Node
 from nep_core.pubsub import Publisher, Subscriber
 from nodes.action.naobody.actor import FINAL, Actor
 from nodes.action.naobody.animations import load_animations
 from nodes.action.naobody.body import load_body
+from nodes.action.naobody.body_language import load_gesture_words
 from nodes.action.naobody.driver import Driver
+from nodes.action.naobody.models import model_of, robot_folder
+from nodes.action.naobody.own_animations import with_own
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.unreached import UnreachedNao
 from nodes.action.naobody.virtual import VirtualDriver
-from nodes.resources import resource_folder
+from nodes.action.naoqi.offering import NotOffered, Offering
 
 MOVING_LOOP_S = 0.01
 RESTING_LOOP_S = 0.1
+QUICK_LOOP_S = 0.02
+"""NAOqi programs that ask, and what a real robot notices, are heard within this time."""
+REAL_STATE_S = 0.2
+"""A real robot's sensors change while it rests."""
 MOVING_STATE_S = 1.0 / 30.0
 RESTING_STATE_S = 1.0
+FIRST_TRY_S = 3.0
+"""A real robot may take so long to answer before programs begin to ask it."""
 
 
-def run(node: Node, *, robot: str, driver: str, address: str, speed: float) -> None:
+def run(
+    node: Node,
+    *,
+    robot: str,
+    driver: str,
+    address: str,
+    speed: float,
+    animations: str,
+    naoqi_port: int,
+    model: str,
+) -> None:
     """Play ``/action_request`` on one robot until the node stops.
 
-    ``speed``: how many times faster than real time the virtual robot lives.
+    ``speed``: how many times faster than real time a virtual robot lives. ``animations``: a
+    folder with more of them than every robot knows, "" when there is none. ``naoqi_port``: where
+    NAOqi programs reach the virtual robot as if it were a real one, 0 when they do not. ``model``:
+    the robot's folder, nao or another one.
     """
-    link = _driver(robot, driver, address)
+    folder = robot_folder(model)
+    link = _driver(node, robot, driver, address, animations, folder)
     actor = Actor(robot, link)
     results = node.publisher(ACTION_RESULT)
     requests = node.subscriber(ACTION_REQUEST, ActionRequest)
     senses = node.subscriber(SENSE_REQUEST, SenseRequest)
+    expected = node.subscriber(EXPECTED_WORDS, ExpectedWords)
+    around = node.subscriber(SURROUNDINGS, Surroundings)
     states = node.publisher(HUMAN_BEHAVIOR)
-    report = _StateReport(node, link)
+    is_real = driver == "naoqi"
+    report = _StateReport(node, link, REAL_STATE_S if is_real else RESTING_STATE_S)
+    offering = _offering(actor, link, naoqi_port, folder)
     link.connect()
+    _await_first_answer(node, link)
+    node.ready(", ".join(filter(None, (link.connection.description, offering.description))))
     report.send_news()
-    node.ready(link.connection.description)
     start_s = time.monotonic()
     while not node.stopping:
-        heard = _heard(requests, MOVING_LOOP_S if link.moving else RESTING_LOOP_S)
-        now_s = (time.monotonic() - start_s) * speed
-        told = actor.step(now_s)  # up to now, so that what is asked now begins now
-        for request in filter(actor.is_asked, heard):
-            told += actor.request(request)
-        told += actor.step(now_s)
-        felt = [sense for sense in senses.pending() if actor.is_meant(sense)]
-        human = [state for sense in felt for state in actor.sense(sense)]
-        # how the robot is goes first: what a message sets off may ask about it at once
-        report.send_news(at_once=bool(felt) or any(result.state in FINAL for result in told))
+        resting_s = QUICK_LOOP_S if offering.is_on or is_real else RESTING_LOOP_S
+        heard = _heard(requests, MOVING_LOOP_S if link.moving else resting_s)
+        with offering.lock:
+            now_s = (time.monotonic() - start_s) * (1.0 if is_real else speed)
+            for news in list(around.pending())[-1:]:
+                link.surroundings(news.things)
+            for wanted in list(expected.pending())[-1:]:
+                link.expect(wanted.words)
+            told = actor.step(now_s)  # up to now, so that what is asked now begins now
+            for request in filter(actor.is_asked, heard):
+                told += actor.request(request)
+            told += actor.step(now_s)
+            felt = [sense for sense in senses.pending() if actor.is_meant(sense)]
+            human = [state for sense in felt for state in actor.sense(sense)] + actor.noticed()
+            # how the robot is goes first: what a message sets off may ask about it at once
+            is_news = bool(felt or human) or any(result.state in FINAL for result in told)
+            report.send_news(at_once=is_news)
         _send(states, human)
-        _send(results, told)
+        _send(results, offering.hear(told, felt))
+    offering.close()
     _send(results, actor.stop())
+    link.disconnect()
 
 
-def _driver(robot: str, driver: str, address: str) -> Driver:
-    if driver == "naoqi":
-        return UnreachedNao(robot, address)
-    folder = resource_folder() / "robots" / "nao"
+def _await_first_answer(node: Node, link: Driver) -> None:
+    """Wait until a robot answers or is known not to: what is asked before that would fail."""
+    end_s = time.monotonic() + FIRST_TRY_S
+    while link.connection.event == "connecting" and time.monotonic() < end_s:
+        if node.wait(MOVING_LOOP_S):
+            return
+        link.step(0.0)
+
+
+def _offering(actor: Actor, link: Driver, port: int, folder: Path) -> Offering:
+    """Offer the robot to NAOqi programs, if it is a virtual one. Raises PortTaken."""
+    if port and isinstance(link, VirtualDriver):
+        from nodes.action.naoqi.offered import Offered  # most robots need none of it
+
+        return Offered(actor, link.robot, folder, port)
+    return NotOffered()
+
+
+def _driver(
+    node: Node, robot: str, driver: str, address: str, own_animations: str, folder: Path
+) -> Driver:
     body = load_body(folder)
-    animations = load_animations(folder / "animations", body)
-    return VirtualDriver(VirtualRobot(robot, body, animations))
+    shipped = load_animations(folder / "animations", body)
+    animations, left_out = with_own(shipped, own_animations, body)
+    for problem in left_out:
+        node.warn(problem)
+    words = load_gesture_words(folder)
+    known = VirtualRobot(robot, body, animations, gesture_words=words, model=model_of(folder))
+    if driver == "naoqi":
+        from nodes.action.naoqi.driver.driver import NaoqiDriver  # the virtual one needs none of it
+
+        return NaoqiDriver(known, address)
+    return VirtualDriver(known)
 
 
 def _heard(requests: Subscriber[ActionRequest], timeout_s: float) -> list[ActionRequest]:
@@ -87,9 +154,10 @@ def _send(publisher: Publisher, what: Sequence[ActionResult | HumanBehavior]) ->
 class _StateReport:
     """Tells how the link to the robot is, and where its body is: often while it moves."""
 
-    def __init__(self, node: Node, link: Driver) -> None:
+    def __init__(self, node: Node, link: Driver, resting_s: float) -> None:
         self._node = node
         self._link = link
+        self._resting_s = resting_s
         self._states = node.publisher(ROBOT_STATE)
         self._told = link.connection
         self._next_s = time.monotonic()
@@ -106,7 +174,7 @@ class _StateReport:
             self._was_moving = moving
             self._next_s = now_s
         if now_s >= self._next_s:
-            period_s = MOVING_STATE_S if moving else RESTING_STATE_S
+            period_s = MOVING_STATE_S if moving else self._resting_s
             # From when it was due, not from now: else the loop's own time would lower the rate.
             self._next_s = max(self._next_s + period_s, now_s)
             if state := self._link.state():

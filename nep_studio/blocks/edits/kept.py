@@ -46,7 +46,7 @@ class SetExtra(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
             project.extra.pop(self.key, None)
         else:
             project.extra[self.key] = self.value
-        project.touch_whole()
+        project.touch_extra()
         return old
 
 

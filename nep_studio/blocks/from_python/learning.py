@@ -59,17 +59,18 @@ class Learned:
 
 
 _KNOWN: dict[tuple[int, ...], tuple[object, Learned]] = {}
-"""By the ids of the definitions and the choices, which are kept so that these stay theirs."""
+"""By the ids of the definitions and tables of choices, which are kept so that these stay theirs."""
 
 
 def learned(language: Language) -> Learned:
     """The patterns of a language without a project's own blocks; learned once."""
     shared = [d for name, d in language.definitions.items() if not procedure_of(name)]
-    key = (id(language.choices), *map(id, shared))
+    choices = list(language.choices.values())
+    key = (*map(id, choices), *map(id, shared))
     if key not in _KNOWN:
         if len(_KNOWN) >= MOST_LANGUAGES:
             _KNOWN.clear()
-        _KNOWN[key] = ((language.choices, shared), _learn(shared, language))
+        _KNOWN[key] = ((choices, shared), _learn(shared, language))
     return _KNOWN[key][1]
 
 

@@ -27,7 +27,8 @@ def generate_launch(project: Project, language: Language) -> Code:
 
 
 def _robot_settings(robot: RobotEntry) -> dict[str, Setting]:
-    return {"robot": robot.name, "driver": robot.driver, "address": robot.address}
+    settings = {"robot": robot.name, "driver": robot.driver, "address": robot.address}
+    return {**settings, "model": robot.model} if robot.model else {**settings}
 
 
 def _node_settings(node: NodeEntry) -> dict[str, Setting]:

@@ -19,6 +19,7 @@ from ..program import PAGES, Block, Project, Stack
 from ..reading import from_bytes
 from ..values import FieldValue
 from ..writing import to_bytes
+from .animations import take_along
 from .selection import Run, members, runs
 
 Points = Mapping[str, tuple[float, float]]
@@ -58,6 +59,8 @@ class Clip:
 def copy(project: Project, language: Language, ids: Iterable[str], at: Points = UNKNOWN) -> Clip:
     """Copy blocks with all that is inside them, and the variables and own blocks they name.
 
+    The animations of the project that they play come along too.
+
     ``at`` says where blocks lie that do not begin a stack; else they lie below each other.
     """
     clip = Clip()
@@ -69,6 +72,7 @@ def copy(project: Project, language: Language, ids: Iterable[str], at: Points = 
         _create(clip.project, roots, list(project.within(roots)), page, place)
     _add_variables(clip.project, project, language)
     _add_procedures(clip.project, project)
+    take_along(clip.project, project, language)
     return clip
 
 

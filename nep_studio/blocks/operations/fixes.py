@@ -36,7 +36,7 @@ def label_of(fix: Fix) -> str:
 
 
 def _add_robot(editor: Editor, data: Data) -> str:
-    return _append(editor, "robots", ROBOT_BLOCK, {"name": data["name"]})
+    return append_entry(editor, "robots", ROBOT_BLOCK, {"name": data["name"]})
 
 
 def _add_gesture_node(editor: Editor, data: Data) -> str:
@@ -46,7 +46,7 @@ def _add_gesture_node(editor: Editor, data: Data) -> str:
         "name": _free_name(editor, gesture),
         "parameters": {"gesture": gesture},
     }
-    return _append(editor, "nodes", NODE_BLOCK, fields)
+    return append_entry(editor, "nodes", NODE_BLOCK, fields)
 
 
 def _add_wait(editor: Editor, data: Data) -> str:
@@ -71,7 +71,7 @@ def _stand_first(editor: Editor, data: Data) -> str:
     return _create(editor, POSTURE, place, {"robot": data["robot"], "posture": posture})
 
 
-def _append(editor: Editor, page: str, block_type: str, fields: Mapping[str, FieldValue]) -> str:
+def append_entry(editor: Editor, page: str, block_type: str, fields: Mapping[str, FieldValue]) -> str:
     """Make a block at the end of the last stack of a page that takes it, else below them."""
     stacks = editor.project.pages[page]
     new = editor.language.definitions[block_type].new_block(editor.project.new_id("b"))

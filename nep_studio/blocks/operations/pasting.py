@@ -9,6 +9,7 @@ from ..edits import CreateBlocks
 from ..errors import EditRefused
 from ..places import Place
 from ..procedures import DEFINE, header_of
+from .animations import bring_animations
 from .copying import STEP, UNKNOWN, Clip, Points, copy
 from .naming import Names, names_for, renewed
 from .selection import page_of_block, require_runs
@@ -24,6 +25,7 @@ def paste(editor: Editor, clip: Clip, page: str, x: float, y: float) -> tuple[st
     left, top = clip.corner
     with editor.transaction("paste blocks"):
         names = names_for(editor, clip)
+        bring_animations(editor, clip.project)
         new = tuple(
             _put(
                 editor,
@@ -47,6 +49,7 @@ def paste_at(editor: Editor, clip: Clip, place: Place) -> tuple[str, ...]:
             checklist=("Click an empty place of the page, and paste there.",),
         )
     with editor.transaction("paste blocks"):
+        bring_animations(editor, clip.project)
         return _put(editor, clip, clip.roots[0], names_for(editor, clip), place)
 
 

@@ -80,15 +80,16 @@ def vocabulary(language: Language) -> Vocabulary:
     """The vocabulary of a language, made once for what it defines."""
     key = (id(language.definitions), len(language.definitions), id(language.choices))
     known = _KNOWN.get(key)
-    definitions = tuple(language.definitions.values())
-    if known is None or known[0] != definitions:
+    now = tuple(language.definitions.values()), dict(language.choices)
+    if known is None or known[0] != now:
         if len(_KNOWN) > 8:
             _KNOWN.clear()
-        known = _KNOWN[key] = (definitions, _made(language))
+        known = _KNOWN[key] = (now, _made(language))
     return known[1]
 
 
-_KNOWN: dict[tuple[int, ...], tuple[tuple[Definition, ...], Vocabulary]] = {}
+_Known = tuple[tuple[Definition, ...], dict[str, Mapping[str, str]]]
+_KNOWN: dict[tuple[int, ...], tuple[_Known, Vocabulary]] = {}
 
 
 def is_near(typed: str, word: str) -> bool:

@@ -52,7 +52,7 @@ PAGES_OF_WIDGETS = {
     f"{WINDOW}#nodes": "NodesPanel",
     f"{WINDOW}#network": "NetworkPanel",
     f"{WINDOW}#sensors": "SensorsPanel FieldChooser",
-    f"{WINDOW}#robots": "RobotsPanel",
+    f"{WINDOW}#robots": "RobotsPanel HumanPanel",
     f"{WINDOW}#log": "LogPanel MessageArea",
     f"{WINDOW}#pages": "PagesBar",
     f"{WINDOW}#find": "FindBar",

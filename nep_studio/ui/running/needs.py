@@ -22,6 +22,7 @@ from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.starting import add_start
 from nep_studio.ui.actions_icons import icon_room
+from nep_studio.ui.connecting.adding import open_connecting
 from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
 
@@ -200,6 +201,9 @@ class NeedsDialog(QDialog):
             case "simulator":
                 self.accept()
                 control.use_simulator()
+            case "connect" if need.node is not None:
+                self.accept()
+                open_connecting(self._window, need.node.name)
             case "show_block" | "address":
                 self.accept()
                 workbench.show_block(need.block)

@@ -16,7 +16,9 @@ NAOQI_PORT = 9559
 PROBE_S = 1.5
 
 State = Literal["met", "automatic", "looking", "missing"]
-FixName = Literal["add_start", "fix_problem", "show_block", "start_node", "simulator", "address"]
+FixName = Literal[
+    "add_start", "fix_problem", "show_block", "start_node", "simulator", "address", "connect"
+]
 
 
 @dataclass(frozen=True)
@@ -130,6 +132,7 @@ def _robot(node: PlannedNode, answers: Mapping[str, bool]) -> Need:
     )
     fixes = (
         NeedFix("simulator", tr("Use the robot on the screen")),
+        NeedFix("connect", tr("Find it and test the connection")),
         NeedFix("address", tr("Change the address")),
     )
     return Need("missing", title, sentence, fixes, node.block_id, node)

@@ -9,6 +9,7 @@ from msgspec import Meta
 
 from nep_core.errors import ActionFailed
 from nodes.action.naobody.body_actions import BODY_ACTIONS, StopMoving
+from nodes.action.naobody.motor_actions import MOTOR_ACTIONS
 from nodes.action.naobody.sense_actions import SENSE_ACTIONS
 
 LONGEST_TEXT = 5000
@@ -48,9 +49,10 @@ class Say(msgspec.Struct, frozen=True):
 
 
 class Do(msgspec.Struct, frozen=True):
-    """Take a posture, such as ``posture_stand``."""
+    """Take a posture, such as ``posture_stand``; ``pace``: how many times as fast as it likes to."""
 
     posture: str
+    pace: Annotated[float, Meta(ge=0.1, le=2.0)] = 1.0
 
 
 class Imitate(msgspec.Struct, frozen=True):
@@ -123,6 +125,7 @@ ACTIONS: dict[str, type[Action]] = {
     "leds": Leds,
     **BODY_ACTIONS,
     **SENSE_ACTIONS,
+    **MOTOR_ACTIONS,
     "stop": Stop,
     "stop_moving": StopMoving,
 }

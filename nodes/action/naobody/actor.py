@@ -14,11 +14,14 @@ from nodes.action.naobody.actions import Stop, read_action
 from nodes.action.naobody.body_actions import LookAtSeen, StopMoving, WalkFreely
 from nodes.action.naobody.driver import Driver
 from nodes.action.naobody.limbs import MOVING, Limb
+from nodes.action.naobody.motor_actions import Approach, SetAngles, Target
 from nodes.action.naobody.schedule import Command, Schedule
 
 REMEMBERED_REQUESTS = 500
 FOLLOWING = "following"
 """The command by which the head follows what it tracks; nobody has asked for it."""
+APPROACHING = "approaching"
+"""The commands by which limbs go where their joints were set to; nobody waits for them."""
 FINAL: frozenset[ActionState] = frozenset({"done", "failed", "cancelled"})
 
 
@@ -30,6 +33,9 @@ class Actor:
         self.driver = driver
         self.schedule = Schedule()
         self._last_result: dict[str, ActionResult] = {}
+        self._now_s = 0.0
+        self._asked_s: dict[str, float] = {}
+        """When each walk was asked for last that stops unless it is asked for again."""
 
     def is_asked(self, request: ActionRequest) -> bool:
         """Whether a request is for this robot: by its name, or for all robots."""
@@ -38,6 +44,8 @@ class Actor:
     def request(self, request: ActionRequest) -> list[ActionResult]:
         """Take a request; one that is known already is not played again, only answered."""
         if known := self._last_result.get(request.id):
+            if request.id in self._asked_s:
+                self._asked_s[request.id] = self._now_s
             return [self._result(request.id, known.state, known.description)]
         try:
             action = read_action(request.action, request.args)
@@ -49,8 +57,27 @@ class Actor:
         except ActionFailed as problem:
             return [self._result(request.id, "failed", problem.sentence)]
         ended = self._end_free_walk() if Limb.LEGS in limbs else []
+        if isinstance(action, SetAngles):
+            self._aim(action)
+            return [*ended, self._result(request.id, "done")]
         self.schedule.add(Command(request.id, action, limbs, request.priority))
+        if isinstance(action, WalkFreely) and action.unless_asked_s:
+            self._asked_s[request.id] = self._now_s
         return [*ended, self._result(request.id, "accepted")]
+
+    def _aim(self, action: SetAngles) -> None:
+        """Change where joints go; limbs that are not on their way begin when it is their turn."""
+        for joint, angle in action.angles.items():
+            (limb,) = self.driver.limbs(SetAngles({joint: angle}))
+            approach = self._approaches().get(limb)
+            if approach is None:
+                approach = Approach(limb, {})
+                self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
+            approach.targets[joint] = Target(angle, action.speed)
+
+    def _approaches(self) -> dict[Limb, Approach]:
+        actions = [command.action for command in self._commands()]
+        return {action.limb: action for action in actions if isinstance(action, Approach)}
 
     def is_meant(self, request: SenseRequest) -> bool:
         """Whether a robot is told to sense something: by its name, or all robots."""
@@ -74,7 +101,15 @@ class Actor:
     def stop(self, only: str = "") -> list[ActionResult]:
         """End what is running and what waits, at once; or one request of these."""
         stopped = [command.id for command in self._commands() if only in ("", command.id)]
-        return self._end(stopped, "cancelled", "stopped")
+        results = self._end(stopped, "cancelled", "stopped")
+        if not only:
+            self.driver.halt()
+        return results
+
+    def noticed(self) -> list[HumanBehavior]:
+        """Return what the robot has noticed by itself since the last call."""
+        states = self.driver.noticed()
+        return [HumanBehavior(human_state=state, source=self.robot) for state in states]
 
     def _stop_moving(self) -> list[ActionResult]:
         moving = [command.id for command in self._commands() if command.limbs & MOVING]
@@ -84,6 +119,20 @@ class Actor:
         """A walk without an end makes way for what else the legs are asked."""
         free = [one.id for one in self._commands() if isinstance(one.action, WalkFreely)]
         return self._end(free, "done", "")
+
+    def _end_forsaken(self) -> list[ActionResult]:
+        """A walk that is not asked for any more stops: who drove the robot may be gone."""
+        if not self._asked_s:
+            return []
+        walks = {one.id: one.action for one in self._commands()}
+        self._asked_s = {id: s for id, s in self._asked_s.items() if id in walks}
+        forsaken = [
+            id
+            for id, asked_s in self._asked_s.items()
+            if isinstance(walk := walks[id], WalkFreely)
+            and self._now_s - asked_s > walk.unless_asked_s
+        ]
+        return self._end(forsaken, "cancelled", "nobody asked for it any more")
 
     def _commands(self) -> list[Command]:
         return [*self.schedule.running, *self.schedule.waiting]
@@ -98,7 +147,8 @@ class Actor:
 
     def step(self, now_s: float) -> list[ActionResult]:
         """Go on to a time, and return what was started and what ended on the way."""
-        results = self._start_ready()
+        self._now_s = now_s
+        results = [*self._end_forsaken(), *self._start_ready()]
         while ended := self.driver.step(now_s):
             for command_id, state, description in ended:
                 self.schedule.end(command_id)

@@ -1,8 +1,9 @@
 """The animations that a robot knows, read from its folder of TOML files.
 
 A file has a title, a description, what kind it is, the posture it starts from (files that move
-the legs must have one), a sound that the robot makes meanwhile (``says``), and for every joint its
-key times (s), its keys (rad) and, if wanted, Bezier handles (s, rad before; s, rad after).
+the legs must have one), a sound that the robot makes meanwhile (``says``), and its movement: either
+``poses``, which people write (key_poses.py), or for every joint its key times (s), its keys (rad)
+and, if wanted, Bezier handles (s, rad before; s, rad after), which programs write.
 """
 
 from __future__ import annotations
@@ -16,12 +17,12 @@ import msgspec
 
 from nep_core.errors import ActionFailed, NodeStartError
 from nodes.action.naobody.body import Body
-from nodes.action.naobody.keyframes import Handle, Keyframes, Track
+from nodes.action.naobody.key_poses import Pose, tracks_of
+from nodes.action.naobody.keyframes import SHORTEST_STEP_S, Handle, Keyframes, Track
 from nodes.action.naobody.limbs import MOVING, Limb
 
 Kind = Literal["animation", "animal", "gesture"]
 NO_GESTURE = "no_gesture"
-SHORTEST_STEP_S = 0.01
 
 
 class _JointKeys(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -34,7 +35,8 @@ class _AnimationFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     title: str
     description: str
     kind: Kind
-    joints: dict[str, _JointKeys]
+    joints: dict[str, _JointKeys] = {}
+    poses: tuple[Pose, ...] = ()
     starts_from: str = ""
     says: str = ""
 
@@ -91,11 +93,11 @@ def load_animation(path: Path, body: Body) -> Animation:
     """Read one animation. Raises NodeStartError, which names file and place."""
     try:
         file = msgspec.toml.decode(path.read_bytes(), type=_AnimationFile)
-    except (OSError, msgspec.DecodeError, UnicodeDecodeError) as error:
+        tracks = _tracks(file)
+    except (OSError, ValueError) as error:
         raise _unusable(path, str(error)) from error
-    if problem := _problem(file, body):
+    if problem := _problem(file, tracks, body):
         raise _unusable(path, problem)
-    tracks = {name: Track(j.times, j.keys, j.handles) for name, j in file.joints.items()}
     return Animation(
         name=path.stem,
         title=file.title,
@@ -108,23 +110,30 @@ def load_animation(path: Path, body: Body) -> Animation:
     )
 
 
-def _problem(file: _AnimationFile, body: Body) -> str:
+def _tracks(file: _AnimationFile) -> dict[str, Track]:
+    if file.joints and file.poses:
+        raise ValueError("poses: there are joints too; a file has either of them")
+    keys = {name: Track(j.times, j.keys, j.handles) for name, j in file.joints.items()}
+    return keys or tracks_of(file.poses)
+
+
+def _problem(file: _AnimationFile, tracks: dict[str, Track], body: Body) -> str:
     """Return what is wrong with a file that could be read, or nothing."""
-    for name, joint in file.joints.items():
+    for name, track in tracks.items():
         if name not in body.index:
             return f"joints.{name}: the robot has no such joint"
-        if wrong := _problem_of_keys(joint):
+        if wrong := _problem_of_keys(track):
             return f"joints.{name}: {wrong}"
-    if not file.joints:
+    if not tracks:
         return "joints: there are none"
     if file.starts_from and file.starts_from not in body.postures:
         return f"starts_from: there is no posture {file.starts_from}"
-    if Limb.LEGS in body.limbs_of(file.joints) and not file.starts_from:
+    if Limb.LEGS in body.limbs_of(tracks) and not file.starts_from:
         return "starts_from: an animation that moves the legs needs a posture to start from"
     return ""
 
 
-def _problem_of_keys(joint: _JointKeys) -> str:
+def _problem_of_keys(joint: Track) -> str:
     if not joint.keys or len(joint.keys) != len(joint.times):
         return f"{len(joint.times)} times for {len(joint.keys)} keys"
     if joint.handles is not None and len(joint.handles) != len(joint.keys):
@@ -132,7 +141,7 @@ def _problem_of_keys(joint: _JointKeys) -> str:
     numbers = [*joint.times, *joint.keys, *(n for handle in joint.handles or () for n in handle)]
     if not all(math.isfinite(number) for number in numbers):
         return "a number is infinite or not a number"
-    if any(late - early < SHORTEST_STEP_S for early, late in pairwise((0.0, *joint.times))):
+    if any(late - early < SHORTEST_STEP_S - 1e-9 for early, late in pairwise((0.0, *joint.times))):
         return f"every time must be at least {SHORTEST_STEP_S} s after the one before it, or 0"
     return ""
 

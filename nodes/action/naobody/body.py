@@ -15,18 +15,40 @@ from nodes.action.naobody.limbs import Limb
 
 Angles = NDArray[np.float64]
 """Rad in the body's joint order (hands 0 to 1), or rows of them, one every tick."""
+Vector = tuple[float, float, float]
 
 CLAMP_TOLERANCE_RAD = 1e-6
 
 
 class Joint(msgspec.Struct, frozen=True):
-    """One joint: what it may do. Hands count 0 (closed) to 1 (open) instead of rad."""
+    """One joint: what it may do. Hands count 0 (closed) to 1 (open) instead of rad.
+
+    It turns its link ``child`` about an ``axis`` at ``origin_m`` of its link ``parent``, where
+    ``turn_rad`` (roll, pitch, yaw) is how the link is turned at rest; a hand has no links.
+    """
 
     name: str
     limb: Limb
     min_rad: float
     max_rad: float
     max_speed_rad_s: float
+    parent: str = ""
+    child: str = ""
+    origin_m: Vector = (0.0, 0.0, 0.0)
+    turn_rad: Vector = (0.0, 0.0, 0.0)
+    axis: Vector = (0.0, 0.0, 1.0)
+
+
+class Link(msgspec.Struct, frozen=True):
+    """One stiff part of the body: its mass, and how far out it reaches, in its joint's frame.
+
+    ``hull_m`` are round shapes: x, y, z and radius. ``sole_m`` is the outline of a foot's sole.
+    """
+
+    mass_kg: float = 0.0
+    centre_m: Vector = (0.0, 0.0, 0.0)
+    hull_m: tuple[tuple[float, float, float, float], ...] = ()
+    sole_m: tuple[Vector, ...] = ()
 
 
 class ShellLimit(msgspec.Struct, frozen=True):
@@ -38,11 +60,29 @@ class ShellLimit(msgspec.Struct, frozen=True):
 
 
 class Posture(msgspec.Struct, frozen=True):
-    """A named pose; ``next`` are the postures that can be reached from it in one move."""
+    """A named pose; ``next`` are the postures that can be reached from it in one move.
+
+    ``down``: about which way is down, in the torso's frame.
+    """
 
     family: str
     next: tuple[str, ...]
     angles: tuple[float, ...]
+    down: Vector = (0.0, 0.0, -1.0)
+
+
+class KeyPose(msgspec.Struct, frozen=True):
+    """A pose on the way between two postures; ``down`` is which way is down there."""
+
+    down: Vector
+    angles: tuple[float, ...]
+
+
+class Way(msgspec.Struct, frozen=True):
+    """The key poses through which a robot gets from one posture to another, and back."""
+
+    between: tuple[str, str]
+    through: tuple[str, ...]
 
 
 class _BodyFile(msgspec.Struct, frozen=True):
@@ -50,6 +90,9 @@ class _BodyFile(msgspec.Struct, frozen=True):
     same_motor: dict[str, str]
     head_shell_deg: tuple[ShellLimit, ...]
     postures: dict[str, Posture]
+    links: dict[str, Link] = {}
+    key_poses: dict[str, KeyPose] = {}
+    ways: tuple[Way, ...] = ()
 
 
 class Body:
@@ -67,6 +110,9 @@ class Body:
         self.max_speed = np.array([joint.max_speed_rad_s for joint in file.joints])
         self.same_motor = file.same_motor
         self.postures = file.postures
+        self.links = file.links
+        self._key_poses = file.key_poses
+        self._ways = {way.between: way.through for way in file.ways}
         self._shell = np.radians([(s.yaw, s.min_pitch, s.max_pitch) for s in file.head_shell_deg]).T
 
     @cached_property
@@ -77,6 +123,15 @@ class Body:
     def posture_angles(self, name: str) -> Angles:
         """Return the angles of a posture, in joint order."""
         return np.array(self.postures[name].angles)
+
+    def key_poses(self, start: str, goal: str) -> list[KeyPose]:
+        """Return the poses between two postures that are next to each other."""
+        names = self._ways.get((start, goal)) or self._ways.get((goal, start), ())[::-1]
+        return [self._key_poses[name] for name in names]
+
+    def origin_m(self, joint: str) -> Vector:
+        """Return where a joint is in the frame of the link before it (m)."""
+        return self.joints[self.index[joint]].origin_m
 
     def columns(self, limbs: Iterable[Limb]) -> list[int]:
         """Return where the joints of some limbs are in the joint order."""

@@ -12,6 +12,7 @@ Frame = Literal["robot", "torso", "world"]
 JointAngle = Annotated[float, Meta(ge=-360.0, le=360.0)]
 Length = Annotated[float, Meta(ge=-100.0, le=100.0)]
 Share = Annotated[float, Meta(ge=-1.0, le=1.0)]
+Patience = Annotated[float, Meta(ge=0.0, le=60.0)]
 Speed = Annotated[float, Meta(gt=0.0, le=1.0)]
 
 
@@ -59,11 +60,16 @@ class Breathing(msgspec.Struct, frozen=True):
 
 
 class WalkFreely(msgspec.Struct, frozen=True):
-    """Walk until something else is asked of the legs; each speed is a part of the highest."""
+    """Walk until something else is asked of the legs; each speed is a part of the highest.
+
+    ``unless_asked_s``: stop by itself when the same request has not come again for so long, so
+    that a robot whose driver is gone does not walk on; 0 is never.
+    """
 
     forward: Share = 0.0
     left: Share = 0.0
     turn: Share = 0.0
+    unless_asked_s: Patience = 0.0
 
 
 class StopMoving(msgspec.Struct, frozen=True):

@@ -13,9 +13,10 @@ from nodes.action.naobody.gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD
 from nodes.action.naobody.gaze import head_angles, in_torso, look_at_seen, place_of
 from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import move
-from nodes.action.naobody.parts import SINGLE_PARTS, single_parts
+from nodes.action.naobody.parts import SINGLE_PARTS, part_of, single_parts
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task, play_motion, take_posture, walk
+from nodes.action.naobody.tasks import Task, play_motion, take_posture
+from nodes.action.naobody.walking import walk
 
 HAND_SPEED = 0.4
 STEPS_AT_ONCE = 10
@@ -57,6 +58,9 @@ def lock(robot: VirtualRobot, part: str, *, on: bool) -> Task:
     """Lock or release the joints of a part."""
     parts = set(single_parts(part))
     robot.released = robot.released - parts if on else robot.released | parts
+    robot.stiffness = {
+        n: v for n, v in robot.stiffness.items() if part_of(robot.body, n) not in parts
+    }
     yield
     return ""
 
@@ -64,6 +68,7 @@ def lock(robot: VirtualRobot, part: str, *, on: bool) -> Task:
 def wake_up(robot: VirtualRobot) -> Task:
     """Lock all joints; stand up."""
     robot.released = frozenset()
+    robot.stiffness = {}
     if robot.family != "standing":
         return (yield from take_posture(robot, "Stand"))
     yield
@@ -96,7 +101,7 @@ def track(robot: VirtualRobot, action: Track) -> Task:
         return ""
     place = place_of(robot, action.thing)
     if action.using == "body":
-        yaw, _ = head_angles(in_torso(robot, place, "world"))
+        yaw, _ = head_angles(in_torso(robot, place, "world"), robot.body)
         yield from walk(robot, 0.0, 0.0, yaw)
     return (yield from look_at_seen(robot, action.thing))
 

@@ -42,7 +42,7 @@ def track_angles(track: Track, start_rad: float, times_s: Angles, fastest: float
 
     The first key must be later than 0. Before and after the keys the joint holds still.
     """
-    x, y = _control_points(track, start_rad, fastest)
+    x, y = control_points(track, start_rad, fastest)
     piece = np.clip(np.searchsorted(x[0], times_s, side="right") - 1, 0, len(x[0]) - 1)
     t = np.clip(times_s, 0.0, track.times[-1])
     return _bezier(y[:, piece], _parameter(x[:, piece], t))
@@ -50,7 +50,7 @@ def track_angles(track: Track, start_rad: float, times_s: Angles, fastest: float
 
 def peak_speed(track: Track, start_rad: float, fastest: float) -> float:
     """Return how fast (rad/s) a joint has to move to follow ``track_angles``, nearly exactly."""
-    x, y = _control_points(track, start_rad, fastest)
+    x, y = control_points(track, start_rad, fastest)
     u = np.linspace(0.0, 1.0, SPEED_SAMPLES)[:, None]
     steps_s = np.diff(_bezier(x[:, None, :], u), axis=0)
     ways = np.abs(np.diff(_bezier(y[:, None, :], u), axis=0))
@@ -75,8 +75,11 @@ def smooth_slopes(knots: Angles, values: Angles) -> Angles:
     return slopes
 
 
-def _control_points(track: Track, start_rad: float, fastest: float) -> tuple[Angles, Angles]:
-    """Return times and angles of the 4 control points of each Bezier piece: (4, pieces) each."""
+def control_points(track: Track, start_rad: float, fastest: float) -> tuple[Angles, Angles]:
+    """Return times and angles of the 4 control points of each Bezier piece: (4, pieces) each.
+
+    The first piece goes from ``start_rad`` at time 0 to the first key.
+    """
     knots = np.array([0.0, *track.times])
     values = np.array([start_rad, *track.keys])
     before, after = _handles(knots, values, track.handles, fastest)

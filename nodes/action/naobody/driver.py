@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Literal, NamedTuple, Protocol
 
-from nep_core.messages import RobotState, SenseRequest
+from nep_core.messages import RobotState, SenseRequest, Thing
 from nodes.action.naobody.actions import Action
 from nodes.action.naobody.limbs import Limb
 
@@ -13,7 +13,7 @@ from nodes.action.naobody.limbs import Limb
 class Connection(NamedTuple):
     """How the link to the robot is, and a sentence about it."""
 
-    event: Literal["connecting", "connected", "connection_failed", "disconnected"]
+    event: Literal["connecting", "connected", "connection_failed", "disconnected", "warning"]
     description: str
 
 
@@ -59,3 +59,15 @@ class Driver(Protocol):
 
     def sense(self, request: SenseRequest) -> list[str]:
         """Let a virtual robot feel, see or hear something; return the human states that follow."""
+
+    def surroundings(self, things: Sequence[Thing]) -> None:
+        """Let a virtual robot know what stands around it; a real one sees for itself."""
+
+    def expect(self, words: Sequence[str]) -> None:
+        """Let a real robot listen for the words that rules wait for; a virtual one hears all."""
+
+    def noticed(self) -> list[str]:
+        """Return the human states that the robot has noticed by itself since the last call."""
+
+    def halt(self) -> None:
+        """Let the robot stop whatever it does, also what this driver does not know of."""

@@ -1,7 +1,9 @@
-"""NAO's walk as a movement of its legs and a path of its body over the floor.
+"""NAO's walk as a movement of its legs and a path of its torso over the floor.
 
-A plain periodic gait: one foot swings forward in an arc while the other stays where it stands, and
-the body moves on evenly between them, so that standing feet do not slide. Balance is not modelled.
+Standing feet stay where they are. The centre of mass sways so that the zero moment point, where
+the floor carries the robot, is under a standing foot while the other one swings.
+Source: S. Kajita et al., Biped walking pattern generation by using preview control of zero-moment
+point, ICRA 2003: the mass at a constant height; its exact solution is a filter (see _swayed).
 """
 
 from __future__ import annotations
@@ -12,8 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from nodes.action.naobody.body import Angles, Body
-from nodes.action.naobody.curves import minimum_jerk, smooth_slopes, ticks
+from nodes.action.naobody.curves import minimum_jerk, ticks
+from nodes.action.naobody.legs import HIP_LEFT_M, write_legs
 from nodes.action.naobody.motion import TICK_S, Motion
+from nodes.action.naobody.skeleton import Frames, Points, Skeleton
 
 STEP_S = 0.42
 """Time of a step at NAO's highest step frequency. With the step lengths below: 0.095 m/s forward,
@@ -21,35 +25,54 @@ STEP_S = 0.42
 STEP_FORWARD_M = 0.04
 STEP_LEFT_M = 0.03
 STEP_TURN_RAD = 0.2
+_LONGEST_STEP = np.array([STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD])
 
 FOOT_LIFT_M = 0.02
-SWAY_RAD = 0.06
-THIGH_M = 0.1
-SHIN_M = 0.1029
-HIP_HALF_WIDTH_M = 0.05
-HIP_YAW_PITCH_PART = math.sqrt(0.5)
-"""The hip's yaw-pitch axis is tilted by 45 degrees: this part of it turns, the same part nods."""
+BOTH_FEET_PART = 0.3
+"""Part of a step in which both feet stand and the weight goes over to the other one."""
+LEAVING_S = 0.45
+"""Before the first step the weight goes to one foot, after the last one back between both."""
+SOLE_MIDDLE_M = 0.02
+"""So far in front of the ankle is the middle of the sole."""
+INWARD_M = 0.012
+"""So far from the middle of a sole towards the other foot the weight is carried."""
+GRAVITY_M_S2 = 9.81
+FASTEST_PART = 0.93
+"""Steps for which a joint would have to be faster than this part of its top speed take longer."""
+TRIES = 6
+CORRECTIONS = 3
+FILTER_S = 1.5
+SETTLING_S = 0.3
 
 
 @dataclass(frozen=True)
 class Walk:
-    """A walk: the legs' movement, and for each of its ticks the base's x m, y m, theta rad.
+    """A walk: for each tick the legs' movement, and x m, y m, theta rad of feet and torso.
 
-    The base path (ticks, 3) is relative to where the walk starts, x pointing forward.
+    ``base`` (ticks, 3) is the middle between the feet, ``torso`` (ticks, 3) where the torso is;
+    both are relative to where the walk starts, x pointing forward. ``lean`` (3, 3) is how the
+    torso leans while it walks. ``weight`` (ticks, 2) is where the floor is to carry the robot.
     """
 
     legs: Motion
     base: Angles
+    torso: Angles
+    lean: Frames
+    weight: Angles
 
 
 @dataclass(frozen=True)
-class _Foot:
-    """Where a foot is under its hip, at every tick: lengths m, yaw rad, relative to standing."""
+class _Feet:
+    """Where the ankles are at every tick (ticks, 3), m, and how they are turned (ticks,), rad."""
 
-    forward: Angles
-    left: Angles
-    lift: Angles
-    yaw: Angles
+    places: dict[str, Points]
+    yaws: dict[str, Angles]
+    weight: Points
+
+    @property
+    def yaw(self) -> Angles:
+        """How the base is turned: as the feet are, on the mean."""
+        return (self.yaws["L"] + self.yaws["R"]) / 2.0
 
 
 def plan_walk(
@@ -67,107 +90,174 @@ def plan_walk(
     """
     way = np.array([forward_m, left_m, turn])
     steps = max(at_least_steps, math.ceil(float(np.max(np.abs(way) / _LONGEST_STEP)) - 1e-9))
-    times_s = ticks((steps + 1) * STEP_S, TICK_S)
-    progress = _body_progress(times_s, steps)
-    step = way / steps
-    left = _foot(progress, _foot_progress(times_s, steps, first=0), step, HIP_HALF_WIDTH_M)
-    right = _foot(progress, _foot_progress(times_s, steps, first=1), step, -HIP_HALF_WIDTH_M)
-    angles = np.repeat(standing[None, :], len(times_s), axis=0)
-    sway = _sway(times_s, steps)
-    _pose_legs(body, angles, left, right, sway)
+    step_s = STEP_S
+    for _ in range(TRIES):
+        angles, walk = _walk(body, standing, way, steps, step_s)
+        part = _fastest_part(body, standing, angles)
+        if part <= FASTEST_PART:
+            break
+        step_s *= part / FASTEST_PART
+    return walk
+
+
+def _walk(
+    body: Body, standing: Angles, way: Angles, steps: int, step_s: float
+) -> tuple[Angles, Walk]:
+    """Return a walk of so many steps, and the angles of every joint in it."""
+    skeleton = Skeleton(body)
+    lean = skeleton.resting_turn(standing)
+    feet = _feet(way / steps, steps, step_s)
+    frames = skeleton.transforms(standing)
+    middle = lean @ skeleton.feet_middle(frames)
+    offset = lean @ skeleton.mass_centre(frames)
+    base = _base(feet, way)
+    ends = base[[0, -1], :2] + _turned(base[[0, -1], 2], np.tile((offset - middle)[:2], (2, 1)))
+    wanted = _swayed(feet.weight, float(offset[2] - middle[2]), ends)
+    angles = np.repeat(standing[None, :], len(base), axis=0)
+    path = _Path(dict(feet.yaws), wanted - _turned(feet.yaw, np.tile(offset[:2], (len(base), 1))))
+    for _ in range(CORRECTIONS):
+        _pose_legs(body, angles, feet, path, lean, -float(middle[2]))
+        path.correct(skeleton.transforms(angles), skeleton, lean, feet, wanted)
+    _pose_legs(body, angles, feet, path, lean, -float(middle[2]))
     columns = tuple(i for i, joint in enumerate(body.joints) if joint.limb == "legs")
-    allowed, _ = body.clamped(angles)
-    return Walk(Motion(columns, allowed[:, columns]), _base_path(progress, step, sway))
+    angles, _ = body.clamped(angles)
+    torso = np.column_stack([path.torso, path.yaw])
+    return angles, Walk(Motion(columns, angles[:, columns]), base, torso, lean, feet.weight)
 
 
-_LONGEST_STEP = np.array([STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD])
+@dataclass
+class _Path:
+    """Where the torso is (ticks, 2), m, and how its feet are asked to be turned (ticks,), rad."""
+
+    yaws: dict[str, Angles]
+    torso: Points
+
+    @property
+    def yaw(self) -> Angles:
+        """How the torso is turned: as the feet, on the mean."""
+        return (self.yaws["L"] + self.yaws["R"]) / 2.0
+
+    def correct(
+        self, frames: Frames, skeleton: Skeleton, lean: Frames, feet: _Feet, wanted: Points
+    ) -> None:
+        """Come nearer to where mass and feet are wanted: legs weigh, and turn as they bend."""
+        masses = skeleton.mass_centre(frames) @ lean.T
+        there = self.torso + _turned(self.yaw, masses[:, :2])
+        yaw = self.yaw
+        for link in skeleton.soles:
+            heading = frames[:, skeleton.index[link], :3, 0] @ lean.T
+            turned = yaw + np.arctan2(heading[:, 1], heading[:, 0])
+            self.yaws[link[0]] = self.yaws[link[0]] - (turned - feet.yaws[link[0]])
+        self.torso = self.torso - _from_rest(there - wanted)
 
 
-def _body_progress(times_s: Angles, steps: int) -> Angles:
-    """Return how many step lengths the body has gone: half of one in the first and last step."""
-    knots = np.arange(steps + 2, dtype=np.float64) * STEP_S
-    values = np.concatenate([[0.0], np.arange(steps) + 0.5, [float(steps)]])
-    return _smooth(knots, values, times_s)
+def _fastest_part(body: Body, standing: Angles, angles: Angles) -> float:
+    """Return how fast the fastest joint moves, as a part of its top speed."""
+    steps = np.abs(np.diff(angles, axis=0, prepend=standing[None]))
+    return float((steps / TICK_S / body.max_speed).max())
 
 
-def _foot_progress(times_s: Angles, steps: int, *, first: int) -> tuple[Angles, Angles]:
-    """Return how many step lengths a foot has gone, and how high it is (0 to 1), at each time.
+def _feet(step: Angles, steps: int, step_s: float) -> _Feet:
+    swings = steps + 1
+    times_s = ticks(2.0 * LEAVING_S + swings * step_s, TICK_S)
+    swing_s = step_s * (1.0 - BOTH_FEET_PART)
+    begins_s = LEAVING_S + step_s * np.arange(swings)
+    places, yaws, stands = {}, {}, {}
+    for side, sign, first in (("L", 1.0, 0), ("R", -1.0, 1)):
+        gone, height = np.zeros_like(times_s), np.zeros_like(times_s)
+        here = 0.0
+        for swing in range(first, swings, 2):
+            s = np.clip((times_s - begins_s[swing]) / swing_s, 0.0, 1.0)
+            landing = float(min(swing + 1, steps))
+            gone += (landing - here) * minimum_jerk(s)
+            height += np.sin(np.pi * s) ** 2 * FOOT_LIFT_M
+            here = landing
+        places[side], yaws[side] = _foot(gone, step, sign * HIP_LEFT_M, height), gone * step[2]
+        middle, _ = _foot(gone, step, sign * (HIP_LEFT_M - INWARD_M), height), None
+        stands[side] = middle[:, :2] + SOLE_MIDDLE_M * _heading(yaws[side])
+    return _Feet(places, yaws, _weight(times_s, stands, swings, step_s))
 
-    The foot swings in every second step, from step ``first`` on; the last step joins the feet.
+
+def _foot(gone: Angles, step: Angles, left_m: float, height: Angles) -> Points:
+    """Return where a foot is that has gone so many steps, ``left_m`` beside the way."""
+    yaw = gone * step[2]
+    x, y = gone * step[0] - left_m * np.sin(yaw), gone * step[1] + left_m * np.cos(yaw)
+    return np.column_stack([x, y, height])
+
+
+def _weight(times_s: Angles, stands: dict[str, Points], swings: int, step_s: float) -> Points:
+    """Return where the weight is carried: between the feet, then on each standing one in turn."""
+    changing_s = step_s * BOTH_FEET_PART
+    on_left, before = np.full_like(times_s, 0.5), 0.5
+    for swing in range(swings + 1):
+        after = 0.5 if swing == swings else float(swing % 2 == 1)
+        # the first and the last change have more time than those between steps
+        begin_s = LEAVING_S + swing * step_s - (2.0 if swing == 0 else 1.0) * changing_s
+        lasting_s = changing_s * (2.0 if swing in (0, swings) else 1.0)
+        part = minimum_jerk(np.clip((times_s - begin_s) / lasting_s, 0.0, 1.0))
+        on_left += (after - before) * part
+        before = after
+    share = on_left[:, None]
+    weight: Points = share * stands["L"] + (1.0 - share) * stands["R"]
+    return weight
+
+
+def _swayed(weight: Points, height_m: float, ends: Points) -> Points:
+    """Return how the centre of mass moves (ticks, 2) so that the floor carries it at ``weight``.
+
+    The mass m at the height h obeys weight = x - h/g x''. Of its solutions, this is the one that
+    does not run away: the weight's path filtered by k/2 exp(-k |t|), k = sqrt(g/h).
+    ``ends`` (2, 2): where it rests before and after.
     """
-    place, height = np.zeros_like(times_s), np.zeros_like(times_s)
-    here = 0.0
-    for swing in range(first, steps + 1, 2):
-        s = np.clip(times_s / STEP_S - swing, 0.0, 1.0)
-        landing = float(min(swing + 1, steps))
-        place += (landing - here) * minimum_jerk(s)
-        height += np.sin(np.pi * s) ** 2
-        here = landing
-    return place, height
-
-
-def _foot(progress: Angles, foot: tuple[Angles, Angles], step: Angles, hip_left_m: float) -> _Foot:
-    ahead = foot[0] - progress
-    yaw = ahead * step[2]
-    return _Foot(
-        forward=ahead * step[0] - hip_left_m * np.sin(yaw),
-        left=ahead * step[1],
-        lift=foot[1] * FOOT_LIFT_M,
-        yaw=yaw,
+    k = math.sqrt(GRAVITY_M_S2 / height_m)
+    count = round(FILTER_S / TICK_S)
+    kernel = np.exp(-k * TICK_S * np.abs(np.arange(-count, count + 1)))
+    kernel /= kernel.sum()
+    padded = np.vstack([np.repeat(weight[:1], count, 0), weight, np.repeat(weight[-1:], count, 0)])
+    swayed = np.column_stack(
+        [np.convolve(padded[:, axis], kernel, mode="valid") for axis in (0, 1)]
     )
+    before = _fading(len(swayed))
+    missing = ends - swayed[[0, -1]]
+    rested: Points = swayed + before * missing[0] + before[::-1] * missing[1]
+    return rested
 
 
-def _sway(times_s: Angles, steps: int) -> Angles:
-    """Return how far the body leans (rad) over the standing foot: right first, then left."""
-    step = np.minimum(np.floor(times_s / STEP_S), steps)
-    side = np.where(step % 2 == 0, 1.0, -1.0)
-    lean: Angles = SWAY_RAD * side * np.sin(np.pi * (times_s / STEP_S - step)) ** 2
-    return lean
+def _fading(count: int) -> Points:
+    """Return rows (count, 1) that begin with 1 and soon become 0."""
+    part: Points = 1.0 - minimum_jerk(np.clip(np.arange(count) * TICK_S / SETTLING_S, 0.0, 1.0))
+    return part[:, None]
 
 
-def _base_path(progress: Angles, step: Angles, sway: Angles) -> Angles:
-    path = progress[:, None] * step
-    lean_m = (THIGH_M + SHIN_M) * np.sin(sway)
-    path[:, 0] += lean_m * np.sin(path[:, 2])
-    path[:, 1] -= lean_m * np.cos(path[:, 2])
-    return path
+def _from_rest(correction: Points) -> Points:
+    """Return a correction that is 0 at the beginning and at the end."""
+    at_rest = _fading(len(correction))
+    return correction * np.minimum(1.0 - at_rest, 1.0 - at_rest[::-1])
 
 
-def _pose_legs(body: Body, angles: Angles, left: _Foot, right: _Foot, sway: Angles) -> None:
-    """Write the leg joints of every tick into ``angles`` (ticks, joints)."""
-    # One motor turns both hips: equal and opposite for the two feet.
-    yaw_pitch = -(left.yaw - right.yaw) / 2.0 / HIP_YAW_PITCH_PART
-    angles[:, body.index["LHipYawPitch"]] += yaw_pitch
-    for side, foot in (("L", left), ("R", right)):
-        joints = [body.index[f"{side}{name}"] for name in ("HipPitch", "KneePitch", "AnklePitch")]
-        hip, knee, ankle = (angles[:, joint] for joint in joints)
-        tilt = -(hip + knee + ankle)  # of the torso, which leans when the feet are flat
-        ahead = -THIGH_M * np.sin(hip + tilt) - SHIN_M * np.sin(hip + tilt + knee)
-        below = THIGH_M * np.cos(hip + tilt) + SHIN_M * np.cos(hip + tilt + knee)
-        hip, knee = _bent_leg(ahead + foot.forward, below - foot.lift)
-        nod = yaw_pitch * HIP_YAW_PITCH_PART
-        angles[:, joints] = np.column_stack([hip - tilt - nod, knee, -hip - knee])
-        roll = np.arctan2(foot.left, below) + sway
-        angles[:, body.index[f"{side}HipRoll"]] += roll
-        angles[:, body.index[f"{side}AnkleRoll"]] -= roll
+def _pose_legs(
+    body: Body, angles: Angles, feet: _Feet, path: _Path, lean: Frames, height_m: float
+) -> None:
+    ankles = {}
+    for side, places in feet.places.items():
+        level = _turned(-path.yaw, places[:, :2] - path.torso)
+        seen = np.column_stack([level, places[:, 2] - height_m])
+        ankles[side] = seen @ lean
+    write_legs(body, angles, ankles, lean[2], path.yaws["L"] - path.yaws["R"])
 
 
-def _bent_leg(forward: Angles, down: Angles) -> tuple[Angles, Angles]:
-    """Return hip and knee pitch that put the ankle so far in front of the hip and below it (m)."""
-    reach = np.minimum(np.hypot(forward, down), THIGH_M + SHIN_M)
-    cosine = (reach**2 - THIGH_M**2 - SHIN_M**2) / (2.0 * THIGH_M * SHIN_M)
-    knee = np.arccos(np.clip(cosine, -1.0, 1.0))
-    ahead_of_shin = np.arctan2(SHIN_M * np.sin(knee), THIGH_M + SHIN_M * np.cos(knee))
-    return -np.arctan2(forward, down) - ahead_of_shin, knee
+def _base(feet: _Feet, way: Angles) -> Angles:
+    middle = (feet.places["L"] + feet.places["R"])[:, :2] / 2.0
+    base = np.column_stack([middle, feet.yaw])
+    base[-1] = way
+    return base
 
 
-def _smooth(knots: Angles, values: Angles, times_s: Angles) -> Angles:
-    """Return a smooth rising curve through values at knots (cubic Hermite, no overshoot)."""
-    slopes = smooth_slopes(knots, values)
-    piece = np.clip(np.searchsorted(knots, times_s, side="right") - 1, 0, len(knots) - 2)
-    step = knots[piece + 1] - knots[piece]
-    s = np.clip((times_s - knots[piece]) / step, 0.0, 1.0)
-    rise = values[piece + 1] - values[piece]
-    bend = (1.0 - s) * slopes[piece] * step - s * slopes[piece + 1] * step
-    curve: Angles = values[piece] + rise * s**2 * (3.0 - 2.0 * s) + s * (1.0 - s) * bend
-    return curve
+def _heading(yaw: Angles) -> Points:
+    return np.column_stack([np.cos(yaw), np.sin(yaw)])
+
+
+def _turned(yaw: Angles, vectors: Points) -> Points:
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    x, y = vectors[:, 0], vectors[:, 1]
+    return np.column_stack([x * cosine - y * sine, x * sine + y * cosine])

@@ -7,8 +7,7 @@ import math
 import numpy as np
 
 from nep_core.errors import ActionFailed
-from nodes.action.naobody.body import Angles
-from nodes.action.naobody.gait import SHIN_M, THIGH_M
+from nodes.action.naobody.body import Angles, Body
 from nodes.action.naobody.motion import move
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.tasks import Task, look, play_motion
@@ -16,31 +15,26 @@ from nodes.action.naobody.tasks import Task, look, play_motion
 Place = tuple[float, float, float]
 
 NECK_M = 0.1265
-SHOULDER_LEFT_M, SHOULDER_UP_M = 0.098, 0.1
-HIP_DOWN_M, ANKLE_UP_M = 0.085, 0.045
-SEATED_TORSO_M = 0.12
-"""About how high the torso is above the ground when NAO sits or lies."""
 POINTING_SPEED = 0.3
 NOUNS = {"face": "a face", "ball": "the red ball", "mark": "a mark"}
 NAMED = {"face": "the face {name}", "mark": "the mark {name}"}
 
 
 def torso_height_m(robot: VirtualRobot) -> float:
-    """Return how high the torso is above the feet: its legs are as long as their joints allow."""
-    if robot.family in ("sitting", "lying"):
-        return SEATED_TORSO_M
-    hip, knee = (robot.angles[robot.body.index[name]] for name in ("LHipPitch", "LKneePitch"))
-    leg = THIGH_M * math.cos(hip) + SHIN_M * math.cos(hip + knee)
-    return float(HIP_DOWN_M + leg + ANKLE_UP_M)
+    """Return how high the torso is above the floor."""
+    return float(robot.stance.place[2])
 
 
 def in_torso(robot: VirtualRobot, place: Place, frame: str) -> Place:
     """Return a place (m) of a frame as seen from the torso: robot is at its feet, world the floor.
 
-    The torso is taken as upright.
+    The torso may lean.
     """
-    x, y, z = from_world(robot, place) if frame == "world" else place
-    return x, y, z if frame == "torso" else z - torso_height_m(robot)
+    if frame == "torso":
+        return place
+    world = np.array(place if frame == "world" else to_world(robot, place))
+    x, y, z = robot.stance.turn.T @ (world - robot.stance.place)
+    return float(x), float(y), float(z)
 
 
 def from_world(robot: VirtualRobot, place: Place) -> Place:
@@ -61,24 +55,28 @@ def to_world(robot: VirtualRobot, place: Place) -> Place:
     )
 
 
-def head_angles(place: Place) -> tuple[float, float]:
+def head_angles(place: Place, body: Body) -> tuple[float, float]:
     """Return yaw and pitch (rad) that turn the head to a place in the torso's frame."""
-    x, y, z = place
-    return math.atan2(y, x), -math.atan2(z - NECK_M, math.hypot(x, y))
+    x, y, z = _from_joint(place, body, "HeadYaw")
+    return math.atan2(y, x), -math.atan2(z, math.hypot(x, y))
 
 
-def arm_angles(place: Place, side: str) -> tuple[float, float]:
+def arm_angles(place: Place, side: str, body: Body) -> tuple[float, float]:
     """Return the pitch and roll (rad) of a shoulder that point its straight arm at a place."""
-    x, y, z = place
-    across = y - (SHOULDER_LEFT_M if side == "left" else -SHOULDER_LEFT_M)
-    up = z - SHOULDER_UP_M
-    way = max(math.hypot(x, across, up), 1e-6)
-    return math.atan2(-up, x), math.asin(across / way)
+    x, y, z = _from_joint(place, body, "LShoulderPitch" if side == "left" else "RShoulderPitch")
+    way = max(math.hypot(x, y, z), 1e-6)
+    return math.atan2(-z, x), math.asin(y / way)
+
+
+def _from_joint(place: Place, body: Body, joint: str) -> Place:
+    """Return a place of the torso's frame as seen from a joint at the torso."""
+    x, y, z = body.origin_m(joint)
+    return place[0] - x, place[1] - y, place[2] - z
 
 
 def look_at(robot: VirtualRobot, place: Place, frame: str) -> Task:
     """Turn the head to a place as far as it goes."""
-    yaw, pitch = head_angles(in_torso(robot, place, frame))
+    yaw, pitch = head_angles(in_torso(robot, place, frame), robot.body)
     return (yield from look(robot, yaw, pitch))
 
 
@@ -93,13 +91,15 @@ def point_at(robot: VirtualRobot, place: Place, frame: str, side: str) -> Task:
 
 def pointing(robot: VirtualRobot, place: Place, frame: str, side: str) -> tuple[Angles, list[int]]:
     """Return the angles of every joint while pointing, and which joints that moves."""
-    pitch, roll = arm_angles(in_torso(robot, place, frame), side)
+    pitch, roll = arm_angles(in_torso(robot, place, frame), side, robot.body)
     letter, bend = ("L", -0.0349) if side == "left" else ("R", 0.0349)
     joints = {"ShoulderPitch": pitch, "ShoulderRoll": roll, "ElbowYaw": 0.0, "ElbowRoll": bend}
+    joints |= {"WristYaw": 0.0, "Hand": 1.0}
+    index = robot.body.index
+    there = {index[letter + name]: rad for name, rad in joints.items() if letter + name in index}
     goal = robot.angles.copy()
-    columns = [robot.body.index[f"{letter}{name}"] for name in [*joints, "WristYaw", "Hand"]]
-    goal[columns] = np.array([*joints.values(), 0.0, 1.0])
-    return goal, columns
+    goal[list(there)] = list(there.values())
+    return goal, list(there)
 
 
 def arm_for(robot: VirtualRobot, place: Place, frame: str, arm: str) -> str:
@@ -112,7 +112,8 @@ def place_of(robot: VirtualRobot, thing: str) -> Place:
 
     Raises ActionFailed when it sees none.
     """
-    if thing not in robot.sees:
+    seen = robot.seen
+    if thing not in seen:
         kind, _, name = thing.partition("_")
         if kind == "sound":
             raise ActionFailed(
@@ -122,7 +123,7 @@ def place_of(robot: VirtualRobot, thing: str) -> Place:
         raise ActionFailed(
             f"{robot.name} does not see {noun}. Show it one, or try it with a real NAO."
         )
-    return robot.sees[thing]
+    return seen[thing]
 
 
 def look_at_seen(robot: VirtualRobot, thing: str) -> Task:

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 Handle = tuple[float, float, float, float]
 """A Bezier key's two handles: time (s) and angle (rad) before the key, time and angle after it."""
 
+SHORTEST_STEP_S = 0.01
+"""Keys of a joint are at least so far apart, and the first is so late."""
+
 
 @dataclass(frozen=True)
 class Track:
@@ -97,6 +100,11 @@ class Keyframes:
 
 def _other_side(name: str) -> str:
     return {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
+
+
+def mirror_angle(name: str, angle: float) -> float:
+    """Return the angle of the joint of this name on the other side, as seen in a mirror."""
+    return -angle if _turns_sideways(name) else angle
 
 
 def _turns_sideways(name: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from nep_core.errors import ActionFailed
 
@@ -28,6 +28,16 @@ GROUPS: dict[str, tuple[str, ...]] = {
 GROUPS["AllLeds"] = tuple(name for name, parts in GROUPS.items() if parts == (name,))
 """NAOqi's names of groups, each with the lights that it is made of."""
 
+LAMPS: dict[str, tuple[str, ...]] = {
+    "LeftFaceLeds": tuple(f"FaceLedLeft{number}" for number in range(8)),
+    "RightFaceLeds": tuple(f"FaceLedRight{number}" for number in range(8)),
+    "LeftEarLeds": tuple(f"LeftEarLed{number}" for number in range(1, 11)),
+    "RightEarLeds": tuple(f"RightEarLed{number}" for number in range(1, 11)),
+    "BrainLeds": tuple(f"Brain{number}" for number in range(12)),
+}
+"""The single lamps of the lights that have several; those round an eye begin at its top."""
+LIGHT_OF_LAMP = {lamp: light for light, lamps in LAMPS.items() for lamp in lamps}
+
 AT_START: dict[str, int] = {light: OFF for light in GROUPS["AllLeds"]} | {
     "LeftFaceLeds": 0xFFFFFF,
     "RightFaceLeds": 0xFFFFFF,
@@ -37,11 +47,30 @@ AT_START: dict[str, int] = {light: OFF for light in GROUPS["AllLeds"]} | {
 
 
 def lights(group: str) -> tuple[str, ...]:
-    """Return the lights of a group. Raises ActionFailed with the groups that there are."""
+    """Return the lights of a group, or the one lamp that is called so. Raises ActionFailed."""
+    if group in LIGHT_OF_LAMP:
+        return (group,)
     if group not in GROUPS:
         known = ", ".join(sorted(GROUPS))
         raise ActionFailed(f'There are no lights called "{group}". Possible: {known}.')
     return GROUPS[group]
+
+
+def shining(leds: Mapping[str, int], light: str) -> int:
+    """Return the colour of a light; a lamp shines as its light does unless it was lit by itself."""
+    return leds[light] if light in leds else leds[LIGHT_OF_LAMP[light]]
+
+
+def shine(leds: dict[str, int], light: str, colour: int) -> None:
+    """Let a light shine in a colour, with all of its lamps; or one lamp."""
+    for lamp in LAMPS.get(light, ()):
+        leds.pop(lamp, None)
+    leds[light] = colour
+
+
+def at_start(light: str) -> int:
+    """Return the colour of a light or lamp when the robot starts."""
+    return AT_START[LIGHT_OF_LAMP.get(light, light)]
 
 
 def colour_number(colour: str) -> int:

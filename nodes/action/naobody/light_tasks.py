@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 
 from nodes.action.naobody import leds
 from nodes.action.naobody.motion import TICK_S
@@ -17,8 +18,8 @@ RASTA = (0x00FF00, 0xFFFF00, 0xFF0000)
 def set_intensity(robot: VirtualRobot, group: str, percent: float) -> Task:
     """Make lights brighter or darker; those that are off become white or blue, as they can."""
     for light in leds.lights(group):
-        full = leds.brightest(robot.leds[light] or leds.AT_START[light] or leds.WHITE)
-        robot.leds[light] = leds.mixed(leds.OFF, full, percent / 100.0)
+        lit = leds.shining(robot.leds, light) or leds.at_start(light) or leds.WHITE
+        leds.shine(robot.leds, light, leds.mixed(leds.OFF, leds.brightest(lit), percent / 100.0))
     yield
     return ""
 
@@ -26,7 +27,7 @@ def set_intensity(robot: VirtualRobot, group: str, percent: float) -> Task:
 def reset(robot: VirtualRobot, group: str) -> Task:
     """Light a group as it was when the robot started."""
     for light in leds.lights(group):
-        robot.leds[light] = leds.AT_START[light]
+        leds.shine(robot.leds, light, leds.at_start(light))
     yield
     return ""
 
@@ -34,23 +35,38 @@ def reset(robot: VirtualRobot, group: str) -> Task:
 def random_eyes(robot: VirtualRobot, seconds: float) -> Task:
     """Change the colour of each eye by chance, then let them be as they were."""
     chance = random.Random(robot.name)
-    return (yield from _play_of_colours(robot, seconds, lambda _: chance.randrange(0x1000000)))
+
+    def colour(_: int) -> None:
+        for eye in EYES:
+            leds.shine(robot.leds, eye, chance.randrange(0x1000000))
+
+    return (yield from _play_of_colours(robot, seconds, colour))
 
 
 def rotate_eyes(robot: VirtualRobot, seconds: float) -> Task:
-    """Let three colours go from eye to eye, then let them be as they were."""
-    return (yield from _play_of_colours(robot, seconds, lambda turn: RASTA[turn % len(RASTA)]))
+    """Let three colours go round each eye, lamp by lamp, then let them be as they were."""
+
+    def colour(turn: int) -> None:
+        for eye in EYES:
+            lamps = leds.LAMPS[eye]
+            leds.shine(robot.leds, eye, RASTA[turn % len(RASTA)])
+            for place, lamp in enumerate(lamps):
+                part = (place + turn) % len(lamps) * len(RASTA) // len(lamps)
+                leds.shine(robot.leds, lamp, RASTA[part])
+
+    return (yield from _play_of_colours(robot, seconds, colour))
 
 
-def _play_of_colours(robot: VirtualRobot, seconds: float, colour: leds.Colouring) -> Task:
-    before = {eye: robot.leds[eye] for eye in EYES}
+def _play_of_colours(robot: VirtualRobot, seconds: float, change: Callable[[int], None]) -> Task:
+    before = dict(robot.leds)
     try:
         for tick in range(round(seconds / TICK_S)):
             turn, rest = divmod(tick, round(CHANGE_S / TICK_S))
             if rest == 0:
-                for number, eye in enumerate(EYES):
-                    robot.leds[eye] = colour(turn + number)
+                change(turn)
             yield
     finally:
-        robot.leds.update(before)
+        for eye in EYES:
+            leds.shine(robot.leds, eye, before[eye])
+            robot.leds |= {lamp: before[lamp] for lamp in leds.LAMPS[eye] if lamp in before}
     return ""

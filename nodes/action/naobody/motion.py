@@ -67,15 +67,30 @@ def move(
     return _allowed(body, pose, chosen, start + progress[:, None] * (end - start))
 
 
-def keyframe_motion(body: Body, pose: Angles, keyframes: Keyframes) -> Motion:
+def keyframe_motion(
+    body: Body, pose: Angles, keyframes: Keyframes, *, softly: bool = True
+) -> Motion:
     """Return keyframes as a movement that begins at a pose (every joint).
 
-    The way to the first keys gets the time it needs; what is too fast is stretched in time;
-    angles that the joints cannot have are clamped. The notes say so.
+    They are made ``playable``; angles that the joints cannot have are clamped. The notes say so.
+    """
+    keyframes, notes = playable(body, pose, keyframes, softly=softly)
+    columns = [body.index[name] for name in keyframes.tracks]
+    return _allowed(body, pose, columns, _sampled(body, pose, keyframes), notes)
+
+
+def playable(
+    body: Body, pose: Angles, keyframes: Keyframes, *, softly: bool = True
+) -> tuple[Keyframes, list[str]]:
+    """Return keyframes that joints can follow from a pose (every joint), and what was changed.
+
+    The way to the first keys gets the time that it needs to look calm, unless not ``softly``; what
+    is too fast is stretched in time.
     """
     notes: list[str] = []
     keyframes = _with_coupled_joints(body, keyframes)
-    keyframes = keyframes.delayed(approach_delay_s(body, pose, keyframes))
+    if softly:
+        keyframes = keyframes.delayed(approach_delay_s(body, pose, keyframes))
     given_s = keyframes.duration_s
     # More than once: handles that were kept to the joint's speed may grow with the time there is.
     while (factor := _slowdown(body, pose, keyframes)) > 1.0:
@@ -83,8 +98,7 @@ def keyframe_motion(body: Body, pose: Angles, keyframes: Keyframes) -> Motion:
     if keyframes.duration_s > given_s:
         slower = keyframes.duration_s / given_s
         notes.append(f"played {slower:.2f} times slower: its joints cannot move faster")
-    columns = [body.index[name] for name in keyframes.tracks]
-    return _allowed(body, pose, columns, _sampled(body, pose, keyframes), notes)
+    return keyframes, notes
 
 
 def braking(body: Body, pose: Angles, speed_rad_s: Angles, columns: Sequence[int]) -> Motion:

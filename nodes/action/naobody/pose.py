@@ -6,9 +6,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from nep_core.messages import Thing
 from nodes.action.naobody import leds
 from nodes.action.naobody.animations import Animations
 from nodes.action.naobody.body import Angles, Body
+from nodes.action.naobody.body_language import GestureWords
+from nodes.action.naobody.skeleton import Skeleton
+from nodes.action.naobody.stance import Stance
 
 AT_START: dict[str, bool | float | str] = {
     "volume": 70.0,
@@ -25,27 +29,48 @@ class VirtualRobot:
     """One robot and its present state, which tasks change tick by tick.
 
     ``angles``: every joint, in the body's order. ``base``: x m, y m, theta rad on the floor.
-    ``posture``: the last one reached. ``leds``: 0xRRGGBB by light. ``released``: parts of the body
-    whose motors are off. ``felt``: what sensors were told to measure. ``sees``: where things are
-    on the floor (x, y, z m).
+    ``posture``: the last one reached. ``gesture_words``: which gestures go with what it says.
+    ``leds``: 0xRRGGBB by light. ``released``: parts of the body whose motors are off;
+    ``stiffness``: of joints that were set singly, 0 to 1. ``felt``: what sensors were told to
+    measure. ``sees``: where things are on the floor (x, y, z m) that it was told to see.
+    ``stance``: how it stands on the floor. ``fallen``: it lies there because it lost its balance.
+    ``things``: what is around it; ``noticed``: what of that it sees, and where; ``bumped``: the
+    bumpers with which it ran into something; ``battery``: 0 to 1. ``model``: which robot it is,
+    as RobotState has it.
     """
 
     name: str
     body: Body
     animations: Animations
     posture: str = "Stand"
+    gesture_words: GestureWords = field(default_factory=GestureWords)
     angles: Angles = field(init=False)
     base: Angles = field(default_factory=lambda: np.zeros(3))
     leds: dict[str, int] = field(default_factory=lambda: dict(leds.AT_START))
     saying: str = ""
     listening: tuple[str, ...] = ()
     released: frozenset[str] = frozenset()
+    stiffness: dict[str, float] = field(default_factory=dict)
     felt: dict[str, float] = field(default_factory=dict)
     sees: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    fallen: bool = False
+    things: tuple[Thing, ...] = ()
+    noticed: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    bumped: frozenset[str] = frozenset()
+    battery: float = 1.0
+    model: str = ""
+    stance: Stance = field(init=False)
     settings: dict[str, bool | float | str] = field(default_factory=lambda: dict(AT_START))
 
     def __post_init__(self) -> None:
         self.angles = self.body.posture_angles(self.posture)
+        down = self.body.postures[self.posture].down
+        self.stance = Stance(Skeleton(self.body), self.angles, down)
+
+    @property
+    def seen(self) -> dict[str, tuple[float, float, float]]:
+        """Where on the floor is what it sees and hears: what it was told, and what it noticed."""
+        return {**self.noticed, **self.sees}
 
     @property
     def family(self) -> str:

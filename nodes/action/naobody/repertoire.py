@@ -7,10 +7,10 @@ import math
 from nep_core.errors import ActionFailed
 from nodes.action.naobody import actions as a
 from nodes.action.naobody import body_actions as b
-from nodes.action.naobody import body_tasks, gaze, leds, light_tasks, tasks
+from nodes.action.naobody import body_tasks, gaze, leds, light_tasks, speaking, tasks, walking
 from nodes.action.naobody import sense_actions as s
-from nodes.action.naobody.animations import NO_GESTURE
 from nodes.action.naobody.limbs import MOVING, Limb
+from nodes.action.naobody.motor_tasks import at_pace, motor_limbs, motor_task
 from nodes.action.naobody.parts import PLAIN_NAMES, parts_of_limbs, single_parts
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.postures import posture_name
@@ -27,10 +27,8 @@ LOCKS_BY_ITSELF = (a.Do, b.WakeUp, b.Rest, b.Stiffness)
 def limbs_of(robot: VirtualRobot, action: a.Action) -> frozenset[Limb]:
     """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
     match action:
-        case a.Say(gesture=gesture) if gesture == NO_GESTURE:
-            return frozenset({Limb.VOICE})
         case a.Say():
-            return robot.animations.get(action.gesture, "gesture").limbs | {Limb.VOICE}
+            return speaking.speaking_limbs(robot, action)
         case a.Imitate():
             return robot.animations.get(action.animal, "animal").limbs
         case a.Play(mirror=mirrored):
@@ -73,7 +71,7 @@ def _other_limbs(robot: VirtualRobot, action: a.Action) -> frozenset[Limb]:
             return frozenset({Limb.EARS})
     if reason := s.NEEDS_REAL_ROBOT.get(type(action)):
         raise ActionFailed(reason.format(name=robot.name))
-    return frozenset()
+    return motor_limbs(robot, action)
 
 
 def task_of(robot: VirtualRobot, action: a.Action) -> tasks.Task:
@@ -81,6 +79,8 @@ def task_of(robot: VirtualRobot, action: a.Action) -> tasks.Task:
     parts = parts_of_limbs(limbs_of(robot, action))
     if isinstance(action, LOCKS_BY_ITSELF):
         return _task(robot, action)
+    if motors := motor_task(robot, action):
+        return motors
     return _locked(robot, parts, _task(robot, action))
 
 
@@ -97,9 +97,9 @@ def _locked(robot: VirtualRobot, parts: frozenset[str], task: tasks.Task) -> tas
 def _task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
     match action:
         case a.Say():
-            return tasks.say(robot, action.text, action.gesture, action.speed / 100.0)
+            return speaking.say(robot, action)
         case a.Do():
-            return _posture(robot, action.posture)
+            return at_pace(robot, _posture(robot, action.posture), action.pace)
         case a.Imitate():
             return tasks.play(robot, robot.animations.get(action.animal, "animal"))
         case a.Play():
@@ -107,9 +107,9 @@ def _task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
             return tasks.play(robot, animation, tasks.changed(animation.keyframes, action))
         case a.Walk():
             turn = math.radians(action.turn_deg)
-            return tasks.walk(robot, action.forward_m, action.left_m, turn)
+            return walking.walk(robot, action.forward_m, action.left_m, turn)
         case a.Turn():
-            return tasks.walk(robot, 0.0, 0.0, math.radians(action.degrees))
+            return walking.walk(robot, 0.0, 0.0, math.radians(action.degrees))
         case b.WalkFreely():
             return body_tasks.walk_freely(robot, action)
         case a.Look():
@@ -171,6 +171,7 @@ def _body_or_setting_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
 def _posture(robot: VirtualRobot, word: str) -> tasks.Task:
     """Take a posture with all joints locked: what is released cannot hold one."""
     robot.released = frozenset()
+    robot.stiffness = {}
     return (yield from tasks.take_posture(robot, posture_name(robot.body, word)))
 
 

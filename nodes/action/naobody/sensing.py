@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import math
-
 from nep_core.messages import SenseRequest
 from nep_core.words import plain, state_of_thing, state_of_word
 from nodes.action.naobody.gaze import to_world
+from nodes.action.naobody.handling import push, put
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.sensors import TOUCH_SENSORS
+from nodes.action.naobody.surroundings import distance_word
 
 THINGS = ("face", "ball", "sound", "mark")
-CLOSE_M, MIDDLE_M = 1.0, 2.0
+HANDLED = {"push": push, "place": put}
 
 
 def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
@@ -20,17 +20,14 @@ def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
         return [state_of_word(request.name)] if plain(request.name) else []
     if request.sense in THINGS:
         return _see(robot, request)
+    if request.sense in HANDLED:
+        HANDLED[request.sense](robot, request.place)
+        return []
     was_touched = robot.felt.get(request.sense, 0.0) > 0.0
     robot.felt[request.sense] = request.value
     if request.sense in TOUCH_SENSORS and request.value > 0.0 and not was_touched:
         return _touched(request.sense)
     return []
-
-
-def distance_word(place: tuple[float, float, float]) -> str:
-    """Return how far a person at a place (m from the robot's feet) is: close, middle or far."""
-    way_m = math.hypot(*place[:2])
-    return "close" if way_m < CLOSE_M else "middle" if way_m < MIDDLE_M else "far"
 
 
 def _see(robot: VirtualRobot, request: SenseRequest) -> list[str]:

@@ -11,46 +11,35 @@ from collections.abc import Collection, Generator
 
 import numpy as np
 
-from nep_core.errors import ActionFailed
 from nodes.action.naobody import leds
 from nodes.action.naobody.actions import Play
-from nodes.action.naobody.animations import NO_GESTURE, Animation
+from nodes.action.naobody.animations import Animation
 from nodes.action.naobody.body import Angles
-from nodes.action.naobody.gait import plan_walk
+from nodes.action.naobody.curves import minimum_jerk, ticks
 from nodes.action.naobody.keyframes import Keyframes
-from nodes.action.naobody.limbs import MOVING, Limb
+from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import (
     POSTURE_SPEED,
     TICK_S,
     Motion,
     approach_delay_s,
-    braking,
-    braking_way_s,
     keyframe_motion,
     move,
 )
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.postures import posture_path
 from nodes.action.naobody.speech import speaking_time_s
+from nodes.action.naobody.stance import Leaning, between, leaning_s
 
 Task = Generator[None, None, str]
 
-WALKING_POSTURE = "StandInit"
 LOOKING_SPEED = 0.3
 RETURN_SPEED = 0.5
+MOVED_FEET_M = 0.01
+"""Feet that are so far from where they were said to be have moved."""
 SHORTEST_GESTURE = 0.8
 """A gesture is not played in less than this part of its time, even if the words are shorter."""
 DOES_NOT_STAND = {"sitting": "sits", "lying": "lies", "crouching": "crouches", "resting": "rests"}
-
-
-def say(robot: VirtualRobot, text: str, gesture: str, speed: float = 1.0) -> Task:
-    """Speak, moving as the gesture says, over and over until the words end."""
-    seconds = speaking_time_s(text) / speed
-    tasks = [speak(robot, text, seconds)]
-    if gesture != NO_GESTURE and seconds > 0.0:
-        animation = robot.animations.get(gesture, "gesture")
-        tasks.append(play(robot, animation, _fitted(robot, animation.keyframes, seconds)))
-    return (yield from at_once(tasks))
 
 
 def speak(robot: VirtualRobot, text: str, seconds: float) -> Task:
@@ -65,11 +54,42 @@ def speak(robot: VirtualRobot, text: str, seconds: float) -> Task:
 
 
 def take_posture(robot: VirtualRobot, goal: str) -> Task:
-    """Move to a posture, through the postures that lie between."""
-    for posture in posture_path(robot.body, robot.posture, goal):
-        yield from go(robot, posture, MOVING)
+    """Move to a posture, through the postures and key poses that lie between."""
+    body = robot.body
+    for posture in posture_path(body, robot.posture, goal):
+        for pose in body.key_poses(robot.posture, posture):
+            yield from lean(robot, np.array(pose.angles), np.array(pose.down))
+        yield from lean(robot, body.posture_angles(posture), resting_down(robot, posture))
         robot.posture = posture
+    if robot.family != "lying":
+        robot.fallen = False
+    feet = robot.stance.feet_base()
+    if robot.family == "standing" and not np.allclose(robot.base, feet, atol=MOVED_FEET_M):
+        robot.base = feet
     return ""
+
+
+def lean(robot: VirtualRobot, goal: Angles, down: Angles) -> Task:
+    """Move all joints to a pose while the torso leans over to where ``down`` is down in it."""
+    body, before = robot.body, robot.stance.down
+    motion = move(
+        body, robot.angles, goal, range(len(body.names)), at_least_s=leaning_s(before, down)
+    )
+    if np.allclose(robot.angles, goal, atol=1e-4) and np.allclose(before, down, atol=1e-3):
+        return ""
+    progress = minimum_jerk(ticks(motion.duration_s, TICK_S) / motion.duration_s)
+    for part, _ in zip(progress, play_motion(robot, motion), strict=True):
+        robot.stance.guide = Leaning(between(before, down, float(part)))
+        yield
+    return ""
+
+
+def resting_down(robot: VirtualRobot, posture: str) -> Angles:
+    """Return which way is down in the torso of a robot that rests in a posture."""
+    known = robot.body.postures[posture]
+    turn = robot.stance.skeleton.resting_turn(robot.body.posture_angles(posture), known.down)
+    down: Angles = -turn[2]
+    return down
 
 
 def play(robot: VirtualRobot, animation: Animation, keyframes: Keyframes | None = None) -> Task:
@@ -80,37 +100,6 @@ def play(robot: VirtualRobot, animation: Animation, keyframes: Keyframes | None 
     if animation.says:
         tasks.append(speak(robot, animation.says, speaking_time_s(animation.says)))
     return (yield from at_once(tasks))
-
-
-def walk(
-    robot: VirtualRobot,
-    forward_m: float,
-    left_m: float,
-    turn: float,
-    *,
-    at_least_steps: int = 1,
-) -> Task:
-    """Walk over the floor with steps, turning by ``turn`` rad on the way.
-
-    Raises ActionFailed when the robot does not stand.
-    """
-    if robot.family in DOES_NOT_STAND:
-        raise ActionFailed(
-            f"{robot.name} {DOES_NOT_STAND[robot.family]}: it must stand before it can walk. "
-            'Let it do "posture_stand" first.'
-        )
-    if not (forward_m or left_m or turn):
-        return ""
-    yield from go(robot, WALKING_POSTURE, {Limb.LEGS})
-    robot.posture = WALKING_POSTURE
-    standing = robot.body.posture_angles(WALKING_POSTURE)
-    plan = plan_walk(robot.body, standing, forward_m, left_m, turn, at_least_steps=at_least_steps)
-    start = robot.base
-    for place, _ in zip(plan.base, play_motion(robot, plan.legs), strict=True):
-        robot.base = moved_base(start, place)
-        yield
-    robot.base = moved_base(start, np.array([forward_m, left_m, turn]))
-    return ""
 
 
 def look(robot: VirtualRobot, yaw: float, pitch: float) -> Task:
@@ -127,30 +116,12 @@ def look(robot: VirtualRobot, yaw: float, pitch: float) -> Task:
 
 def light(robot: VirtualRobot, group: str, colour: int, seconds: float) -> Task:
     """Fade a group of lights to a colour."""
-    before = {name: robot.leds[name] for name in leds.lights(group)}
+    before = {name: leds.shining(robot.leds, name) for name in leds.lights(group)}
     steps = max(1, round(seconds / TICK_S))
     for step in range(1, steps + 1):
         for name, old in before.items():
-            robot.leds[name] = leds.mixed(old, colour, step / steps)
+            leds.shine(robot.leds, name, leds.mixed(old, colour, step / steps))
         yield
-    return ""
-
-
-def come_to_rest(
-    robot: VirtualRobot, limbs: Collection[Limb], joint_speed: Angles, base_speed: Angles
-) -> Task:
-    """Brake some limbs from the speeds they have: every joint's (rad/s), the base's (m/s, rad/s).
-
-    A standing robot that stops its legs also puts its feet back under itself.
-    """
-    motion = braking(robot.body, robot.angles, joint_speed, robot.body.columns(limbs))
-    start = robot.base
-    for part, _ in zip(braking_way_s(), play_motion(robot, motion), strict=True):
-        if Limb.LEGS in limbs:
-            robot.base = start + part * base_speed
-        yield
-    if Limb.LEGS in limbs and robot.family == "standing":
-        yield from go(robot, robot.posture, {Limb.LEGS})
     return ""
 
 
@@ -206,7 +177,7 @@ def changed(keyframes: Keyframes, action: Play) -> Keyframes:
     return keyframes.stretched(action.stretch)
 
 
-def _fitted(robot: VirtualRobot, keyframes: Keyframes, seconds: float) -> Keyframes:
+def fitted(robot: VirtualRobot, keyframes: Keyframes, seconds: float) -> Keyframes:
     """Return a gesture as often as goes into some seconds, a little faster or slower to fit."""
     seconds -= approach_delay_s(robot.body, robot.angles, keyframes)
     repeats = max(1, round(seconds / keyframes.duration_s))

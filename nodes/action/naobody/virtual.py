@@ -2,24 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from nep_core.errors import ActionFailed
-from nep_core.messages import RobotState, SenseRequest
+from nep_core.messages import RobotState, SenseRequest, Thing
 from nodes.action.naobody.actions import Action
 from nodes.action.naobody.driver import Connection, Ended
+from nodes.action.naobody.falling import (
+    fall,
+    fallen_sentence,
+    gives_way,
+    sink,
+    steadily,
+    sunk_sentence,
+)
 from nodes.action.naobody.gaze import from_world
+from nodes.action.naobody.idling import Idling
 from nodes.action.naobody.limbs import MOVING, Limb
 from nodes.action.naobody.motion import TICK_S
 from nodes.action.naobody.parts import SINGLE_PARTS
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.repertoire import limbs_of, task_of
+from nodes.action.naobody.sagging import Sagging
 from nodes.action.naobody.sensing import sense
-from nodes.action.naobody.sensors import measured
-from nodes.action.naobody.tasks import Task, come_to_rest
+from nodes.action.naobody.sensors import measured, turning_rad_s
+from nodes.action.naobody.surroundings import Notice
+from nodes.action.naobody.tasks import Task
+from nodes.action.naobody.walking import come_to_rest
+
+LOOKING_S = 0.1
+BATTERY_S = 90.0 * 60.0
+"""So long a full battery lasts. Source: NAO documentation, in normal use."""
+FELL = "robot_fell"
+"""What is told when the robot has lost its balance."""
 
 
 class VirtualDriver:
@@ -34,14 +52,28 @@ class VirtualDriver:
         self._clock_s = now_s
         self._running: dict[str, _Running] = {}
         self._held_up: dict[str, _Running] = {}  # until limbs that brake have come to rest
-        self._braking: list[Task] = []
+        self._braking: list[_Running] = []
         self._joint_speed = np.zeros(len(robot.body.names))
-        self._base_speed = np.zeros(3)
+        self._turning = np.zeros(3)
+        self._idling = Idling(robot)
+        self._sagging = Sagging(robot)
+        self._notice = Notice(robot)
+        self._noticed: list[str] = []
+        self._next_look_s = now_s
 
     @property
     def moving(self) -> bool:
-        """Whether the robot does something."""
-        return bool(self._running or self._held_up or self._braking)
+        """Whether the robot does something, if only by itself."""
+        return self.is_busy or self._idling.is_active or self._sagging.is_active
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether the robot does something that it was asked for, or falls."""
+        return bool(self._running or self._held_up or self._braking or not self._is_steady)
+
+    @property
+    def _is_steady(self) -> bool:
+        return self.robot.stance.is_steady
 
     def connect(self) -> None:
         """Be connected at once: the robot is in this process."""
@@ -58,9 +90,12 @@ class VirtualDriver:
 
     def start(self, command_id: str, action: Action) -> None:
         """Begin an action; ``step`` tells when it has ended."""
+        limbs = self.limbs(action)
         task = task_of(self.robot, action)
+        if limbs & MOVING:
+            task = steadily(self.robot, task)
         started = self._held_up if self._braking else self._running
-        started[command_id] = _Running(task, self.limbs(action))
+        started[command_id] = _Running(task, limbs)
 
     def stop(self, command_ids: Collection[str]) -> None:
         """End some actions: their joints brake, which holds up later actions for a moment."""
@@ -71,16 +106,23 @@ class VirtualDriver:
                 stopped.task.close()
                 limbs |= stopped.limbs
         if limbs & MOVING:
-            rest = come_to_rest(self.robot, limbs, self._joint_speed, self._base_speed)
-            self._braking.append(rest)
+            rest = come_to_rest(self.robot, limbs, self._joint_speed)
+            self._braking.append(_Running(rest, frozenset(limbs)))
+
+    def surroundings(self, things: Sequence[Thing]) -> None:
+        """Take in what stands around the robot; it notices by itself what is in sight."""
+        self.robot.things = tuple(things)
+        self._next_look_s = self._clock_s
 
     def step(self, now_s: float) -> list[Ended]:
         """Go on to a time, or to the first tick in which a command ends."""
+        self._look_around(now_s)
         while self.moving and self._clock_s + TICK_S <= now_s:
             self._clock_s += TICK_S
             if ended := self._tick():
                 return ended
         if not self.moving:
+            self._use_battery(now_s - self._clock_s)
             self._clock_s = now_s
         return []
 
@@ -90,15 +132,18 @@ class VirtualDriver:
         x, y, theta = (float(value) for value in robot.base)
         return RobotState(
             robot=robot.name,
+            model=robot.model,
             joints=dict(zip(robot.body.names, robot.angles.round(5).tolist(), strict=True)),
             base=(x, y, theta),
+            torso=robot.stance.pose,
+            fallen=robot.fallen,
             posture=robot.posture,
             leds=dict(robot.leds),
             saying=robot.saying,
             moving=self.moves_joints,
-            battery=robot.felt.get("battery", 1.0),
-            sensors=measured(robot, self._joint_speed, self._base_speed),
-            sees={thing: from_world(robot, place) for thing, place in robot.sees.items()},
+            battery=round(robot.felt.get("battery", robot.battery), 3),
+            sensors=measured(robot, self._joint_speed, self._turning),
+            sees={thing: from_world(robot, place) for thing, place in robot.seen.items()},
             settings=self._settings(),
             listening=list(robot.listening),
         )
@@ -106,6 +151,17 @@ class VirtualDriver:
     def sense(self, request: SenseRequest) -> list[str]:
         """Feel, see or hear something; return the human states that follow from it."""
         return sense(self.robot, request)
+
+    def expect(self, words: Sequence[str]) -> None:
+        """Do nothing: it hears every word."""
+
+    def noticed(self) -> list[str]:
+        """Return the human states that the robot has noticed by itself since the last call."""
+        noticed, self._noticed = self._noticed, []
+        return noticed
+
+    def halt(self) -> None:
+        """Do nothing: ``stop`` has ended all that this robot does."""
 
     @property
     def moves_joints(self) -> bool:
@@ -120,15 +176,52 @@ class VirtualDriver:
         return {**robot.settings, "awake": awake, **locked}
 
     def _tick(self) -> list[Ended]:
-        angles, base = self.robot.angles.copy(), self.robot.base.copy()
-        self._braking = [task for task in self._braking if not _is_over(task)]
+        angles, turn = self.robot.angles.copy(), self.robot.stance.turn
+        self._use_battery(TICK_S)
+        self._braking = [one for one in self._braking if not _is_over(one.task)]
         ended = [end for name in tuple(self._running) if (end := self._advance(name))]
         if not self._braking:
             self._running |= self._held_up
             self._held_up.clear()
+        self._idling.step(self._used_limbs(), self._clock_s)
+        self._sagging.step()
+        self.robot.stance.follow(self.robot.angles, TICK_S)
         self._joint_speed = (self.robot.angles - angles) / TICK_S
-        self._base_speed = (self.robot.base - base) / TICK_S
+        self._turning = turning_rad_s(turn, self.robot.stance.turn, TICK_S)
+        if self.robot.stance.has_lost_balance and not self.robot.fallen:
+            ended += self._fall()
+        elif gives_way(self.robot):
+            sentence = sunk_sentence(self.robot)
+            ended += self._instead(sink(self.robot), sentence, frozenset({Limb.LEGS}))
+        self._look_around(self._clock_s)
         return ended
+
+    def _used_limbs(self) -> frozenset[Limb]:
+        """Return the limbs that move for a command, or come to rest."""
+        running = [*self._running.values(), *self._held_up.values(), *self._braking]
+        return frozenset(limb for one in running for limb in one.limbs)
+
+    def _look_around(self, now_s: float) -> None:
+        """Notice what is in sight, some times a second."""
+        if now_s >= self._next_look_s:
+            self._next_look_s = now_s + LOOKING_S
+            self._noticed += self._notice.look(now_s)
+
+    def _use_battery(self, seconds: float) -> None:
+        self.robot.battery = max(0.0, self.robot.battery - seconds / BATTERY_S)
+
+    def _fall(self) -> list[Ended]:
+        """Fall down; what moved the body has failed."""
+        self._noticed.append(FELL)
+        return self._instead(fall(self.robot), fallen_sentence(self.robot), MOVING)
+
+    def _instead(self, task: Task, sentence: str, limbs: frozenset[Limb]) -> list[Ended]:
+        """Do something instead of all that uses some limbs, which has failed."""
+        moving = [name for name, one in self._running.items() if one.limbs & limbs]
+        for name in moving:
+            self._running.pop(name).task.close()
+        self._braking = [_Running(task, limbs)]
+        return [Ended(name, "failed", sentence) for name in moving]
 
     def _advance(self, command_id: str) -> Ended | None:
         try:

@@ -11,6 +11,7 @@ from nep_core.messages import ActionRequest, ActionResult
 from nodes.action.naobody.actor import FINAL, Actor
 from nodes.action.naobody.animations import load_animations
 from nodes.action.naobody.body import Angles, load_body
+from nodes.action.naobody.body_language import load_gesture_words
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.virtual import VirtualDriver
 
@@ -24,7 +25,7 @@ class Stage:
     """One actor; results are kept as text such as "1 started", angles and bases of every tick."""
 
     def __init__(self, posture: str = "Stand") -> None:
-        self.robot = VirtualRobot("NAO", BODY, ANIMATIONS, posture)
+        self.robot = VirtualRobot("NAO", BODY, ANIMATIONS, posture, load_gesture_words(NAO))
         self.driver = VirtualDriver(self.robot)
         self.actor = Actor("NAO", self.driver)
         self.now_s = 0.0
@@ -51,7 +52,7 @@ class Stage:
         """Let time pass until the robot rests; the seconds that took."""
         start_s = self.now_s
         self.pass_time(TICK_S)
-        while self.driver.moving or self.actor.schedule.waiting:
+        while self.driver.is_busy or self.actor.schedule.waiting:
             self.pass_time(TICK_S)
             assert self.now_s - start_s < at_most_s, "it never ends"
         return self.now_s - start_s

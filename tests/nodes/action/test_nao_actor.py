@@ -111,7 +111,8 @@ def test_a_mirrored_wave_uses_the_left_arm() -> None:
     stage.finish()
 
     assert all((row[right] == stage.angles[0][right]).all() for row in stage.angles)
-    assert min(row[BODY.index["LShoulderPitch"]] for row in stage.angles) == pytest.approx(-1.15)
+    highest = min(row[BODY.index["LShoulderPitch"]] for row in stage.angles)
+    assert highest == pytest.approx(-1.15, abs=0.01)
 
 
 def test_stretch_makes_it_longer_and_reverse_ends_where_it_began() -> None:
@@ -215,9 +216,9 @@ def test_stopping_when_nothing_is_done_is_done() -> None:
         ("turn", {"degrees": math.nan}, "degrees should be a number"),
         ("turn", {"degrees": math.inf}, "degrees should be a number at most 3600"),
         ("walk", {"forward_m": 1e9}, "forward_m should be a number at most 20"),
-        ("play", {"animation": "jump"}, "Possible: batting, bow"),
+        ("play", {"animation": "jump"}, 'no animation "jump". Possible: '),
         ("play", {"animation": "nod", "stretch": 0}, "stretch should be a number at least 0.1"),
-        ("imitate", {"animal": "wave"}, 'no animal "wave". Possible: cat, crow'),
+        ("imitate", {"animal": "wave"}, 'no animal "wave". Possible: cat, '),
         ("do", {"posture": "posture_fly"}, "posture_lying_belly"),
     ],
 )  # fmt: skip

@@ -5,21 +5,23 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from nao_capsules import ALLOWED_M, balance_m, depths
 from nao_skeleton import NAO, point
 from nao_stage import ANIMATIONS, BODY, Stage
 
 from nep_core.errors import NodeStartError
 from nodes.action.naobody.animations import Animation, load_animation
 from nodes.action.naobody.body import Angles
+from nodes.action.naobody.keyframes import Track
 from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import TICK_S, keyframe_motion
 
 WAVE = (NAO / "animations" / "wave.toml").read_text()
 
 
-def played(animation: Animation) -> Angles:
+def played(animation: Animation, posture: str = "Stand") -> Angles:
     """Every joint's angle at every tick, from the posture that the animation starts from."""
-    start = BODY.posture_angles(animation.starts_from or "Stand")
+    start = BODY.posture_angles(animation.starts_from or posture)
     motion = keyframe_motion(BODY, start, animation.keyframes)
     angles = np.repeat(start[None], len(motion.angles), axis=0)
     angles[:, motion.columns] = motion.angles
@@ -40,7 +42,9 @@ def test_every_animation_is_within_limits_and_speeds_as_written(name: str) -> No
     assert_possible_as_written(ANIMATIONS.get(name))
 
 
-@pytest.mark.parametrize(("old", "new"), [("1.22,", "0.92,"), ("-1.15]", "-2.15]")])
+@pytest.mark.parametrize(
+    ("old", "new"), [("at = 1.22", "at = 0.98"), ("ShoulderPitch = -65.9", "ShoulderPitch = -125")]
+)
 def test_a_planted_animation_that_is_too_fast_or_too_wide_is_found(
     old: str, new: str, tmp_path: Path
 ) -> None:
@@ -51,12 +55,64 @@ def test_a_planted_animation_that_is_too_fast_or_too_wide_is_found(
         assert_possible_as_written(load_animation(path, BODY))
 
 
-def test_all_that_the_robot_profile_offers_is_there() -> None:
+def test_all_that_the_robot_profile_offers_is_there_and_all_that_is_there_is_offered() -> None:
     choices = tomllib.loads((NAO / "robot.toml").read_text())["choices"]
 
-    assert set(choices["animations"]) <= set(ANIMATIONS.names("animation"))
-    assert set(choices["animals"]) <= set(ANIMATIONS.names("animal"))
-    assert set(choices["say_gestures"]) - {"no_gesture"} <= set(ANIMATIONS.names("gesture"))
+    assert set(choices["animations"]) == set(ANIMATIONS.names("animation"))
+    assert set(choices["animals"]) == set(ANIMATIONS.names("animal"))
+    assert set(choices["say_gestures"]) - {"no_gesture"} == set(ANIMATIONS.names("gesture"))
+
+
+def test_there_are_many_animations() -> None:
+    assert len(ANIMATIONS.names()) >= 45
+    assert len(ANIMATIONS.names("animal")) >= 14
+    assert len(ANIMATIONS.names("gesture")) >= 20
+
+
+@pytest.mark.parametrize("name", ["katana", "batting", "hand_up", "karate", "strech_up"])
+def test_the_five_gestures_that_people_make_can_be_shown_by_the_robot(name: str) -> None:
+    assert ANIMATIONS.get(name, "animation").title
+
+
+@pytest.mark.parametrize("name", ANIMATIONS.names())
+def test_every_animation_is_written_as_poses_that_say_what_they_are(name: str) -> None:
+    file = tomllib.loads((NAO / "animations" / f"{name}.toml").read_text())
+
+    assert len(file["poses"]) >= 3
+    assert all(pose["doing"] for pose in file["poses"])
+
+
+@pytest.mark.parametrize("name", ANIMATIONS.names())
+def test_arms_pass_through_nothing(name: str) -> None:
+    deep = {part: m for part, m in depths(played(ANIMATIONS.get(name))[::2]).items() if m > 0}
+
+    assert all(m <= ALLOWED_M for m in deep.values()), deep
+
+
+def test_a_planted_hand_in_the_belly_is_found() -> None:
+    angles = BODY.posture_angles("StandZero")
+    angles[BODY.index["LShoulderPitch"]] = 1.6
+    angles[BODY.index["LElbowRoll"]] = -1.5
+    angles[BODY.index["LShoulderRoll"]] = -0.2
+
+    assert depths(angles[None])["L arm in torso"] > ALLOWED_M
+
+
+@pytest.mark.parametrize("posture", ["Stand", "StandInit"])
+@pytest.mark.parametrize("name", ANIMATIONS.names())
+def test_nao_keeps_its_balance(name: str, posture: str) -> None:
+    animation = ANIMATIONS.get(name)
+    if animation.starts_from not in ("", posture):
+        posture = animation.starts_from
+
+    assert balance_m(played(animation, posture)[::4]) >= 0.01
+
+
+def test_a_planted_pose_that_falls_is_found() -> None:
+    angles = BODY.posture_angles("StandInit")
+    angles[[BODY.index["LAnklePitch"], BODY.index["RAnklePitch"]]] -= 0.4
+
+    assert balance_m(angles[None]) < 0.01
 
 
 @pytest.mark.parametrize("name", ANIMATIONS.names("gesture"))
@@ -164,24 +220,72 @@ def test_the_frog_squats_and_jumps() -> None:
     assert sole.min() < -0.32 and sole.max() > -0.26
 
 
+KEYS = """
+title = "Wave"
+description = "Waves."
+kind = "animation"
+
+[joints.RElbowRoll]
+times = [0.9, 1.22]
+keys = [0.5, 1.05]
+
+[joints.RHand]
+times = [0.9]
+keys = [0.0]
+"""
+POSES = """
+title = "Wave"
+description = "Waves."
+kind = "animation"
+
+[[poses]]
+at = 0.9
+doing = "lifts both hands"
+arms = { ShoulderRoll = 30, Hand = 1 }
+head = { Yaw = -10 }
+
+[[poses]]
+at = 1.22
+doing = "lowers the right one"
+right_arm = { ShoulderRoll = -10 }
+"""
+
+
+def test_a_file_may_have_poses_in_degrees_with_both_arms_as_in_a_mirror(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(POSES)
+
+    tracks = load_animation(path, BODY).keyframes.tracks
+
+    assert tracks["LShoulderRoll"] == Track((0.9,), (0.5236,))
+    assert tracks["RShoulderRoll"] == Track((0.9, 1.22), (-0.5236, -0.17453))
+    assert tracks["HeadYaw"] == Track((0.9,), (-0.17453,))
+    assert tracks["LHand"] == tracks["RHand"] == Track((0.9,), (1.0,))
+
+
 @pytest.mark.parametrize(
-    ("old", "new", "place"),
+    ("text", "old", "new", "place"),
     [
-        ("RElbowYaw", "RElbowJaw", "joints.RElbowJaw: the robot has no such joint"),
-        ("times = [0.9]\nkeys  = [0.0]", "times = [0.9]\nkeys = []", "1 times for 0 keys"),
-        ("1.22,", "0.5,", "every time must be"),
-        ("1.05,", "inf,", "infinite"),
-        ('kind = "animation"', 'kind = "film"', "Invalid enum value 'film'"),
-        ('kind = "animation"', 'kind = "animation"\nstarts_from = "Fly"', "no posture Fly"),
-        ("RElbowYaw", "RKneePitch", "needs a posture"),
-        ('title = "Wave"', "title = ", "Invalid value"),
+        (KEYS, "RElbowRoll", "RElbowJaw", "joints.RElbowJaw: the robot has no such joint"),
+        (KEYS, "keys = [0.0]", "keys = []", "1 times for 0 keys"),
+        (KEYS, "1.22]", "0.5]", "every time must be"),
+        (KEYS, "1.05]", "inf]", "infinite"),
+        (KEYS, 'kind = "animation"', 'kind = "film"', "Invalid enum value 'film'"),
+        (KEYS, "kind =", 'starts_from = "Fly"\nkind =', "no posture Fly"),
+        (KEYS, "RElbowRoll", "RKneePitch", "needs a posture"),
+        (KEYS, 'title = "Wave"', "title = ", "Invalid value"),
+        (KEYS + POSES[POSES.index("[[") :], "", "", "a file has either of them"),
+        (POSES, "at = 1.22", "at = 0.5", "lowers the right one: it must be later than 0.9 s"),
+        (POSES, "at = 1.22", "at = nan", "it must be later than 0.9 s"),
+        (POSES, "ShoulderRoll = 30", "Trunk = 30", "joints.LTrunk: the robot has no such joint"),
+        (POSES, "head =", "tail =", "unknown field `tail`"),
     ],
 )
 def test_a_wrong_file_is_told_by_name_and_place(
-    old: str, new: str, place: str, tmp_path: Path
+    text: str, old: str, new: str, place: str, tmp_path: Path
 ) -> None:
     path = tmp_path / "mine.toml"
-    path.write_text(WAVE.replace(old, new, 1))
+    path.write_text(text.replace(old, new, 1) if old else text)
 
     with pytest.raises(NodeStartError) as told:
         load_animation(path, BODY)

@@ -12,7 +12,7 @@ from nao_skeleton import frames
 from nao_stage import BODY, Stage
 
 from nep_core.messages import SenseRequest
-from nodes.action.naobody.gaze import arm_angles, torso_height_m
+from nodes.action.naobody.gaze import arm_angles
 
 
 def angle_deg(stage: Stage, joint: str) -> float:
@@ -48,9 +48,9 @@ def test_no_joint_ever_leaves_its_limits_or_its_speed(
 
     result = stage.do("move_joint", joint=joint, degrees=degrees, relative=relative)
 
-    assert result.state == "done"
+    assert result.state == "failed" if stage.robot.fallen else "done"
     assert np.allclose(stage.robot.angles, BODY.clamped(stage.robot.angles)[0])
-    assert (stage.relative_speeds <= 0.31).all()
+    assert (stage.relative_speeds <= (0.51 if stage.robot.fallen else 0.31)).all()
 
 
 def test_both_hips_turn_with_their_one_motor() -> None:
@@ -133,6 +133,12 @@ def test_stop_moving_lets_it_go_on_speaking() -> None:
     assert "walk cancelled" in stage.told and "say done" in stage.told
 
 
+def seen_by_torso(stage: Stage, place: tuple[float, float, float]) -> np.ndarray:
+    """A place on the floor in the frame of the torso, which may lean."""
+    stance = stage.robot.stance
+    return stance.turn.T @ (np.array(place) - stance.place)
+
+
 @pytest.mark.parametrize("place", [(1, 0, 0.5), (1, 1, 0.3), (0.5, -0.4, 0.6), (2, 0.2, 0.1)])
 def test_it_looks_at_a_place(place: tuple[float, float, float]) -> None:
     stage = Stage()
@@ -140,7 +146,7 @@ def test_it_looks_at_a_place(place: tuple[float, float, float]) -> None:
     stage.do("look_at", x_m=place[0], y_m=place[1], z_m=place[2])
 
     turn, neck = frames(stage.robot.angles)["Head"]
-    to_place = np.array(place) - [0, 0, torso_height_m(stage.robot)] - neck
+    to_place = seen_by_torso(stage, place) - neck
     assert turn @ [1, 0, 0] == pytest.approx(to_place / np.linalg.norm(to_place), abs=1e-3)
 
 
@@ -166,7 +172,7 @@ def test_it_points_at_a_place_with_the_arm_that_is_nearer(
 
     letter = side[0].upper()
     turn, shoulder = frames(stage.robot.angles)[f"{letter}Bicep"]
-    to_place = np.array(place) - [0, 0, torso_height_m(stage.robot)] - shoulder
+    to_place = seen_by_torso(stage, place) - shoulder
     assert result.description == ""
     assert turn @ [1, 0, 0] == pytest.approx(to_place / np.linalg.norm(to_place), abs=1e-3)
     assert stage.robot.angles[BODY.index[f"{letter}Hand"]] == pytest.approx(1.0)
@@ -176,7 +182,7 @@ def test_it_points_at_a_place_with_the_arm_that_is_nearer(
 def test_angles_of_an_arm_are_numbers_for_every_place(
     place: tuple[float, float, float], side: str
 ) -> None:
-    assert all(math.isfinite(angle) for angle in arm_angles(place, side))
+    assert all(math.isfinite(angle) for angle in arm_angles(place, side, BODY))
 
 
 def test_without_a_face_it_says_that_it_sees_none() -> None:

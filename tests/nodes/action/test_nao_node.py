@@ -67,7 +67,25 @@ def theatre(network: PeerNetwork) -> Iterator[Theatre]:
 def test_its_manifest_is_right() -> None:
     parameters = read_manifest(MANIFEST).read_parameters({})
 
-    assert parameters == {"robot": "NAO", "driver": "virtual", "address": "", "speed": 1.0}
+    assert parameters == {
+        "robot": "NAO",
+        "driver": "virtual",
+        "address": "",
+        "speed": 1.0,
+        "animations": "",
+        "naoqi_port": 0,
+    }
+
+
+def test_it_plays_the_animations_of_a_folder_too(theatre: Theatre, tmp_path: Path) -> None:
+    hop = 'title = "Hop"\ndescription = ""\nkind = "animation"\n'
+    keys = "[joints.HeadPitch]\ntimes = [0.5]\nkeys = [0.3]\n"
+    (tmp_path / "hop.toml").write_text(hop + keys)
+    theatre.ready(speed=20, animations=str(tmp_path))
+
+    theatre.ask("r1", "play", "NAO", animation="hop")
+
+    assert theatre.results_until("r1", "done")[0] == "NAO r1 accepted"
 
 
 def test_a_program_makes_it_speak_walk_and_imitate(theatre: Theatre) -> None:

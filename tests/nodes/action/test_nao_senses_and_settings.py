@@ -75,7 +75,8 @@ def test_sensors_of_a_quiet_standing_nao() -> None:
 def test_it_feels_how_it_lies_and_that_its_feet_carry_nothing() -> None:
     sensors = state(Stage("LyingBack")).sensors
 
-    assert (sensors["acc_x"], sensors["foot_left"]) == (pytest.approx(-9.81), 0.0)
+    assert sensors["acc_x"] == pytest.approx(-9.81, abs=0.05)
+    assert sensors["foot_left"] < 1.0
 
 
 def test_a_walk_shifts_its_weight_and_takes_current() -> None:

@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from nao_stage import ANIMATIONS, BODY, Stage
 
 from nep_core.errors import ActionFailed
 from nodes.action.naobody import leds
+from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.speech import speaking_time_s
 
 
@@ -47,12 +49,15 @@ def test_it_says_so_as_long_as_it_speaks() -> None:
 def test_gestures_move_the_arms_for_as_long_as_the_words_last(gesture: str) -> None:
     stage = Stage()
     text = "This is quite a long sentence, so that the arms have something to do. Is it not?"
-    hand = BODY.index["RShoulderPitch"]
+    arms = BODY.columns({Limb.LEFT_ARM, Limb.RIGHT_ARM, Limb.HEAD})
+    before = stage.robot.angles[arms].copy()
 
     stage.ask("1", "say", text=text, gesture=gesture)
     took_s = stage.finish()
 
-    moved = [i * 0.01 for i, row in enumerate(stage.angles) if abs(row[hand] - 1.443) > 0.01]
+    moved = [
+        i * 0.01 for i, row in enumerate(stage.angles) if np.abs(row[arms] - before).max() > 0.01
+    ]
     assert min(moved) < 1.0 and max(moved) > speaking_time_s(text) - 0.5
     assert took_s == pytest.approx(speaking_time_s(text), abs=1.5)
     assert (stage.relative_speeds <= 1.001).all()
@@ -63,7 +68,7 @@ def test_an_unknown_gesture_is_answered_with_those_there_are() -> None:
     result = Stage().do("say", text="Hi", gesture="jump")
 
     assert result.state == "failed"
-    assert 'no gesture "jump"' in result.description and "explain, greet" in result.description
+    assert 'no gesture "jump"' in result.description and "greet" in result.description
 
 
 def test_lights_fade_from_one_colour_to_another() -> None:

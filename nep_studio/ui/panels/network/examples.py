@@ -34,6 +34,8 @@ EXAMPLES: Mapping[str, Mapping[str, Any]] = {
     m.PROGRAM_CONTROL: {"command": "pause", "program": "program"},
     m.GESTURE_REQUEST: {"gesture": "karate", "person": -1},
     m.SENSE_REQUEST: {"robot": "NAO", "sense": "head_front", "value": 1.0},
+    m.SURROUNDINGS: {"things": [{"id": "ball1", "kind": "ball", "place": [0.5, 0.0, 0.05]}]},
+    m.EXPECTED_WORDS: {"words": ["hello", "goodbye"]},
 }
 """One for each topic that has a struct; what the struct adds by itself is left out."""
 

@@ -1,56 +1,84 @@
-"""The robots panel: a card for each robot of the project, and for each that is heard."""
+"""The robots panel: one scene with all robots of the project, and a card for each."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING
 
 import msgspec
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
 
 from nep_core import messages as m
 from nep_studio.blocks.language import Language
-from nep_studio.plan import PlannedNode
 from nep_studio.ui.main_window_panels import Panel
-from nep_studio.ui.panels.nodes.looks import StateLook, state_look
+from nep_studio.ui.panels.nodes.looks import state_look
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.speech.adding import Sound, sound_of
 from nep_studio.ui.theme import Look
 from nep_studio.ui.words import tr
 
-from .card import RobotCard, RobotPlan
+from .asking import Asking
+from .card import RobotCard
 from .doings import Doings
+from .floor import Floor, floor_of
+from .large_window import LargeWindow
+from .plans import RobotPlan, look_of, robots_of
+from .stage import RobotStage
+from .starts import ORIGIN, Base, Starts, start_places, starts_of
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
 
-ACTION = "action/"
+MOST_FOR_CARDS = 0.45
+"""Never is more of the panel's height given to the cards by itself."""
 
 
-class RobotsPanel(QScrollArea):
-    """Shows the robots; it listens to them only while it is seen."""
+class RobotsPanel(QWidget):
+    """Shows the robots; it listens to them only while it, or its large window, is seen."""
 
-    def __init__(self, runner: Runner, language: Language, look: Look) -> None:
+    def __init__(
+        self,
+        runner: Runner,
+        language: Language,
+        look: Look,
+        floor: Floor,
+        sound: Sound,
+        starts: Starts,
+    ) -> None:
         super().__init__()
         self._runner, self._language, self._look = runner, language, look
+        self._asking, self._starts = Asking(runner), starts
         self._doings = Doings(language, tr)
         self._tap: Tap | None = None
+        self._is_arranged = False
         self._heard: dict[str, m.RobotState] = {}
+        self._begin_at: dict[str, Base] = {}
         self.cards: dict[str, RobotCard] = {}
-        self.hint = QLabel()
+        self.large: LargeWindow | None = None
+        self.stage = RobotStage(look, floor, sound, language.choices.get("touch_parts", {}))
+        self.hint, self.elsewhere = QLabel(), QPushButton(tr("Back into the panel"))
         self._lay_out()
+        self.stage.touched.connect(self._asking.touch)
+        self.stage.chosen.connect(self._on_chosen)
+        self.stage.large_switched.connect(self.show_large)
+        self.elsewhere.clicked.connect(lambda: self.show_large(False))
         runner.arrived.connect(self._on_arrived)
         runner.nodes_changed.connect(self._on_nodes_changed)
         runner.state_changed.connect(self._on_state_changed)
         runner.disconnected.connect(self._on_disconnected)
 
     def _lay_out(self) -> None:
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setAccessibleName(tr("Robots"))
         self.hint.setText(
             tr("No robot takes part yet. Add one on the Robots page: it may be one on this screen.")
@@ -58,24 +86,47 @@ class RobotsPanel(QScrollArea):
         self.hint.setWordWrap(True)
         self.hint.setProperty("role", "hint")
         self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        inner = QWidget()
-        self._box = QVBoxLayout(inner)
-        self._box.addWidget(self.hint)
-        self._box.addStretch(1)
-        self.setWidget(inner)
+        self.elsewhere.hide()
+        inner, line = QWidget(), self.fontMetrics().height()
+        self._cards_box = QVBoxLayout(inner)
+        self._cards_box.setContentsMargins(0, 0, 0, 0)
+        self._cards_box.addWidget(self.hint)
+        self._cards_box.addStretch(1)
+        self.area = QScrollArea()
+        self.area.setWidgetResizable(True)
+        self.area.setFrameShape(QFrame.Shape.NoFrame)
+        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.area.setWidget(inner)
+        self.split = QSplitter(Qt.Orientation.Vertical)
+        self.split.setChildrenCollapsible(False)
+        for widget in (self.stage, self.area):
+            self.split.addWidget(widget)
+        self.split.setStretchFactor(0, 1)
+        self.split.splitterMoved.connect(self._on_split_moved)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line // 3, line // 3, line // 3, line // 3)
+        box.addWidget(self.elsewhere)
+        box.addWidget(self.split)
 
     def sizeHint(self) -> QSize:
-        """Room for one robot."""
+        """Room for the scene and one card."""
         line = self.fontMetrics().height()
-        return QSize(line * 16, line * 24)
+        return QSize(line * 18, line * 26)
 
     # What is shown
 
+    @property
+    def is_seen(self) -> bool:
+        """Whether somebody can look at robots here, or in the large window."""
+        return self.isVisible() or (self.large is not None and self.large.isVisible())
+
     def refresh(self) -> None:
         """Take the robots of the project as it is now; does nothing while it is hidden."""
-        if not self.isVisible():
+        if not self.is_seen:
             return
-        plans = {plan.name: plan for plan in robots_of(self._runner.planned())}
+        planned = self._runner.planned()
+        plans = {plan.name: plan for plan in robots_of(planned)}
+        self._begin_at = start_places(planned)
         for name in [*self._heard, *self._nodes_there()]:
             plans.setdefault(name, RobotPlan(name))
         for name in self.cards.keys() - plans.keys():
@@ -85,9 +136,38 @@ class RobotsPanel(QScrollArea):
         for place, plan in enumerate(plans.values()):
             card = self.cards.get(plan.name) or self._add_card(plan)
             card.show_plan(plan)
-            self._box.insertWidget(place, card)
+            self._cards_box.insertWidget(place, card)
             self._show_robot(plan.name)
+        self.stage.keep_robots(list(plans))
+        self._give_room()
         self.hint.setVisible(not self.cards)
+
+    def _give_room(self) -> None:
+        """Let the cards have the room that they need, unless somebody has chosen it."""
+        total = sum(self.split.sizes())
+        wanted = min(self._cards_box.sizeHint().height(), round(total * MOST_FOR_CARDS))
+        if total and not self._is_arranged and self.large is None:
+            self.split.setSizes([total - wanted, wanted])
+
+    def _on_split_moved(self) -> None:
+        self._is_arranged = True
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the height anew."""
+        super().resizeEvent(event)
+        self._give_room()
+
+    def show_large(self, is_large: bool) -> None:
+        """Show the scene in a window of its own, or in the panel again."""
+        if is_large and self.large is None:
+            self.large = LargeWindow(self.stage, self)
+            self.large.closed.connect(self._on_large_closed)
+            self.large.installEventFilter(self)
+            self.large.show()
+        elif not is_large and self.large is not None:
+            self.large.close()
+        self.elsewhere.setVisible(self.large is not None)
+        self.stage.tools.show_large(self.large is not None)
 
     def _nodes_there(self) -> list[str]:
         nodes = self._runner.board.nodes.values()
@@ -95,7 +175,9 @@ class RobotsPanel(QScrollArea):
 
     def _add_card(self, plan: RobotPlan) -> RobotCard:
         card = self.cards[plan.name] = RobotCard(plan, self._language, self._look)
-        card.touched.connect(partial(self._on_touched, plan.name))
+        card.touched.connect(partial(self._asking.touch, plan.name))
+        card.help_asked.connect(partial(self._asking.help_up, plan.name))
+        card.start_asked.connect(partial(self._on_start_asked, plan.name))
         return card
 
     def _show_robot(self, name: str) -> None:
@@ -104,10 +186,13 @@ class RobotsPanel(QScrollArea):
         if status is not None:
             look, is_there = state_look(status), status.is_there
         else:
-            look, is_there = _look_of(state), state is not None
+            look, is_there = look_of(state), state is not None
         card.show_health(look, is_there=is_there)
-        if is_there and state is not None:
-            card.show_state(state)
+        shown = state if is_there else None
+        start, is_real = self._begin_at.get(name, ORIGIN), card.plan.is_real
+        self.stage.show_robot(name, shown, start=start, is_real=is_real)
+        if shown is not None:
+            card.show_state(shown)
             card.show_doings(self._doings.words(name))
 
     # What happens
@@ -124,7 +209,7 @@ class RobotsPanel(QScrollArea):
             self._show_robot(name)
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
-        if not self.isVisible():
+        if not self.is_seen:
             return
         told = [message for _, message in batch if self._doings.hear(message)]
         names = {one.robot for one in told if isinstance(one, m.ActionResult)}
@@ -151,50 +236,64 @@ class RobotsPanel(QScrollArea):
         self._doings.clear()
         self.refresh()
 
-    def _on_touched(self, robot: str, sensor: str, is_pressed: bool) -> None:
-        request = m.SenseRequest(robot=robot, sense=sensor, value=float(is_pressed))
-        self._runner.send(m.SENSE_REQUEST, request)
+    def _on_chosen(self, robot: str) -> None:
+        if card := self.cards.get(robot):
+            self.area.ensureWidgetVisible(card)
+
+    def _on_start_asked(self, robot: str) -> None:
+        self._starts.put_back(robot)
+        self.stage.view.clear_paths()
+
+    def _on_large_closed(self) -> None:
+        self.large = None
+        self.split.insertWidget(0, self.stage)
+        self._give_room()
+        self.elsewhere.hide()
+        self.stage.tools.show_large(False)
+        self._listen()
+
+    # Listening
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow whether the large window is seen."""
+        if event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
+            self._listen()
+        return super().eventFilter(watched, event)
+
+    def _listen(self) -> None:
+        """Hear where robots are while somebody looks; what they did meanwhile is not known."""
+        if self.is_seen and self._tap is None:
+            self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
+            self._tap.arrived.connect(self._on_states)
+            self.refresh()
+        elif not self.is_seen and self._tap is not None:
+            self._tap.close()
+            self._tap = None
+            self._doings.clear()
 
     def showEvent(self, event: QShowEvent) -> None:
         """Begin to listen."""
         super().showEvent(event)
-        if self._tap is None:
-            self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
-            self._tap.arrived.connect(self._on_states)
+        self.stage.view.show()
+        self._listen()
         self.refresh()
 
     def hideEvent(self, event: QHideEvent) -> None:
-        """Listen no more; what robots did meanwhile is not known then."""
+        """Listen no more, unless the large window is seen."""
         super().hideEvent(event)
-        if self._tap is not None:
-            self._tap.close()
-            self._tap = None
-        self._doings.clear()
-
-
-def robots_of(planned: Iterable[PlannedNode]) -> list[RobotPlan]:
-    """The robots among the nodes that a project needs."""
-    return [
-        RobotPlan(
-            str(node.parameters.get("robot", node.name)),
-            node.parameters.get("driver") == "naoqi",
-            str(node.parameters.get("address", "")),
-        )
-        for node in planned
-        if node.node.startswith(ACTION)
-    ]
-
-
-def _look_of(state: m.RobotState | None) -> StateLook:
-    """How a robot is whose node has told nothing yet."""
-    if state is None:
-        return StateLook("circle-dashed", "muted", tr("Not started"))
-    return StateLook("circle-check", "success", tr("Ready"))
+        self._listen()
 
 
 def add_robots_panel(window: MainWindow) -> Panel:
     """Put the robots beside the canvas; they follow the Robots page."""
     studio = window.studio
-    panel = RobotsPanel(window.running.runner, studio.language, studio.look)
+    panel = RobotsPanel(
+        window.running.runner,
+        studio.language,
+        studio.look,
+        floor_of(window),
+        sound_of(window),
+        starts_of(window),
+    )
     window.workbench.problems_found.connect(lambda _problems: panel.refresh())
     return window.add_side_panel(panel, tr("Robots"), "bot", "right", is_shown=False)

@@ -1,0 +1,148 @@
+"""The animations of a project: movements that were made for it, which its blocks then offer.
+
+Each is kept in the project's file under a key of its own, so that each has a line there and a step
+of undo. Which joints a robot has, and how far they go, only its node knows.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from collections.abc import Container, Iterator, Mapping
+from itertools import pairwise
+from typing import Literal, get_args
+
+import msgspec
+
+from .edits import SetExtra
+from .file_text import in_words
+from .program import Project
+from .values import why_not_name, why_not_text
+
+AnimationKind = Literal["animation", "animal", "gesture"]
+Handle = tuple[float, float, float, float]
+"""A Bezier key's two handles: time (s) and angle (rad) before the key, time and angle after it."""
+
+PREFIX = "animation_"
+"""What the keys of animations begin with in the project's file."""
+
+SHORTEST_STEP_S = 0.01
+MOST_JOINTS = 100
+MOST_KEYS = 2000
+LONGEST_S = 3600.0
+LARGEST_ANGLE = 10.0
+KINDS = get_args(AnimationKind)
+TABLES: dict[AnimationKind, tuple[str, ...]] = {
+    "animation": ("animations",),
+    "animal": ("animals", "animations"),
+    "gesture": ("say_gestures", "animations"),
+}
+"""The tables of choices in which each kind is offered: everything can be played."""
+
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
+class JointKeys(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """What one joint does: times (s, rising, the first above 0), angles (rad), Bezier handles."""
+
+    times: tuple[float, ...]
+    keys: tuple[float, ...]
+    handles: tuple[Handle, ...] | None = None
+
+
+class OwnAnimation(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A movement; ``starts_from`` is the posture it begins in, empty when it goes with any."""
+
+    title: str
+    joints: dict[str, JointKeys]
+    kind: AnimationKind = "animation"
+    description: str = ""
+    starts_from: str = ""
+    says: str = ""
+
+    @property
+    def duration_s(self) -> float:
+        """When the last key is reached."""
+        return max((joint.times[-1] for joint in self.joints.values()), default=0.0)
+
+
+def own_animations(project: Project) -> dict[str, OwnAnimation]:
+    """The animations of a project by name."""
+    return {
+        key.removeprefix(PREFIX): msgspec.convert(value, OwnAnimation)
+        for key, value in project.extra.items()
+        if key.startswith(PREFIX) and why_not_animation(key.removeprefix(PREFIX), value) is None
+    }
+
+
+def keep(name: str, animation: OwnAnimation | None) -> SetExtra:
+    """The edit that keeps an animation under a name; None takes it away."""
+    value = None if animation is None else msgspec.to_builtins(animation)
+    return SetExtra(PREFIX + name, value)
+
+
+def why_not_animation(name: str, value: object) -> str | None:
+    """Why this cannot be an animation of a project, as a sentence, or None when it can."""
+    if not _NAME.fullmatch(name):
+        return "its name may have small letters, digits and _ in it, and begins with a letter."
+    try:
+        animation = msgspec.convert(value, OwnAnimation)
+    except msgspec.ValidationError as error:
+        return f"{in_words(error)}."
+    return next(_reasons(animation), None)
+
+
+def _reasons(animation: OwnAnimation) -> Iterator[str]:
+    if (reason := why_not_name(animation.title)) is not None:
+        yield f"its title: {reason}"
+    for text in (animation.description, animation.starts_from, animation.says):
+        if (reason := why_not_text(text)) is not None:
+            yield reason
+    if not 0 < len(animation.joints) <= MOST_JOINTS:
+        yield f"it must move 1 to {MOST_JOINTS} joints."
+    for name, joint in animation.joints.items():
+        if (reason := why_not_keys(joint)) is not None:
+            yield f"{name[:40]}: {reason}"
+
+
+def why_not_keys(joint: JointKeys) -> str | None:
+    """Why a joint cannot do this, as a sentence, or None when it can."""
+    handles = joint.handles if joint.handles is not None else ((0.0,) * 4,) * len(joint.keys)
+    if not len(joint.times) == len(joint.keys) == len(handles):
+        return f"{len(joint.times)} times and {len(handles)} handles for {len(joint.keys)} keys."
+    if not 0 < len(joint.keys) <= MOST_KEYS:
+        return f"it must have 1 to {MOST_KEYS} keys."
+    numbers = (*joint.times, *joint.keys, *(n for handle in handles for n in handle))
+    if not all(map(math.isfinite, numbers)):
+        return "each number must be finite."
+    if joint.times[-1] > LONGEST_S or any(abs(key) > LARGEST_ANGLE for key in joint.keys):
+        return f"it lasts {LONGEST_S:g} s at most, with angles up to {LARGEST_ANGLE:g} rad."
+    times = (0.0, *joint.times)
+    if any(late - early < SHORTEST_STEP_S - 1e-9 for early, late in pairwise(times)):
+        return f"each key must be at least {SHORTEST_STEP_S} s later than the one before it."
+    return None
+
+
+def free_name(title: str, taken: Container[str]) -> str:
+    """A name for an animation with this title, which none of the others has."""
+    bare = unicodedata.normalize("NFKD", title.casefold().replace("ß", "ss"))
+    letters = "".join(c for c in bare if not unicodedata.combining(c))
+    name = re.sub(r"[^a-z0-9]+", "_", letters).strip("_")[:32].strip("_")
+    name = name if name[:1].isalpha() else f"motion_{name}".rstrip("_")
+    number, found = 2, name
+    while found in taken:
+        found, number = f"{name}_{number}", number + 1
+    return found
+
+
+def choices_with(
+    choices: Mapping[str, Mapping[str, str]], project: Project
+) -> dict[str, Mapping[str, str]]:
+    """Tables of choices with the project's animations after those that every project has."""
+    found = dict(choices)
+    for name, animation in own_animations(project).items():
+        for table in TABLES[animation.kind]:
+            if choices.get(table):  # an absent table means that any value passes
+                found[table] = {**found[table], name: animation.title}
+    return found

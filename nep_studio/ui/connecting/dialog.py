@@ -1,0 +1,256 @@
+"""The dialog that connects a real robot: choose or write its address, test it, use it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QFormLayout,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.screens import room_around
+from nep_studio.ui.theme import Look
+from nep_studio.ui.words import tr
+
+from .found_list import FoundList
+from .looking import RobotTest
+from .steps import StepsView, card_around
+
+if TYPE_CHECKING:
+    from nodes.action.naoqi.probe import AboutRobot, Check
+
+USUAL_USER = "nao"
+
+
+class ConnectDialog(QDialog):
+    """``used`` gives the robot of the project, then address, user, password and fingerprint."""
+
+    used = Signal(str, str, str, str, str)
+
+    def __init__(self, robots: list[str], look: Look, parent: QWidget | None = None) -> None:
+        """``robots`` are those of the project, the one that is meant first."""
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(tr("Connect a robot"))
+        self.found = FoundList(look)
+        self.steps = StepsView(look)
+        self.test = RobotTest(self)
+        self.robot = QComboBox()
+        self.robot.addItems(robots)
+        self.address, self.user, self.password = QLineEdit(), QLineEdit(USUAL_USER), QLineEdit()
+        self.asks_password = QCheckBox(tr("It asks for user and password"))
+        self.test_button = QPushButton(tr("Test the connection"))
+        self.use_button = QPushButton(tr("Use this robot"))
+        self.close_button = QPushButton(tr("Close"))
+        self.about = QLabel()
+        self._about_card = card_around(self.about, "info")
+        self._tested = ("", "", "", "")
+        self._lay_out()
+        self._connect()
+        self._update()
+
+    def open(self) -> None:
+        """Show it, and begin to look for robots."""
+        super().open()
+        self.found.start()
+        self.address.setFocus()
+
+    # Layout
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        page = QWidget()
+        column = QVBoxLayout(page)
+        column.setContentsMargins(0, 0, line // 2, 0)
+        column.setSpacing(line * 2 // 3)
+        column.addWidget(_heading(tr("Robots in this network")))
+        column.addWidget(self.found)
+        column.addWidget(_heading(tr("Its address")))
+        column.addLayout(self._form())
+        column.addWidget(self.steps)
+        self.about.setWordWrap(True)
+        self.about.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        column.addWidget(self._about_card)
+        column.addStretch(1)
+        self._area = area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setWidget(page)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line // 2)
+        box.addWidget(area, 1)
+        box.addLayout(self._foot())
+        room = room_around(self.parentWidget()).size()
+        self.resize(min(line * 32, room.width()), min(line * 40, round(room.height() * 0.9)))
+
+    def _form(self) -> QFormLayout:
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
+        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
+        self.address.setPlaceholderText("192.168.1.10")
+        self.password.setEchoMode(QLineEdit.EchoMode.Password)
+        form.addRow(_label(tr("Address"), self.address), self.address)
+        form.addRow("", self.asks_password)
+        self._user_label = _label(tr("User"), self.user)
+        self._password_label = _label(tr("Password"), self.password)
+        form.addRow(self._user_label, self.user)
+        form.addRow(self._password_label, self.password)
+        self._kept = QLabel(
+            tr("The password is kept on this computer, for you alone. It is in no project.")
+        )
+        self._kept.setWordWrap(True)
+        self._kept.setProperty("role", "hint")
+        form.addRow("", self._kept)
+        form.addRow(_label(tr("In this project it is"), self.robot), self.robot)
+        self.test_button.setProperty("kind", "primary")
+        self.test_button.setDefault(True)
+        row = QHBoxLayout()
+        row.addWidget(self.test_button)
+        row.addStretch(1)
+        form.addRow("", row)
+        return form
+
+    def _foot(self) -> QHBoxLayout:
+        foot = QHBoxLayout()
+        foot.addStretch(1)
+        self.use_button.setProperty("kind", "primary")
+        for button in (self.close_button, self.use_button):
+            button.setAutoDefault(False)
+            foot.addWidget(button)
+        self.found.button.setAutoDefault(False)
+        return foot
+
+    def _connect(self) -> None:
+        self.found.chosen.connect(self._on_chosen)
+        self.address.textEdited.connect(self._on_changed)
+        self.user.textEdited.connect(self._on_changed)
+        self.password.textEdited.connect(self._on_changed)
+        self.asks_password.toggled.connect(self._on_changed)
+        self.test_button.clicked.connect(self._on_test)
+        self.test.checked.connect(self._on_checked)
+        self.test.ended.connect(self._on_ended)
+        self.use_button.clicked.connect(self._on_use)
+        self.close_button.clicked.connect(self.reject)
+
+    # What happens
+
+    def show_address(self, address: str, user: str = "", password: str = "") -> None:
+        """Begin with an address that is known, and its login if there is one."""
+        self.address.setText(address)
+        if password:
+            self.asks_password.setChecked(True)
+            self.user.setText(user)
+            self.password.setText(password)
+        self._update()
+
+    @property
+    def _login(self) -> tuple[str, str]:
+        if not self.asks_password.isChecked():
+            return "", ""
+        return self.user.text().strip(), self.password.text()
+
+    def _on_chosen(self, address: str) -> None:
+        self.address.setText(address)
+        self._on_changed()
+
+    def _on_changed(self) -> None:
+        """What was tested is not what is written any more."""
+        self.test.stop()
+        self.steps.clear()
+        self._tested = ("", "", "", "")
+        self._update()
+
+    def _update(self) -> None:
+        wants_login = self.asks_password.isChecked()
+        rows = (self._user_label, self.user, self._password_label, self.password, self._kept)
+        for widget in rows:
+            widget.setVisible(wants_login)
+        is_good = self._tested[0] != ""
+        self.test_button.setEnabled(bool(self.address.text().strip()) and not self.test.is_running)
+        self.use_button.setEnabled(is_good)
+        self._about_card.setVisible(is_good)
+
+    def _on_test(self) -> None:
+        self.found.stop()
+        self._tested = ("", "", "", "")
+        self.steps.begin()
+        self._area.ensureWidgetVisible(self.steps)
+        user, password = self._login
+        name = self.robot.currentText() or "NAO"
+        self.test.start(self.address.text(), user, password, name)
+        self._update()
+
+    def _on_checked(self, check: Check) -> None:
+        self.steps.take(check)
+        if check.step == "login" and not check.is_ok:
+            self.asks_password.blockSignals(True)  # what was told of the test stays
+            self.asks_password.setChecked(True)
+            self.asks_password.blockSignals(False)
+        if check.about is not None:
+            self._tested = (self.address.text().strip(), *self._login, check.about.fingerprint)
+            self.about.setText(about_words(check.about))
+        self._update()
+
+    def _on_ended(self, _problem: str) -> None:
+        self.test.stop()
+        self._update()
+        self._area.ensureWidgetVisible(self._about_card if self._tested[0] else self.steps)
+        if self.use_button.isEnabled():
+            self.use_button.setFocus()
+            self.use_button.setDefault(True)
+
+    def _on_use(self) -> None:
+        self.used.emit(self.robot.currentText(), *self._tested)
+        self.accept()
+
+    def done(self, result: int) -> None:
+        """Look and test no longer."""
+        self.found.search.stop()
+        self.test.stop()
+        super().done(result)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Look and test no longer."""
+        self.found.search.stop()
+        self.test.stop()
+        super().closeEvent(event)
+
+
+def about_words(about: AboutRobot) -> str:
+    """What a robot says of itself, one line each."""
+    lines = [tr("Name: {name}", name=about.name or "NAO")]
+    if about.battery >= 0:
+        lines.append(tr("Battery: {percent} %", percent=round(about.battery * 100)))
+    if about.version:
+        lines.append(tr("NAOqi: {version}", version=about.version))
+    if about.body:
+        lines.append(tr("Body: {body}", body=about.body))
+    return "\n".join(lines)
+
+
+def _heading(words: str) -> QLabel:
+    label = QLabel(words)
+    label.setProperty("role", "heading")
+    return label
+
+
+def _label(words: str, buddy: QWidget) -> QLabel:
+    label = QLabel(words)
+    label.setBuddy(buddy)
+    buddy.setAccessibleName(words)
+    return label

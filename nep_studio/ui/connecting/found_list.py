@@ -1,0 +1,125 @@
+"""The robots that were found in the network, with the search that finds them."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QHideEvent
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.theme import Look, icon
+from nep_studio.ui.words import count_words, tr
+
+from .looking import RobotSearch
+
+SEARCH_S = 4.0
+ADDRESS = Qt.ItemDataRole.UserRole
+ROWS = 3
+
+
+class FoundList(QWidget):
+    """``chosen`` gives the address of the robot that a person picks."""
+
+    chosen = Signal(str)
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self.interfaces: tuple[str, ...] = ()
+        self.search = RobotSearch(self)
+        self.robots = QListWidget()
+        self.told = QLabel()
+        self.progress = QProgressBar()
+        self.button = QPushButton()
+        self._lay_out()
+        self.search.found.connect(self._on_found)
+        self.search.ended.connect(self._on_ended)
+        self.robots.currentItemChanged.connect(self._on_chosen)
+        self.robots.itemClicked.connect(self._on_chosen)
+        self.button.clicked.connect(self._on_pressed)
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        self.robots.setAccessibleName(tr("Robots in this network"))
+        self.robots.setIconSize(QSize(round(line * 1.4), round(line * 1.4)))
+        self.robots.setFixedHeight(round(line * 1.9) * ROWS)
+        self.told.setWordWrap(True)
+        self.told.setProperty("role", "hint")
+        self.progress.setRange(0, 0)
+        self.progress.setTextVisible(False)
+        self.progress.setMaximumHeight(max(4, line // 3))
+        self.progress.setAccessibleName(tr("Looking for robots…"))
+        foot = QHBoxLayout()
+        foot.addWidget(self.told, 1)
+        foot.addWidget(self.button)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(line // 3)
+        box.addWidget(self.robots)
+        box.addWidget(self.progress)
+        box.addLayout(foot)
+
+    def start(self) -> None:
+        """Look for robots, for a few seconds."""
+        self.robots.clear()
+        self.told.setText(tr("Looking for robots…"))
+        self.button.setText(tr("Stop looking"))
+        self.progress.setVisible(True)
+        self.search.start(SEARCH_S, self.interfaces)
+
+    def stop(self) -> None:
+        """Look no longer."""
+        self.search.stop()
+        self._show_end("")
+
+    def _on_pressed(self) -> None:
+        if self.search.is_running:
+            self.stop()
+        else:
+            self.start()
+
+    def _on_found(self, name: str, address: str) -> None:
+        item = QListWidgetItem(icon("bot", self._look.theme), f"{name}   {address}")
+        item.setData(ADDRESS, address)
+        item.setToolTip(address)
+        self.robots.addItem(item)
+
+    def _on_ended(self, problem: str) -> None:
+        self.search.stop()
+        self._show_end(problem)
+
+    def _show_end(self, problem: str) -> None:
+        self.progress.setVisible(False)
+        self.button.setText(tr("Look again"))
+        self.told.setText(self._outcome(problem))
+
+    def _outcome(self, problem: str) -> str:
+        count = self.robots.count()
+        if count:
+            return count_words(count, "1 robot was found.", "{n} robots were found.")
+        if problem:
+            return tr(
+                "This computer cannot look for robots: it is in no network. Connect it to the"
+                " network of the robot."
+            )
+        return tr(
+            "No robot has announced itself. Press its chest button once: it says its address."
+            " Write it below."
+        )
+
+    def _on_chosen(self, item: QListWidgetItem | None) -> None:
+        if item is not None:
+            self.chosen.emit(item.data(ADDRESS))
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Nobody looks at what is found any more."""
+        super().hideEvent(event)
+        self.search.stop()

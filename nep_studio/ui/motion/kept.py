@@ -1,0 +1,110 @@
+"""The motions of the project that is open, and those that come with the robot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
+
+from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.operations.animations import (
+    Use,
+    animation_uses,
+    delete_animation,
+    keep_animation,
+    rename_animation,
+)
+from nep_studio.blocks.own_animations import (
+    JointKeys,
+    OwnAnimation,
+    own_animations,
+)
+from nodes.action.naobody.animations import Animation, load_animation
+from nodes.action.naobody.body import Body
+from nodes.action.naobody.keyframes import Keyframes
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.editor import Editor
+    from nep_studio.ui.documents_files import Files
+
+TABLES = ("animations", "animals", "say_gestures")
+
+
+class KeptMotions:
+    """What can be opened, and where it is saved."""
+
+    def __init__(self, files: Files, folder: Path, body: Body) -> None:
+        self._files, self._folder, self._body = files, folder / "animations", body
+
+    @property
+    def editor(self) -> Editor | None:
+        """The editor of the project that is open, if one is."""
+        return self._files.document.editor if self._files.document is not None else None
+
+    def own(self) -> dict[str, OwnAnimation]:
+        """The motions that the project keeps, by name."""
+        return own_animations(self.editor.project) if self.editor is not None else {}
+
+    def shipped(self) -> dict[str, str]:
+        """The titles of the motions that come with the robot, by name."""
+        if self.editor is None:
+            return {}
+        own, tables = self.own(), self.editor.language.choices
+        found = {name: words for t in TABLES for name, words in tables.get(t, {}).items()}
+        return {
+            name: words
+            for name, words in sorted(found.items(), key=lambda item: item[1].casefold())
+            if name not in own and (self._folder / f"{name}.toml").is_file()
+        }
+
+    def load(self, name: str) -> OwnAnimation:
+        """A motion that comes with the robot; raises NodeStartError."""
+        animation = as_own(load_animation(self._folder / f"{name}.toml", self._body))
+        return replace(animation, title=self.shipped().get(name, animation.title))
+
+    def save(self, motion: OwnAnimation, name: str, use: Use | None = None) -> str:
+        """Keep a motion in the project; gives its name. Raises EditRefused.
+
+        With another title it gets another name, in the blocks that play it too. The block of
+        ``use`` plays it from now on.
+        """
+        editor = self.editor
+        assert editor is not None
+        known = self.own().get(name)
+        with editor.transaction("keep a motion"):
+            if known is not None and known.title != motion.title:
+                name = rename_animation(editor, name, motion.title)
+            name = keep_animation(editor, motion, name if known is not None else "")
+            if use is not None and use.block in editor.project.blocks:
+                editor.apply(SetField(use.block, use.slot, name))
+        return name
+
+    def uses(self, name: str) -> int:
+        """How many blocks of the project play a motion."""
+        return len(animation_uses(self.editor, name)) if self.editor is not None else 0
+
+    def delete(self, name: str) -> None:
+        """Take a motion out of the project."""
+        if self.editor is not None and name in self.own():
+            delete_animation(self.editor, name)
+
+
+def as_own(animation: Animation) -> OwnAnimation:
+    """A motion that comes with the robot, as one that a project can keep."""
+    return OwnAnimation(
+        animation.title,
+        joints_of(animation.keyframes),
+        animation.kind,
+        animation.description,
+        animation.starts_from,
+        animation.says,
+    )
+
+
+def joints_of(keyframes: Keyframes) -> dict[str, JointKeys]:
+    """Keyframes as a project keeps them."""
+    return {
+        name: JointKeys(track.times, track.keys, track.handles)
+        for name, track in keyframes.tracks.items()
+    }

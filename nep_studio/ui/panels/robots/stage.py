@@ -1,0 +1,194 @@
+"""The scene of the robots: all of them in one room, with tools, and things that can be moved."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSize, Signal
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QVBoxLayout, QWidget
+
+from nep_core.messages import RobotState, Thing, ThingKind
+from nep_studio.surroundings import moved, named, new_thing, turned
+from nep_studio.ui.speech.adding import Sound
+from nep_studio.ui.theme import Look
+from nep_studio.ui.words import tr
+
+from .floor import Floor
+from .stage_keys import StageKeys
+from .stage_tools import StageTools
+from .starts import ORIGIN, Base
+from .thing_bar import ThingBar, thing_words
+
+if TYPE_CHECKING:
+    from nep_studio.ui.robot_view.view import RobotView
+
+
+class RobotStage(QWidget):
+    """Shows robots and what stands around them; the view is made when it is first looked at.
+
+    ``touched`` gives a robot, its sensor, and whether it is pressed or let go; ``chosen`` a robot.
+    """
+
+    touched = Signal(str, str, bool)
+    chosen = Signal(str)
+    large_switched = Signal(bool)
+
+    def __init__(
+        self, look: Look, floor: Floor, sound: Sound, touch_names: Mapping[str, str]
+    ) -> None:
+        super().__init__()
+        self._look, self.floor, self._sound = look, floor, sound
+        self._touch_names = touch_names
+        self._view: RobotView | None = None
+        self._keys: StageKeys | None = None
+        self._chosen_id = ""
+        self._held: Thing | None = None
+        self._shown: dict[str, tuple[RobotState | None, Base]] = {}
+        self.tools = StageTools(look)
+        self.thing_bar = ThingBar(look)
+        self.invitation = QPushButton(tr("Place a person before the robots"))
+        self._lay_out()
+        self._connect()
+        self._on_floor_changed()
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        self.invitation.setProperty("kind", "quiet")
+        self.invitation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self._box = QVBoxLayout(self)
+        self._box.setContentsMargins(0, 0, 0, 0)
+        self._box.setSpacing(line // 5)
+        self._box.addWidget(self.tools)
+        self._box.addWidget(self.invitation)
+        self._box.addWidget(self.thing_bar)
+
+    def _connect(self) -> None:
+        tools, bar = self.tools, self.thing_bar
+        tools.view_asked.connect(lambda preset: self.view.look_from(preset))
+        tools.fit_asked.connect(lambda: self.view.fit())
+        tools.follow_switched.connect(self._on_follow_switched)
+        tools.place_asked.connect(self.place)
+        tools.thing_asked.connect(self._on_thing_asked)
+        tools.clear_asked.connect(lambda: self.view.clear_paths())
+        tools.sound_switched.connect(self._sound.switch)
+        tools.large_switched.connect(self.large_switched)
+        self._sound.switched.connect(tools.show_sound)
+        tools.show_sound(self._sound.is_on)
+        self.invitation.clicked.connect(lambda: self.place("person"))
+        bar.named.connect(lambda name: self._change(lambda thing: named(thing, name)))
+        bar.turned.connect(self._on_turned)
+        bar.removed.connect(self.remove)
+        bar.closed.connect(lambda: self.choose(""))
+        self.floor.changed.connect(self._on_floor_changed)
+
+    @property
+    def view(self) -> RobotView:
+        """The view; numpy is loaded with it."""
+        if self._view is None:
+            from nep_studio.ui.robot_view.view import RobotView
+
+            view = self._view = RobotView(self._look, self._touch_names)
+            view.setMinimumHeight(self.fontMetrics().height() * 8)
+            self._box.insertWidget(1, view, 1)
+            keys = self._keys = StageKeys(view)
+            view.touched.connect(self.touched)
+            view.robot_chosen.connect(self.chosen)
+            view.thing_chosen.connect(self.choose)
+            view.thing_moved.connect(self._on_thing_moved)
+            keys.changed.connect(self.floor.change)
+            keys.removed.connect(self.remove)
+            keys.left.connect(lambda: self.choose(""))
+            keys.put_down.connect(self._on_put_down)
+            self._on_floor_changed()
+        return self._view
+
+    def sizeHint(self) -> QSize:
+        """Room for a robot that stands."""
+        line = self.fontMetrics().height()
+        return QSize(line * 16, line * 18)
+
+    # Robots
+
+    def show_robot(
+        self, name: str, state: RobotState | None, *, start: Base, is_real: bool
+    ) -> None:
+        """Show a robot as it is; None: it is not there, and will begin at ``start``."""
+        shown = (state, start)
+        if self._shown.get(name) != shown:
+            self._shown[name] = shown
+            self.view.show_robot(name, state, can_touch=not is_real, start=start)
+
+    def keep_robots(self, names: list[str]) -> None:
+        """Show only these robots."""
+        for name in self._shown.keys() - set(names):
+            del self._shown[name]
+            self.view.remove_robot(name)
+
+    # Things
+
+    def place(self, kind: str | ThingKind) -> None:
+        """Put a new thing before the first robot, and choose it."""
+        if not self.floor.has_room:
+            return
+        bases = [state.base if state else start for state, start in self._shown.values()]
+        base = bases[0] if bases else ORIGIN
+        thing = new_thing(kind, base, self.floor.things)  # type: ignore[arg-type]
+        self.floor.add(thing)
+        self.choose(thing.id)
+        self.view.setFocus()
+
+    def choose(self, thing_id: str) -> None:
+        """Let a thing be the one that keys move and the bar tells of; "" is none."""
+        self._chosen_id = thing_id
+        self._on_floor_changed()
+
+    def remove(self) -> None:
+        """Take the chosen thing away."""
+        thing_id, self._chosen_id = self._chosen_id, ""
+        if thing_id:
+            self.floor.remove(thing_id)
+        self._on_floor_changed()
+
+    def _change(self, how: object) -> None:
+        thing = self.floor.find(self._chosen_id)
+        if thing is not None and callable(how):
+            self.floor.change(how(thing))
+
+    def _on_turned(self, degrees: int) -> None:
+        self._change(lambda thing: turned(thing, thing.heading + math.radians(degrees)))
+
+    def _on_thing_asked(self, thing_id: str) -> None:
+        self.choose(thing_id)
+        self.view.setFocus()
+
+    def _on_thing_moved(self, thing_id: str, x: float, y: float) -> None:
+        thing = self.floor.find(thing_id)
+        if thing is not None:
+            self._held = moved(thing, x, y)
+            self.floor.hold(self._held)
+
+    def _on_put_down(self) -> None:
+        held, self._held = self._held, None
+        if held is not None:
+            self.floor.change(held, tr("move {thing}", thing=thing_words(held)))
+
+    def _on_floor_changed(self) -> None:
+        things = self.floor.things
+        chosen = self.floor.find(self._chosen_id)
+        if chosen is None:
+            self._chosen_id = ""
+        if self._keys is not None:
+            self._keys.chosen = chosen
+        self.thing_bar.show_thing(chosen)
+        self.tools.show_things(things)
+        self.tools.allow_placing(self.floor.has_room)
+        self.invitation.setVisible(not things and self.floor.has_room)
+        if self._view is not None:
+            self._view.show_things(things)
+
+    def _on_follow_switched(self, is_on: bool) -> None:
+        self.view.follows = is_on
+        if is_on:
+            self.view.fit()

@@ -1,0 +1,80 @@
+"""Where the robots on the screen begin: beside each other, so that all are seen."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer
+
+from nep_core import messages as m
+from nep_studio.plan import PlannedNode
+from nep_studio.ui.running.runner import Runner
+
+if TYPE_CHECKING:
+    from nep_studio.ui.main_window import MainWindow
+
+ACTION = "action/"
+APART_M = 0.8
+ORIGIN = (0.0, 0.0, 0.0)
+BRAKING_MS = 500
+"""So long a robot takes at most to come to rest."""
+READY = ("ready", "busy", "warning")
+"""How nodes are that hear what they are asked."""
+Base = tuple[float, float, float]
+
+
+class Starts(QObject):
+    """Puts each robot to its place when its node is ready, and again when it is asked to."""
+
+    def __init__(self, runner: Runner, parent: QObject) -> None:
+        super().__init__(parent)
+        self._runner = runner
+        self._there: set[str] = set()
+        runner.nodes_changed.connect(self._on_nodes_changed)
+
+    def place_of(self, robot: str) -> Base:
+        """Where a robot begins: x m, y m, theta rad on the floor."""
+        return start_places(self._runner.planned()).get(robot, ORIGIN)
+
+    def put_back(self, robot: str) -> None:
+        """Stop a robot, and put it to where it began."""
+        stop = m.ActionRequest(id=uuid.uuid4().hex, robots=[robot], action="stop", priority=100)
+        self._runner.send(m.ACTION_REQUEST, stop)
+        QTimer.singleShot(BRAKING_MS, self, lambda: self._put(robot))
+
+    def _put(self, robot: str) -> None:
+        request = m.SenseRequest(robot=robot, sense="place", place=self.place_of(robot))
+        self._runner.send(m.SENSE_REQUEST, request)
+
+    def _on_nodes_changed(self, names: list[str]) -> None:
+        nodes = self._runner.board.nodes
+        came = {name for name in names if name in nodes and nodes[name].health in READY}
+        new, self._there = came - self._there, (self._there - set(names)) | came
+        if new:
+            places = start_places(self._runner.planned())
+            for robot in new & places.keys():
+                if places[robot] != ORIGIN:
+                    self._put(robot)
+
+
+def start_places(planned: Iterable[PlannedNode]) -> dict[str, Base]:
+    """Where the robots on the screen begin, by name: the first in the middle, if no real one is.
+
+    Where a real robot is, it says by itself: at first in the middle.
+    """
+    robots = [node for node in planned if node.node.startswith(ACTION)]
+    real = [node for node in robots if node.parameters.get("driver") == "naoqi"]
+    names = [str(one.parameters.get("robot", one.name)) for one in robots if one not in real]
+    numbers = range(1 if real else 0, len(names) + 1)
+    return {
+        name: (0.0, (number + 1) // 2 * (-APART_M if number % 2 else APART_M), 0.0)
+        for name, number in zip(names, numbers, strict=False)
+    }
+
+
+def starts_of(window: MainWindow) -> Starts:
+    """The starts of a window, made when they are first asked for."""
+    runner = window.running.runner
+    return runner.findChild(Starts) or Starts(runner, runner)

@@ -1,0 +1,167 @@
+"""Paints placed parts with QPainter: each an outline with a gradient, the farther ones first."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QBrush, QPainter, QTransform
+
+from .camera import Lens
+from .figure import Placed
+from .ordering import drawing_order
+from .parts import Part
+from .polygons import fitting_polygons
+from .shading import Shades
+from .silhouettes import Silhouettes, silhouettes
+
+OUTLINE_PX = 0.9
+GLOW_GROWTH = 3.2
+DIMMEST = 0x18
+"""A light whose colours are all darker than this looks switched off."""
+
+
+@dataclass(frozen=True, eq=False)
+class Dress:
+    """What the parts of one robot or thing are painted with."""
+
+    colours: Mapping[str, str]
+    lights: Mapping[str, int]
+    is_pale: bool = False
+
+    def light_of(self, part: Part) -> int:
+        """The colour 0xRRGGBB of a part that is a light; 0 for one that is off, or no light."""
+        if not part.light and not part.group:
+            return 0
+        if self.is_pale:
+            return 0
+        number = self.lights.get(part.light, self.lights.get(part.group, 0))
+        brightest = max(number >> 16 & 255, number >> 8 & 255, number & 255)
+        return number if brightest > DIMMEST else 0
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """All parts of a picture, seen through a lens, in the order in which they are painted."""
+
+    placed: Placed
+    dresses: Sequence[Dress]
+    whose: NDArray[np.intp]
+    """(parts,) the number of the dress of each."""
+    seen: Silhouettes
+    order: Sequence[int]
+
+    @classmethod
+    def through(cls, lens: Lens, groups: Sequence[tuple[Placed, Dress]]) -> Bodies | None:
+        """See the parts of some robots and things through a lens; None when there are none."""
+        if not groups:
+            return None
+        placed = Placed.joined([one for one, _ in groups])
+        counts = [len(one.parts) for one, _ in groups]
+        whose = np.repeat(np.arange(len(groups)), counts)
+        seen = silhouettes(placed, lens)
+        order = _order(placed, seen, lens, np.cumsum([0, *counts]))
+        return cls(placed, [dress for _, dress in groups], whose, seen, order)
+
+    def paint(self, painter: QPainter, shades: Shades) -> None:
+        """Paint all parts; what lights shed is painted with them, so that nearer parts cover it."""
+        painter.setPen(Qt.PenStyle.NoPen)
+        sizes = np.ptp(self.seen.outlines, axis=1).max(axis=1) * self.seen.ratio
+        rims = fitting_polygons(self.seen.grown(OUTLINE_PX), sizes)
+        faces = fitting_polygons(self.seen.outlines, sizes)
+        middles, stretches = self.seen.centres.tolist(), self.seen.stretches.tolist()
+        glows: list[Spot] = []
+        for number in self.order:
+            part, dress = self.placed.parts[number], self.dresses[self.whose[number]]
+            if not part.on:
+                _shed(painter, glows)
+            shape = _ellipse(middles[number], stretches[number])
+            colour, light = dress.colours[part.colour], dress.light_of(part)
+            if part.finish != "flat":
+                painter.setBrush(shades.outline(colour, dress.is_pale))
+                painter.drawConvexPolygon(rims[number])
+            known = shades.round(colour, dress.is_pale, part.finish)
+            brush = QBrush(shades.lamp(light) if light else known)
+            brush.setTransform(shape)
+            painter.setBrush(brush)
+            painter.drawConvexPolygon(faces[number])
+            if part.gloss and not dress.is_pale:
+                _shed(painter, [(_SPOT * shape, shades.gloss(part.gloss))])
+            if light:
+                glows.append((_HALO * shape, shades.glow(light)))
+        _shed(painter, glows)
+
+    def part_at(self, x: float, y: float) -> int | None:
+        """The number of the part that is seen at a pixel."""
+        low, high = self.seen.outlines.min(axis=1), self.seen.outlines.max(axis=1)
+        near = ((low <= (x, y)) & (high >= (x, y))).all(axis=1)
+        for number in reversed(self.order):
+            if near[number] and _holds(self.seen.outlines[number], x, y):
+                return int(number)
+        return None
+
+
+def _ellipse(middle: Sequence[float], stretch: Sequence[Sequence[float]]) -> QTransform:
+    """From the unit circle to an ellipse of the picture."""
+    (a, b), (_, d) = stretch
+    return QTransform(a, b, b, d, middle[0], middle[1])
+
+
+_SPOT = QTransform.fromTranslate(-0.4, -0.52).rotate(-38).scale(0.3, 0.2)
+_HALO = QTransform.fromScale(GLOW_GROWTH, GLOW_GROWTH)
+
+
+Spot = tuple[QTransform, QBrush]
+
+
+def _shed(painter: QPainter, spots: list[Spot]) -> None:
+    """Paint spots of light, each a brush on the unit circle, and forget them."""
+    if not spots:
+        return
+    plain = QTransform(painter.transform())
+    for shape, brush in spots:
+        painter.setTransform(shape * plain)
+        painter.setBrush(brush)
+        painter.drawEllipse(_MIDDLE, 1, 1)
+    painter.setTransform(plain)
+    spots.clear()
+
+
+_MIDDLE = QPointF(0, 0)
+
+
+def _holds(outline: NDArray[np.float64], x: float, y: float) -> bool:
+    """Whether a convex outline has a pixel inside."""
+    following = np.roll(outline, -1, axis=0)
+    edge = following - outline
+    side = edge[:, 0] * (y - outline[:, 1]) - edge[:, 1] * (x - outline[:, 0])
+    return bool((side >= -1e-9).all() or (side <= 1e-9).all())
+
+
+def _order(placed: Placed, seen: Silhouettes, lens: Lens, starts: NDArray[np.intp]) -> list[int]:
+    """All parts that are seen from far to near, those that lie on others right after them."""
+    bare = [i for i, part in enumerate(placed.parts) if not part.on and seen.is_seen[i]]
+    riders = _riders(placed, seen, lens, starts)
+    order = []
+    for number in drawing_order(placed, seen, lens, np.array(bare, dtype=np.intp)):
+        order += [number, *riders.get(number, ())]
+    return order
+
+
+def _riders(
+    placed: Placed, seen: Silhouettes, lens: Lens, starts: NDArray[np.intp]
+) -> dict[int, list[int]]:
+    """The parts that lie on others and face the eye, by those others."""
+    to_eye = lens.camera.eye - placed.origins
+    faces_eye = np.einsum("pij,pj,pi->p", placed.turns, placed.normals, to_eye) > 0
+    riders: dict[int, list[int]] = {}
+    for start, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True):
+        carriers = {placed.parts[i].name: i for i in range(start, end)}
+        for i in range(start, end):
+            part = placed.parts[i]
+            if part.on and faces_eye[i] and seen.is_seen[i]:
+                riders.setdefault(carriers[part.on], []).append(i)
+    return riders

@@ -1,0 +1,265 @@
+"""What a robot looks like, as data: the parts in the ``view.toml`` of its folder."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+import numpy as np
+from msgspec import Meta
+from numpy.typing import NDArray
+
+from nep_core.errors import NodeStartError
+
+from .shapes import Blob
+
+Array = NDArray[np.float64]
+Triple = tuple[float, float, float]
+Positive = Annotated[float, Meta(gt=0)]
+VIEW_FILE = "view.toml"
+UP = np.array([0.0, 0.0, 1.0])
+MIRRORED_WORDS = (("Left", "Right"), ("left", "right"))
+
+
+Finish = Literal["satin", "matte", "flat"]
+
+
+class Hinge(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A part that a joint outside of the skeleton turns: a finger, closed at 0 and open at 1."""
+
+    joint: str
+    at: Triple
+    axis: Triple
+    closed_deg: float
+    open_deg: float = 0.0
+
+
+class Repeat(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Copies of a part round an axis, the first where the part is; {n} in its texts counts."""
+
+    count: Annotated[int, Meta(ge=1, le=64)]
+    at: Triple
+    axis: Triple
+    step_deg: float
+    first: int = 0
+
+
+class Slice(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A part of a hull: a superellipsoid; sizes are half lengths in m."""
+
+    at: Triple = (0.0, 0.0, 0.0)
+    size: tuple[Positive, Positive, Positive] = (0.01, 0.01, 0.01)
+    across: Annotated[float, Meta(gt=1)] = 2.0
+    along: Annotated[float, Meta(gt=1)] = 2.0
+
+
+class Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One part of a robot, at ``at`` of its link, turned by ``turn`` (degrees about x, y, z).
+
+    Shapes: ``ball`` and ``box`` of half lengths ``size``; ``rod`` from ``at`` to ``to`` with the
+    ``radii`` of its ends; ``disc`` of half width, height and thickness ``size`` that faces
+    ``facing``; ``lathe`` round ``facing``, of (distance, radius) rows; ``hull`` round slices.
+
+    ``light`` is the light that colours it, ``group`` the light that stands for it if that one is
+    not told. ``sensor`` is what a click on it touches. A part that lies ``on`` another one is
+    drawn over it, and only seen from the side of ``facing`` (its own z axis where not told).
+    ``gloss``: it shines. ``finish``: ``matte`` has little shade, ``flat`` none and no rim.
+    """
+
+    name: str
+    link: str
+    colour: str
+    shape: Literal["ball", "box", "rod", "disc", "lathe", "hull"]
+    at: Triple = (0.0, 0.0, 0.0)
+    size: tuple[Positive, Positive, Positive] = (0.01, 0.01, 0.01)
+    turn: Triple = (0.0, 0.0, 0.0)
+    across: float = 0.0
+    along: float = 0.0
+    to: Triple = (0.0, 0.0, 0.0)
+    radii: tuple[Positive, Positive] = (0.01, 0.01)
+    facing: Triple = (0.0, 0.0, 0.0)
+    profile: tuple[tuple[float, Positive], ...] = ()
+    slices: tuple[Slice, ...] = ()
+    on: str = ""
+    light: str = ""
+    group: str = ""
+    sensor: str = ""
+    gloss: float = 0.0
+    finish: Finish = "satin"
+    mirror: bool = False
+    hinge: Hinge | None = None
+    repeat: Repeat | None = None
+
+
+class ViewFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A whole ``view.toml``: the colours by name, the parts, and where the head is for bubbles."""
+
+    colours: dict[str, str]
+    part: tuple[Part, ...]
+    head: str = "Head"
+    top_m: float = 0.13
+    stretches: bool = False
+    """A thing's lengths are shares of its depth, width and height; else of its height."""
+
+
+class Shaped(msgspec.Struct, frozen=True):
+    """A part ready to be placed: its blobs along its own axes, which ``turn`` turns (3, 3)."""
+
+    part: Part
+    at: Triple
+    turn: Any
+    normal: Any
+    """Where it faces, along its own axes."""
+    blobs: tuple[Blob, ...]
+
+
+def read_view(path: Path) -> ViewFile:
+    """Read how a robot or a thing looks. Raises NodeStartError when it cannot be used."""
+    try:
+        view = msgspec.toml.decode(path.read_bytes(), type=ViewFile)
+        _check(view)
+    except (OSError, msgspec.DecodeError, ValueError) as error:
+        raise NodeStartError(
+            f"The description of how a robot or a thing looks, {path}, cannot be read.",
+            checklist=("Install NEP Studio again: this file comes with it.",),
+            details=str(error),
+        ) from error
+    return view
+
+
+def _check(view: ViewFile) -> None:
+    names = {part.name for part in view.part}
+    for part in view.part:
+        if part.colour not in view.colours:
+            raise ValueError(f"part {part.name}: there is no colour {part.colour}")
+        if part.on and part.on not in names:
+            raise ValueError(f"part {part.name}: there is no part {part.on} that it lies on")
+
+
+def all_parts(view: ViewFile) -> Iterator[Shaped]:
+    """Every part with its copies round an axis and on the other side."""
+    for part in view.part:
+        for copy, spin in _repeated(part):
+            yield _shaped(copy, spin, is_mirrored=False)
+            if part.mirror:
+                yield _shaped(_other_side(copy), spin, is_mirrored=True)
+
+
+def _repeated(part: Part) -> Iterator[tuple[Part, tuple[Array, Array]]]:
+    if part.repeat is None:
+        yield part, (np.zeros(3), np.eye(3))
+        return
+    axis, about, first = np.array(part.repeat.axis), np.array(part.repeat.at), part.repeat.first
+    for number in range(part.repeat.count):
+        turn = rotation(axis, math.radians(part.repeat.step_deg * number))
+        texts = {
+            key: getattr(part, key).replace("{n}", str(first + number)) for key in ("name", "light")
+        }
+        yield msgspec.structs.replace(part, **texts), (about - turn @ about, turn)
+
+
+def _other_side(part: Part) -> Part:
+    changed: dict[str, Any] = {}
+    for key in ("name", "light", "group", "sensor", "on"):
+        text = getattr(part, key)
+        for left, right in MIRRORED_WORDS:
+            text = text.replace(left, right)
+        changed[key] = text
+    if part.link.startswith("L"):
+        changed["link"] = "R" + part.link[1:]
+    if part.hinge is not None:
+        changed["hinge"] = _mirrored_hinge(part.hinge)
+    return msgspec.structs.replace(part, **changed)
+
+
+def _mirrored_hinge(hinge: Hinge) -> Hinge:
+    (x, y, z), (ax, ay, az) = hinge.at, hinge.axis
+    joint = "R" + hinge.joint[1:] if hinge.joint.startswith("L") else hinge.joint
+    return msgspec.structs.replace(hinge, joint=joint, at=(x, -y, z), axis=(-ax, ay, -az))
+
+
+def _shaped(part: Part, spin: tuple[Array, Array], *, is_mirrored: bool) -> Shaped:
+    at, turn, blobs = _SHAPES[part.shape](part)
+    normal = turn.T @ facing(np.array(part.facing))[:, 2] if any(part.facing) else UP
+    place, turn = spin[0] + spin[1] @ np.array(at), spin[1] @ turn
+    if is_mirrored:
+        flip = np.diag([1.0, -1.0, 1.0])
+        # The blobs are mirrored along their own y too, so that the turn stays a rotation.
+        place, turn = flip @ place, flip @ turn @ flip
+        normal = flip @ normal
+        blobs = tuple(Blob((b.at[0], -b.at[1], b.at[2]), b.size, b.powers) for b in blobs)
+    x, y, z = (float(value) for value in place)
+    return Shaped(part, (x, y, z), turn, normal, tuple(blobs))
+
+
+Frame = tuple[Triple, Array, tuple[Blob, ...]]
+
+
+def _ball(part: Part) -> Frame:
+    powers = (part.across or 2.0, part.along or 2.0)
+    return part.at, turned(part.turn), (Blob(size=part.size, powers=powers),)
+
+
+def _box(part: Part) -> Frame:
+    powers = (part.across or 4.0, part.along or 4.0)
+    return part.at, turned(part.turn), (Blob(size=part.size, powers=powers),)
+
+
+def _rod(part: Part) -> Frame:
+    way = np.array(part.to) - np.array(part.at)
+    ends = (Blob((0, 0, 0), (part.radii[0],) * 3), Blob((0, 0, length(way)), (part.radii[1],) * 3))
+    return part.at, facing(way), ends
+
+
+def _disc(part: Part) -> Frame:
+    powers = (part.across or 2.0, part.along or 4.0)
+    turn = facing(np.array(part.facing)) @ turned(part.turn)
+    return part.at, turn, (Blob(size=part.size, powers=powers),)
+
+
+def _lathe(part: Part) -> Frame:
+    power = part.along or 3.0
+    thin = 0.12
+    blobs = [Blob((0, 0, z), (r, r, max(r * thin, 1e-3)), (2.0, power)) for z, r in part.profile]
+    return part.at, facing(np.array(part.facing)), tuple(blobs)
+
+
+def _hull(part: Part) -> Frame:
+    blobs = [Blob(one.at, one.size, (one.across, one.along)) for one in part.slices]
+    return part.at, turned(part.turn), tuple(blobs)
+
+
+_SHAPES = {"ball": _ball, "box": _box, "rod": _rod, "disc": _disc, "lathe": _lathe, "hull": _hull}
+
+
+def length(vector: Array) -> float:
+    """How long a vector is."""
+    return float(np.sqrt(vector @ vector))
+
+
+def rotation(axis: Array, angle: float) -> Array:
+    """The matrix that turns about an axis by an angle (rad)."""
+    x, y, z = axis / length(axis)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    turn: Array = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+    return turn
+
+
+def turned(degrees: Triple) -> Array:
+    """The matrix of turns about x, then y, then z of the link."""
+    turn = np.eye(3)
+    for axis, angle in zip(np.eye(3), degrees, strict=True):
+        turn = rotation(axis, math.radians(angle)) @ turn
+    return turn
+
+
+def facing(way: Array) -> Array:
+    """A turn whose z axis has a direction, and whose y axis looks up as far as it can."""
+    z = way / length(way)
+    above = np.array([0.0, 0.0, 1.0]) if abs(z[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    x = np.cross(above, z)
+    x /= length(x)
+    return np.stack([x, np.cross(z, x), z], axis=1)

@@ -1,0 +1,109 @@
+"""Lets each robot on the screen be heard: what it says, in a voice of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import msgspec
+from PySide6.QtCore import QObject
+
+from nep_core import messages as m
+
+from .utterance import Utterance, utterance_of
+from .voice import Voice
+
+MakeVoice = Callable[[QObject], Voice | None]
+MOST_SPEECHES = 200
+SPEECHES = ("say", "ask")
+
+
+class RobotVoices(QObject):
+    """Hears how robots are, and speaks for them; None for a voice: nothing is heard."""
+
+    def __init__(self, make_voice: MakeVoice, parent: QObject) -> None:
+        super().__init__(parent)
+        self._make_voice = make_voice
+        self._mouths: dict[str, _Mouth] = {}
+        self._saying: dict[str, str] = {}
+        self._speeches: dict[str, None] = {}
+
+    def hear_state(self, state: m.RobotState) -> None:
+        """Say what a robot has begun to say."""
+        before = self._saying.get(state.robot, "")
+        self._saying[state.robot] = state.saying
+        if state.saying and state.saying != before:
+            self._mouth(state.robot).say(utterance_of(state))
+
+    def hear(self, message: msgspec.Struct) -> None:
+        """Be silent when a robot was stopped, or what it says was."""
+        if isinstance(message, m.ActionRequest):
+            self._hear_request(message)
+        elif isinstance(message, m.ActionResult) and message.id in self._speeches:
+            if message.state == "cancelled":
+                self.hush(message.robot)
+            if message.state in ("done", "failed", "cancelled"):
+                self._speeches.pop(message.id, None)
+
+    def hush(self, robot: str = "") -> None:
+        """Let one robot be silent at once, or all."""
+        names = [robot] if robot else list(self._mouths)
+        for name in names:
+            if mouth := self._mouths.get(name):
+                mouth.hush()
+
+    def forget(self) -> None:
+        """Be silent; what robots said is said anew when they say it again."""
+        self.hush()
+        self._saying.clear()
+        self._speeches.clear()
+
+    @property
+    def speaking(self) -> list[str]:
+        """The robots that are heard now."""
+        return [name for name, mouth in self._mouths.items() if mouth.is_speaking]
+
+    def _hear_request(self, request: m.ActionRequest) -> None:
+        if request.action == "stop" and not request.args:
+            for robot in [name for name in request.robots if name != "all"] or [""]:
+                self.hush(robot)
+        elif request.action in SPEECHES:
+            self._speeches[request.id] = None
+            if len(self._speeches) > MOST_SPEECHES:
+                del self._speeches[next(iter(self._speeches))]
+
+    def _mouth(self, robot: str) -> _Mouth:
+        if robot not in self._mouths:
+            self._mouths[robot] = _Mouth(self._make_voice(self))
+        return self._mouths[robot]
+
+
+class _Mouth:
+    """A voice, and what it says next: a computer may speak more slowly than the robot."""
+
+    def __init__(self, voice: Voice | None) -> None:
+        self._voice = voice
+        self._next: Utterance | None = None
+        if voice is not None:
+            voice.fell_silent.connect(self._on_fell_silent)
+
+    @property
+    def is_speaking(self) -> bool:
+        return self._voice is not None and self._voice.is_speaking
+
+    def say(self, utterance: Utterance) -> None:
+        if self._voice is None:
+            return
+        if self._voice.is_speaking:
+            self._next = utterance  # one that waits already is given up: it would come too late
+        else:
+            self._voice.say(utterance)
+
+    def hush(self) -> None:
+        self._next = None
+        if self._voice is not None:
+            self._voice.stop()
+
+    def _on_fell_silent(self) -> None:
+        following, self._next = self._next, None
+        if following is not None and self._voice is not None:
+            self._voice.say(following)

@@ -1,0 +1,222 @@
+"""What a virtual robot does for requests about single motors.
+
+A joint whose motor is off does not move, and nobody is told: so it is on the robot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from nodes.action.naobody import motor_actions as m
+from nodes.action.naobody.body import Angles, Body
+from nodes.action.naobody.body_tasks import check_joint
+from nodes.action.naobody.keyframes import Keyframes, Track
+from nodes.action.naobody.limbs import Limb
+from nodes.action.naobody.motion import TICK_S, Motion, keyframe_motion, move
+from nodes.action.naobody.parts import SINGLE_PARTS, part_of
+from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.tasks import Task
+
+TO_FULL_SPEED_S = 0.15
+"""In this time a joint gets from rest to its top speed."""
+NEAR_RAD = 1e-4
+
+
+def motor_limbs(robot: VirtualRobot, action: object) -> frozenset[Limb]:
+    """Return the limbs that an action of the motors needs. Raises ActionFailed."""
+    match action:
+        case m.Approach(limb=limb):
+            return frozenset({limb})
+        case m.SetAngles(angles=joints) | m.ReachAngles(angles=joints):
+            return _limbs(robot.body, joints)
+        case m.MoveThrough(tracks=joints):
+            return _limbs(robot.body, joints)
+        case m.SetStiffness(joints=joints):
+            _limbs(robot.body, joints)
+        case m.Silence():
+            return frozenset({Limb.VOICE})
+    return frozenset()
+
+
+def motor_task(robot: VirtualRobot, action: object) -> Task | None:
+    """Return the task for an action of the motors, None for any other action."""
+    match action:
+        case m.Approach():
+            return approach(robot, action)
+        case m.ReachAngles():
+            return reach(robot, action)
+        case m.MoveThrough():
+            return move_through(robot, action)
+        case m.SetStiffness():
+            return set_stiffness(robot, action)
+        case m.Silence():
+            return wait(action.seconds)
+    return None
+
+
+def stiffness(robot: VirtualRobot, joint: str) -> float:
+    """Return how firmly a joint is held, 0 to 1."""
+    if part_of(robot.body, joint) in robot.released:
+        return 0.0
+    return robot.stiffness.get(joint, 1.0)
+
+
+def approach(robot: VirtualRobot, action: m.Approach) -> Task:
+    """Go to the targets, which may change on the way; start and stop softly."""
+    columns = robot.body.columns({action.limb})
+    speed = np.zeros(len(columns))
+    while action.targets:
+        goal = _goal(robot, {joint: target.angle for joint, target in action.targets.items()})
+        held = np.array([stiffness(robot, robot.body.names[column]) > 0.0 for column in columns])
+        way = np.where(held, goal[columns] - robot.angles[columns], 0.0)
+        speed = _next_speed(robot.body, columns, way, speed, _parts(robot.body, action.targets))
+        _write(robot, columns, robot.angles[columns] + speed * TICK_S)
+        if not speed.any():
+            action.targets.clear()
+        yield
+    return ""
+
+
+def reach(robot: VirtualRobot, action: m.ReachAngles) -> Task:
+    """Move joints to angles, all in the time that the slowest one needs."""
+    goal = _goal(robot, action.angles)
+    columns = _columns(robot.body, action.angles)
+    motion = move(
+        robot.body, robot.angles, goal, columns, speed=action.speed, at_least_s=2 * TICK_S
+    )
+    return (yield from _play(robot, motion))
+
+
+def move_through(robot: VirtualRobot, action: m.MoveThrough) -> Task:
+    """Move joints through their keys."""
+    tracks = {name: track for name, track in action.tracks.items() if track.times}
+    if action.relative:
+        tracks = {n: _added(t, _angle(robot, n)) for n, t in tracks.items()}
+    if not tracks:
+        return ""
+    motion = keyframe_motion(robot.body, robot.angles, Keyframes(tracks), softly=False)
+    yield from _play(robot, motion)
+    return "; ".join(motion.notes)
+
+
+def at_pace(robot: VirtualRobot, task: Task, pace: float) -> Task:
+    """Do a task so many times as fast: several of its ticks in one, or not one in each.
+
+    In a tick that the task does not have, the robot is held as it was in the one before.
+    """
+    gone = 0.0
+    try:
+        while True:
+            gone += pace
+            while gone >= 1.0 - 1e-9:
+                gone -= 1.0
+                next(task)
+            robot.stance.hold()
+            yield
+    except StopIteration as end:
+        note: str = end.value
+        return note
+    finally:
+        task.close()
+
+
+def wait(seconds: float) -> Task:
+    """Let some seconds pass."""
+    for _ in range(round(seconds / TICK_S)):
+        yield
+    return ""
+
+
+def set_stiffness(robot: VirtualRobot, action: m.SetStiffness) -> Task:
+    """Set how firmly joints are held; a part of which no joint is held is released."""
+    yield from wait(action.seconds)
+    joints = action.joints
+    before = {name: stiffness(robot, name) for name in robot.body.names}
+    robot.stiffness = before | joints
+    parts = {part_of(robot.body, name) for name in joints}
+    loose = {
+        part
+        for part in SINGLE_PARTS
+        if not any(robot.stiffness[name] for name in _joints_of(robot.body, part))
+    }
+    robot.released = robot.released - parts | (loose & parts)
+    yield
+    return ""
+
+
+def _next_speed(
+    body: Body, columns: list[int], way: Angles, speed: Angles, parts: Angles
+) -> Angles:
+    """Return the speeds (rad/s) for the next tick on a way (rad); all 0 when joints are there.
+
+    ``parts``: of its top speed, how fast every joint of the body may be.
+    """
+    top_speed = body.max_speed[columns]
+    fastest = top_speed * parts[columns]
+    change = top_speed / TO_FULL_SPEED_S * TICK_S
+    stopping = np.sqrt(2.0 * top_speed / TO_FULL_SPEED_S * np.abs(way))
+    wanted = np.sign(way) * np.minimum(np.minimum(fastest, stopping), np.abs(way) / TICK_S)
+    changed = speed + np.clip(wanted - speed, -change, change)
+    arrived = (np.abs(way) <= NEAR_RAD + change * TICK_S) & (np.abs(speed) <= 2.0 * change)
+    last: Angles = np.where(arrived, np.where(np.abs(way) > NEAR_RAD, way / TICK_S, 0.0), changed)
+    return last
+
+
+def _parts(body: Body, targets: dict[str, m.Target]) -> Angles:
+    parts = np.ones(len(body.names))
+    for name, target in targets.items():
+        parts[_columns(body, [name])] = target.speed
+    return parts
+
+
+def _goal(robot: VirtualRobot, angles: dict[str, float]) -> Angles:
+    """Return the nearest allowed angles of every joint with some of them changed."""
+    goal = robot.angles.copy()
+    for name, angle in angles.items():
+        for column in _columns(robot.body, [name]):
+            goal[column] = angle
+    allowed, _ = robot.body.clamped(goal)
+    return allowed
+
+
+def _play(robot: VirtualRobot, motion: Motion) -> Task:
+    for row in motion.angles:
+        _write(robot, motion.columns, row)
+        yield
+    return ""
+
+
+def _write(robot: VirtualRobot, columns: Sequence[int], row: Angles) -> None:
+    """Set the angles of joints whose motors are on."""
+    angles = robot.angles.copy()
+    angles[list(columns)] = row
+    allowed, _ = robot.body.clamped(angles)
+    held = [column for column in columns if stiffness(robot, robot.body.names[column]) > 0.0]
+    robot.angles[held] = allowed[held]
+
+
+def _columns(body: Body, joints: Iterable[str]) -> list[int]:
+    """Return where joints are in the joint order, with those that share a motor with them."""
+    motors = {body.same_motor.get(name, name) for name in joints}
+    return [i for i, name in enumerate(body.names) if body.same_motor.get(name, name) in motors]
+
+
+def _limbs(body: Body, joints: Iterable[str]) -> frozenset[Limb]:
+    names = list(joints)
+    for name in names:
+        check_joint(body, name)
+    return body.limbs_of(names)
+
+
+def _joints_of(body: Body, part: str) -> list[str]:
+    return [name for name in body.names if part_of(body, name) == part]
+
+
+def _angle(robot: VirtualRobot, joint: str) -> float:
+    return float(robot.angles[robot.body.index[joint]])
+
+
+def _added(track: Track, angle: float) -> Track:
+    return Track(track.times, tuple(key + angle for key in track.keys), track.handles)

@@ -1,0 +1,180 @@
+"""What a virtual robot notices of the things around it: what its cameras see, and its sonars."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from nep_core.messages import Thing
+from nep_core.words import plain, state_of_thing
+from nodes.action.naobody.body import Vector
+from nodes.action.naobody.obstacles import half_size, seen_from, ways_m
+from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.skeleton import Points, rotation
+
+Place = tuple[float, float, float]
+
+CAMERAS = (((0.05871, 0.0, 0.06364), 0.0209), ((0.05071, 0.0, 0.01774), 0.6929))
+"""The top and the bottom camera in the head's frame: where, m, and how far down they look, rad.
+Source: nao_description V50 URDF."""
+HALF_VIEW_RAD = (math.radians(60.97 / 2.0), math.radians(47.64 / 2.0))
+"""What a camera sees to each side, and up and down. Source: NAO documentation, video cameras."""
+SIGHT_M = {"person": 3.0, "ball": 3.0, "mark": 2.5}
+TURNED_AWAY_RAD = math.radians(75.0)
+"""A face or a mark that is turned further away than this is not seen."""
+EYES_PART, LOWEST_EYES_PART = 0.93, 0.3
+"""So high on a person are the eyes, of one who stands and of one who kneels."""
+BENDING = 0.3
+"""People bend down to a small robot, until they look down at it no more than this much a m."""
+CLOSE_M, MIDDLE_M = 1.0, 2.0
+FORGETTING_S = 1.0
+"""What is out of sight for less than this is still taken to be there."""
+SENSES = {"person": "face", "ball": "ball", "mark": "mark"}
+
+SONARS = {"sonar_left": (0.0192, 0.392441), "sonar_right": (-0.0192, -0.392441)}
+"""Where the sonars are to the left in the torso, m, and where they point, rad. Source: as above."""
+SONAR_AHEAD_M, SONAR_UP_M = 0.0056, 0.0624
+SONAR_RANGE_M, SONAR_NEAREST_M = 2.55, 0.2
+SONAR_HALF_RAD = (math.radians(30.0), 0.13)
+"""How wide a sonar hears to each side, and up and down."""
+SONAR_RAYS = 9
+
+
+def distance_word(place: tuple[float, float, float]) -> str:
+    """Return how far a person at a place (m from the robot's feet) is: close, middle or far."""
+    way_m = math.hypot(*place[:2])
+    return "close" if way_m < CLOSE_M else "middle" if way_m < MIDDLE_M else "far"
+
+
+class Notice:
+    """Keeps what a robot notices up to date, and says which human states follow from it."""
+
+    def __init__(self, robot: VirtualRobot) -> None:
+        self._robot = robot
+        self._seen_s: dict[str, float] = {}
+        self._distance = ""
+        self._bumped: frozenset[str] = frozenset()
+
+    def look(self, now_s: float) -> list[str]:
+        """Look around; return the human states that follow from what is new."""
+        robot = self._robot
+        seen = visible(robot)
+        self._seen_s |= dict.fromkeys(seen, now_s)
+        kept = {
+            key: place
+            for key, place in robot.noticed.items()
+            if now_s - self._seen_s.get(key, -math.inf) < FORGETTING_S
+        }
+        new = [key for key in seen if key not in robot.noticed]
+        robot.noticed = kept | seen
+        states = [state_of_thing(key) for key in reversed(new)]
+        return [*self._bumps(), *states, *self._distance_states()]
+
+    def _bumps(self) -> list[str]:
+        """The bumpers by themselves that run into something, then what they are on."""
+        new = sorted(self._robot.bumped - self._bumped)
+        self._bumped = self._robot.bumped
+        return [f"touched_{name}" for name in new] + (["touched_bumper"] if new else [])
+
+    def _distance_states(self) -> list[str]:
+        place = self._robot.noticed.get("face")
+        x, y, _ = self._robot.base
+        word = distance_word((place[0] - x, place[1] - y, 0.0)) if place else ""
+        changed, self._distance = word != self._distance, word
+        return [f"person_{word}"] if word and changed else []
+
+
+def visible(robot: VirtualRobot) -> dict[str, Place]:
+    """Return where what the robot sees is on the floor, by "face", "face_anna", "ball", ...
+
+    Of several of a kind, the nearest is "face", "ball" or "mark".
+    """
+    eye = robot.stance.link_place("Head", CAMERAS[0][0])
+    seen: dict[str, Place] = {}
+    for thing in sorted(robot.things, key=lambda thing: math.dist(thing.place, eye)):
+        if thing.kind not in SENSES or not _is_seen(robot, thing):
+            continue
+        sense, name, place = SENSES[thing.kind], plain(thing.name), _target(thing, eye)
+        seen.setdefault(sense, place)
+        if name:
+            seen.setdefault(f"{sense}_{name}", place)
+    return seen
+
+
+def sonar_m(robot: VirtualRobot, sonar: str) -> float:
+    """Return how far the nearest thing before a sonar is (m), or its range when there is none."""
+    left_m, yaw = SONARS[sonar]
+    stance = robot.stance
+    if stance.turn[2, 2] < 0.5 or not robot.things:
+        return SONAR_RANGE_M
+    start = stance.link_place("torso", (SONAR_AHEAD_M, left_m, SONAR_UP_M))
+    heading = math.atan2(stance.turn[1, 0], stance.turn[0, 0]) + yaw
+    side, upwards = SONAR_HALF_RAD
+    turns = heading + np.linspace(-side, side, SONAR_RAYS)
+    rays = np.column_stack([np.cos(turns), np.sin(turns)])
+    nearest_m = SONAR_RANGE_M
+    for thing in robot.things:
+        way_m = float(ways_m(thing, start, rays).min())
+        spread_m = way_m * math.tan(upwards)
+        low, high = thing.place[2], thing.place[2] + thing.size[2]
+        if way_m < nearest_m and low <= start[2] + spread_m and high >= start[2] - spread_m:
+            nearest_m = way_m
+    return round(max(SONAR_NEAREST_M, nearest_m), 3)
+
+
+def _target(thing: Thing, eye: Points) -> Place:
+    """Return what of a thing is looked at: the eyes of a person, who bends down, or its middle."""
+    x, y, z = thing.place
+    if thing.kind != "person":
+        return x, y, z + 0.5 * thing.size[2]
+    way_m = math.hypot(x - eye[0], y - eye[1])
+    bent = max(float(eye[2]) + BENDING * way_m, z + LOWEST_EYES_PART * thing.size[2])
+    return x, y, min(z + EYES_PART * thing.size[2], bent)
+
+
+def _is_seen(robot: VirtualRobot, thing: Thing) -> bool:
+    eye = robot.stance.link_place("Head", CAMERAS[0][0])
+    target = np.array(_target(thing, eye))
+    if float(np.linalg.norm(target - eye)) > SIGHT_M[thing.kind]:
+        return False
+    if thing.kind != "ball" and _turned_away(thing, eye) > TURNED_AWAY_RAD:
+        return False
+    if not any(_in_view(robot, target, place, down) for place, down in CAMERAS):
+        return False
+    others = [other for other in robot.things if other.id != thing.id]
+    return not any(_hides(other, eye, target) for other in others)
+
+
+def _turned_away(thing: Thing, eye: Points) -> float:
+    to_eye = math.atan2(eye[1] - thing.place[1], eye[0] - thing.place[0])
+    return abs(math.remainder(to_eye - thing.heading, 2.0 * math.pi))
+
+
+def _in_view(robot: VirtualRobot, target: Points, place: Vector, down_rad: float) -> bool:
+    stance = robot.stance
+    turn = stance.link_turn("Head") @ rotation(0.0, down_rad, 0.0)
+    x, y, z = turn.T @ (target - stance.link_place("Head", place))
+    sideways, upwards = HALF_VIEW_RAD
+    return x > 0.0 and abs(math.atan2(y, x)) < sideways and abs(math.atan2(z, x)) < upwards
+
+
+def _hides(thing: Thing, eye: Points, target: Points) -> bool:
+    """Whether a wall or a person stands between an eye and what it looks at."""
+    if thing.kind not in ("wall", "person"):
+        return False
+    ends = seen_from(thing, np.array([eye[:2], target[:2]]))
+    bottom = thing.place[2]
+    low = np.array([*(-np.array(half_size(thing))), bottom])
+    high = np.array([*half_size(thing), bottom + thing.size[2]])
+    start, end = np.array([*ends[0], eye[2]]), np.array([*ends[1], target[2]])
+    return _crosses(start, end - start, low, high)
+
+
+def _crosses(start: Points, way: Points, low: Points, high: Points) -> bool:
+    """Whether a way from a place goes through a box."""
+    safe = np.where(np.abs(way) < 1e-12, 1e-12, way)
+    first, last = (low - start) / safe, (high - start) / safe
+    enters = float(np.minimum(first, last).max())
+    leaves = float(np.maximum(first, last).min())
+    return max(enters, 0.0) < min(leaves, 1.0)

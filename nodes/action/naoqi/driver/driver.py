@@ -1,0 +1,213 @@
+"""The driver of a real NAO: plays actions over NAOqi, and says true things about the robot."""
+
+from __future__ import annotations
+
+import queue
+from collections.abc import Callable, Collection, Sequence
+from typing import NamedTuple
+
+from nep_core.errors import ActionFailed
+from nep_core.messages import RobotState, SenseRequest, Thing
+from nodes.action.naobody.actions import Action
+from nodes.action.naobody.driver import Connection, Ended
+from nodes.action.naobody.gaze import from_world
+from nodes.action.naobody.limbs import MOVING, Limb
+from nodes.action.naobody.parts import SINGLE_PARTS
+from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.sense_actions import Listen
+from nodes.action.naoqi.driver import told
+from nodes.action.naoqi.driver.address import read_address
+from nodes.action.naoqi.driver.calls import Calls, Task
+from nodes.action.naoqi.driver.hearing import Hearing
+from nodes.action.naoqi.driver.link import Link, Reached
+from nodes.action.naoqi.driver.noticing import Noticing
+from nodes.action.naoqi.driver.reaching import Heard, reach
+from nodes.action.naoqi.driver.real import RealRobot
+from nodes.action.naoqi.driver.repertoire import limbs_of, task_of
+from nodes.action.naoqi.driver.watching import Watching
+
+
+class NaoqiDriver:
+    """Plays actions on a robot that speaks NAOqi. Nothing here waits; threads only bring news."""
+
+    def __init__(self, known: VirtualRobot, address: str) -> None:
+        """``known``: a body like the robot's, which becomes a picture of it."""
+        self._address = read_address(address)
+        self._heard: Heard = queue.SimpleQueue()
+        self._link = Link(known.name, self._address, self._reach)
+        self._robot = RealRobot(known, Calls(known.name, {}))
+        self._noticing = Noticing(self._robot)
+        self._watching = Watching(self._robot)
+        self._hearing = Hearing(self._robot)
+        self._running: dict[str, _Running] = {}
+        self._noticed: list[str] = []
+
+    @property
+    def connection(self) -> Connection:
+        """How the link to the robot is, and what a person should look at."""
+        return self._link.connection
+
+    @property
+    def moving(self) -> bool:
+        """Whether the robot does something."""
+        return bool(self._running)
+
+    def connect(self) -> None:
+        """Begin to connect, and keep trying until ``disconnect``."""
+        self._link.connect()
+
+    def disconnect(self) -> None:
+        """Stop what the robot does, and give it up."""
+        self.stop(list(self._running))
+        self._robot.calls.wait_for_stops()
+        self._link.disconnect()
+
+    def limbs(self, action: Action) -> frozenset[Limb]:
+        """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
+        if self._link.state != "ready" or not self._watching.has_met:
+            raise ActionFailed(self._link.connection.description.splitlines()[0])
+        return limbs_of(self._robot, action)
+
+    def start(self, command_id: str, action: Action) -> None:
+        """Begin an action; ``step`` tells when it has ended."""
+        if isinstance(action, Listen):
+            task = self._hearing.listen(action)
+        else:
+            task = task_of(self._robot, action)
+        task = self._robot.calls.after_stops(task)
+        self._running[command_id] = _Running(task, limbs_of(self._robot, action))
+
+    def stop(self, command_ids: Collection[str]) -> None:
+        """End some actions at once: each ends what it has begun on the robot."""
+        for command_id in command_ids:
+            if stopped := self._running.pop(command_id, None):
+                stopped.task.close()
+
+    def halt(self) -> None:
+        """Stop motion, posture, speech and following, whoever began them."""
+        self._robot.calls.stop_all()
+        self._robot.known.settings["tracking"] = ""
+
+    def step(self, now_s: float) -> list[Ended]:
+        """Take in what has come from the robot; return what has ended."""
+        was_ready = self._link.state == "ready"
+        if reached := self._link.step():
+            self._arrive(reached)
+        if was_ready and self._link.state != "ready":
+            return self._fail_all()
+        if self._link.state != "ready":
+            return []
+        self._watching.step(is_moving=self.moving)
+        if self._watching.is_frozen:
+            self._link.freeze()
+            return self._fail_all()
+        self._notice()
+        if self._watching.has_met:
+            self._tell_condition()
+            self._hearing.step()
+        return [end for name in tuple(self._running) if (end := self._advance(name))]
+
+    def expect(self, words: Sequence[str]) -> None:
+        """Listen for the words that rules wait for, from now on, also after a lost link."""
+        self._hearing.expected = tuple(words)
+
+    def noticed(self) -> list[str]:
+        """Return the human states that the robot has noticed by itself since the last call."""
+        noticed, self._noticed = self._noticed, []
+        return noticed
+
+    def state(self) -> RobotState | None:
+        """Return where the robot's body is, or None when that is not known."""
+        if self._link.state != "ready" or not self._watching.has_met:
+            return None
+        known = self._robot.known
+        x, y, theta = (float(value) for value in known.base)
+        return RobotState(
+            robot=known.name,
+            joints=dict(zip(known.body.names, known.angles.round(5).tolist(), strict=True)),
+            base=(x, y, theta),
+            torso=self._robot.torso or known.stance.pose,
+            fallen=self._robot.has_fallen,
+            posture=known.posture,
+            leds=dict(known.leds),
+            saying=known.saying,
+            moving=any(one.limbs & MOVING for one in self._running.values()),
+            battery=self._robot.battery,
+            sensors=self._robot.sensors | self._noticing.touched,
+            sees={thing: from_world(known, place) for thing, place in known.sees.items()},
+            settings=self._settings(),
+            listening=list(known.listening),
+        )
+
+    def sense(self, request: SenseRequest) -> list[str]:
+        """Return nothing: a real robot senses by itself."""
+        return []
+
+    def surroundings(self, things: Sequence[Thing]) -> None:
+        """Do nothing: a real robot sees by itself what stands around it."""
+
+    def _reach(self, on_lost: Callable[[str], None]) -> Reached:
+        return reach(self._address, self._heard, on_lost)
+
+    def _arrive(self, reached: Reached) -> None:
+        """The link is there: begin with what is true of a robot that was just met."""
+        known = self._robot.known
+        self._robot = RealRobot(known, Calls(known.name, reached.services))
+        self._noticing = Noticing(self._robot)
+        self._watching = Watching(self._robot)
+        self._hearing = Hearing(self._robot, self._hearing.expected)
+        known.saying, known.listening = "", ()
+        known.sees.clear()
+
+    def _fail_all(self) -> list[Ended]:
+        """The robot is gone: what it was doing has failed, with the reason."""
+        sentence = self._link.connection.description.splitlines()[0]
+        ended = [Ended(name, "failed", sentence) for name in self._running]
+        running, self._running = self._running, {}
+        for one in running.values():
+            one.task.close()
+        return ended
+
+    def _notice(self) -> None:
+        while not self._heard.empty():
+            self._noticed += self._noticing.hear(*self._heard.get())
+        self._noticing.forget()
+
+    def _tell_condition(self) -> None:
+        """Warn of what keeps the robot from acting soon; tell when that is over."""
+        known, place = self._robot.known, self._link.place
+        joint, heat = self._watching.hottest
+        warning = None
+        if self._robot.battery < told.LOWEST_BATTERY:
+            warning = told.low_battery(known.name, self._robot.battery)
+        elif heat >= told.HOTTEST_C:
+            warning = told.too_hot(known.name, joint, heat)
+        elif known.released >= set(SINGLE_PARTS) and not self._running:
+            warning = told.asleep(known.name)
+        if warning is None:
+            words = f"{known.name} at {place} is connected."
+            self._link.connection = Connection("connected", words)
+        else:
+            self._link.connection = told.connection("warning", warning)
+
+    def _settings(self) -> dict[str, bool | float | str]:
+        known = self._robot.known
+        locked = {f"locked_{part}": part not in known.released for part in SINGLE_PARTS}
+        return {**known.settings, **locked}
+
+    def _advance(self, command_id: str) -> Ended | None:
+        try:
+            next(self._running[command_id].task)
+        except StopIteration as end:
+            ended = Ended(command_id, "done", end.value)
+        except ActionFailed as problem:
+            ended = Ended(command_id, "failed", problem.sentence)
+        else:
+            return None
+        del self._running[command_id]
+        return ended
+
+
+class _Running(NamedTuple):
+    task: Task
+    limbs: frozenset[Limb]

@@ -1,0 +1,252 @@
+"""The part of ALMotion that walks."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from nodes.action.naobody.actions import Turn, Walk
+from nodes.action.naobody.body_actions import WalkFreely
+from nodes.action.naobody.gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_S, STEP_TURN_RAD
+from nodes.action.naobody.schedule import Command
+from nodes.action.naoqi.server import CallFailed, Promise, method
+from nodes.action.naoqi.services.arguments import number, within, words
+from nodes.action.naoqi.services.module import Module
+from nodes.action.naoqi.services.scripts import one_by_one, play_script
+
+MOVE_CONFIG = {
+    "MaxStepX": 0.04,
+    "MaxStepY": 0.14,
+    "MaxStepTheta": 0.349,
+    "MaxStepFrequency": 1.0,
+    "StepHeight": 0.02,
+    "TorsoWx": 0.0,
+    "TorsoWy": 0.0,
+}
+"""How a NAO walks by default, by NAOqi's names."""
+FASTEST = (STEP_FORWARD_M / STEP_S, STEP_LEFT_M / STEP_S, STEP_TURN_RAD / STEP_S)
+"""m/s forward, m/s to the left, rad/s."""
+
+
+class Locomotion(Module):
+    """Walking; NAOqi's older names for the same are there too."""
+
+    @method("moveInit::v()")
+    def move_init(self) -> Any:
+        """Stand ready to walk."""
+        return self._do("do", posture="posture_stand_init")
+
+    @method("walkInit::v()")
+    def walk_init(self) -> Any:
+        """Stand ready to walk."""
+        return self.move_init()
+
+    @method("moveTo::b(fff)")
+    def move_to(self, x: float, y: float, theta: float) -> Any:
+        """Walk x m forward and y m to the left, turning theta rad; wait for the end."""
+        return self._walk([[x, y, theta]])
+
+    @method("moveTo::b(ffff)")
+    def move_to_in(self, x: float, y: float, theta: float, seconds: float) -> Any:
+        """Walk a way; this robot walks at the pace that it has."""
+        return self._walk([[x, y, theta]])
+
+    @method("moveTo::b(fffm)")
+    def move_to_with(self, x: float, y: float, theta: float, config: Any) -> Any:
+        """Walk a way, with settings."""
+        _check_config(config)
+        return self._walk([[x, y, theta]])
+
+    @method("moveTo::b(ffffm)")
+    def move_to_in_with(self, x: float, y: float, theta: float, seconds: float, config: Any) -> Any:
+        """Walk a way, with settings; this robot walks at the pace that it has."""
+        return self.move_to_with(x, y, theta, config)
+
+    @method("moveTo::b(m)")
+    def move_along(self, points: Any) -> Any:
+        """Walk by one or several places, each x m, y m, theta rad from where it starts."""
+        return self._walk(_places(points))
+
+    @method("moveTo::b(mm)")
+    def move_along_with(self, points: Any, config: Any) -> Any:
+        """Walk by one or several places, with settings."""
+        _check_config(config)
+        return self._walk(_places(points))
+
+    @method("walkTo::b(fff)")
+    def walk_to(self, x: float, y: float, theta: float) -> Any:
+        """Walk a way; wait for the end."""
+        return self._walk([[x, y, theta]])
+
+    @method("walkTo::b(fffm)")
+    def walk_to_with(self, x: float, y: float, theta: float, config: Any) -> Any:
+        """Walk a way, with settings."""
+        return self.move_to_with(x, y, theta, config)
+
+    @method("walkTo::b(m)")
+    def walk_along(self, points: Any) -> Any:
+        """Walk by one or several places."""
+        return self._walk(_places(points))
+
+    @method("move::v(fff)")
+    def move(self, x: float, y: float, theta: float) -> None:
+        """Walk on at speeds (m/s, m/s, rad/s) until told otherwise; nobody waits."""
+        speeds = [number(speed) for speed in (x, y, theta)]
+        parts = [speed / most for speed, most in zip(speeds, FASTEST, strict=True)]
+        self._walk_on([min(max(part, -1.0), 1.0) for part in parts])
+
+    @method("move::v(fffm)")
+    def move_with(self, x: float, y: float, theta: float, config: Any) -> None:
+        """Walk on at speeds, with settings."""
+        _check_config(config)
+        self.move(x, y, theta)
+
+    @method("moveToward::v(fff)")
+    def move_toward(self, x: float, y: float, theta: float) -> None:
+        """Walk on at parts (-1 to 1) of the highest speeds; nobody waits."""
+        self._walk_on([within(part, -1.0, 1.0, "A speed") for part in (x, y, theta)])
+
+    @method("moveToward::v(fffm)")
+    def move_toward_with(self, x: float, y: float, theta: float, config: Any) -> None:
+        """Walk on at parts of the highest speeds, with settings."""
+        _check_config(config)
+        self.move_toward(x, y, theta)
+
+    @method("setWalkTargetVelocity::v(ffff)")
+    def set_walk_target_velocity(self, x: float, y: float, theta: float, frequency: float) -> None:
+        """Walk on at parts of the highest speeds; this robot has one frequency of steps."""
+        within(frequency, 0.0, 1.0, "The frequency")
+        self.move_toward(x, y, theta)
+
+    @method("setWalkTargetVelocity::v(ffffm)")
+    def set_walk_target_velocity_with(
+        self, x: float, y: float, theta: float, frequency: float, config: Any
+    ) -> None:
+        """Walk on at parts of the highest speeds, with settings."""
+        _check_config(config)
+        self.set_walk_target_velocity(x, y, theta, frequency)
+
+    @method("waitUntilMoveIsFinished::v()")
+    def wait_until_move_is_finished(self) -> Any:
+        """Wait until it does not walk any more."""
+        promise = Promise()
+        stop = self._robot.when(lambda: not self.move_is_active(), lambda: promise.set(None))
+        promise.on_cancel = lambda: promise.cancelled() if stop() else None
+        return promise.future
+
+    @method("waitUntilWalkIsFinished::v()")
+    def wait_until_walk_is_finished(self) -> Any:
+        """Wait until it does not walk any more."""
+        return self.wait_until_move_is_finished()
+
+    @method("moveIsActive::b()")
+    def move_is_active(self) -> bool:
+        """Return whether it walks."""
+        return any(map(_is_walk, self._robot.commands()))
+
+    @method("walkIsActive::b()")
+    def walk_is_active(self) -> bool:
+        """Return whether it walks."""
+        return self.move_is_active()
+
+    @method("stopMove::b()")
+    def stop_move(self) -> bool:
+        """Stop walking."""
+        self._robot.stop(_is_walk)
+        return True
+
+    @method("stopWalk::b()")
+    def stop_walk(self) -> bool:
+        """Stop walking."""
+        return self.stop_move()
+
+    @method("killMove::v()")
+    def kill_move(self) -> None:
+        """Stop walking."""
+        self._robot.stop(_is_walk)
+
+    @method("killWalk::v()")
+    def kill_walk(self) -> None:
+        """Stop walking."""
+        self._robot.stop(_is_walk)
+
+    @method("getRobotPosition::[f](b)")
+    def robot_position(self, use_sensors: bool) -> list[float]:
+        """Return where it is on the floor: x m, y m, theta rad from where it was switched on."""
+        return list(self._robot.state().base)
+
+    @method("getNextRobotPosition::[f]()")
+    def next_robot_position(self) -> list[float]:
+        """Return where it will be after the steps that it cannot change any more: here, now."""
+        return list(self._robot.state().base)
+
+    @method("getRobotVelocity::[f]()")
+    def robot_velocity(self) -> list[float]:
+        """Return how fast it was told to walk: m/s forward, m/s to the left, rad/s."""
+        actions = [command.action for command in self._robot.commands()]
+        free = next((one for one in actions if isinstance(one, WalkFreely)), WalkFreely())
+        parts = (free.forward, free.left, free.turn)
+        return [part * most for part, most in zip(parts, FASTEST, strict=True)]
+
+    @method("getMoveConfig::m(s)")
+    def move_config(self, config: str) -> list[list[Any]]:
+        """Return how it walks, as pairs of name and value."""
+        return [[name, value] for name, value in MOVE_CONFIG.items()]
+
+    @method("setMoveArmsEnabled::v(bb)")
+    def set_move_arms_enabled(self, left: bool, right: bool) -> None:
+        """Remember which arms may swing while it walks."""
+        self._kept["arms"] = {"LArm": left, "RArm": right, "Arms": left and right}
+
+    @method("getMoveArmsEnabled::b(s)")
+    def move_arms_enabled(self, chain: str) -> bool:
+        """Return whether an arm may swing while it walks; “Arms” are both."""
+        arms = self._kept.get("arms", dict.fromkeys(("LArm", "RArm", "Arms"), True))
+        if chain not in arms:
+            raise CallFailed(f"There is no arm “{chain}”. Possible: LArm, RArm, Arms.")
+        return bool(arms[chain])
+
+    def _walk(self, places: list[list[float]]) -> Any:
+        here = (0.0, 0.0, 0.0)
+        ways = []
+        for x, y, theta in places:
+            ways.append(("walk", _way(here, (x, y, theta))))
+            here = (x, y, theta)
+        return play_script(self._robot, one_by_one(ways), True, stopped=False)
+
+    def _walk_on(self, parts: list[float]) -> None:
+        wanted = WalkFreely(*parts)
+        if not any(parts):
+            self._robot.stop(_is_walk)
+        elif all(command.action != wanted for command in self._robot.commands()):
+            self._set("walk_freely", forward=parts[0], left=parts[1], turn=parts[2])
+
+
+def _is_walk(command: Command) -> bool:
+    return isinstance(command.action, (Walk, Turn, WalkFreely))
+
+
+def _way(here: tuple[float, float, float], there: tuple[float, float, float]) -> dict[str, float]:
+    """Return the walk from one place to another, both seen from the same start."""
+    x, y, turn = (number(b) - a for a, b in zip(here, there, strict=True))
+    cosine, sine = math.cos(here[2]), math.sin(here[2])
+    return {
+        "forward_m": x * cosine + y * sine,
+        "left_m": y * cosine - x * sine,
+        "turn_deg": math.degrees(turn),
+    }
+
+
+def _places(points: Any) -> list[list[float]]:
+    rows = points if points and isinstance(points[0], (list, tuple)) else [points]
+    if not all(isinstance(row, (list, tuple)) and len(row) == 3 for row in rows):
+        raise CallFailed("A place is three numbers: x m, y m, theta rad.")
+    return [[number(one) for one in row] for row in rows]
+
+
+def _check_config(config: Any) -> None:
+    """Raise CallFailed when a setting is not one of walking, nor of a foot."""
+    known = {name.casefold() for name in (*MOVE_CONFIG, "Frequency")}
+    for name in words(config, "The settings of walking"):
+        if name.removeprefix("Left").removeprefix("Right").casefold() not in known:
+            raise CallFailed(f"There is no setting “{name}” of walking.")

@@ -1,0 +1,154 @@
+"""ALAudioPlayer and ALAudioDevice: files and tones that are played, and how loud."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nodes.action.naoqi.server import CallFailed, method
+from nodes.action.naoqi.services.arguments import within
+from nodes.action.naoqi.services.module import Module, kept
+
+NO_MICROPHONE = "The robot on the screen has no microphones. A real NAO has."
+
+
+class ALAudioPlayer(Module):
+    """Plays sound files; the robot on the screen has none, and says so."""
+
+    set_master, master = kept("setMasterVolume::v(f)", "getMasterVolume::f()", 1.0)
+
+    @method("playFile::v(s)")
+    def play_file(self, path: str) -> Any:
+        """Play a file; wait until it ends."""
+        return self._do("play_sound", file=path)
+
+    @method("playFile::v(sff)")
+    def play_file_with(self, path: str, volume: float, pan: float) -> Any:
+        """Play a file, so loud (0 to 1), more on the left (-1) or on the right (1)."""
+        within(volume, 0.0, 1.0, "The volume")
+        within(pan, -1.0, 1.0, "The balance")
+        return self.play_file(path)
+
+    @method("playFileInLoop::v(s)")
+    def play_file_in_loop(self, path: str) -> Any:
+        """Play a file again and again."""
+        return self.play_file(path)
+
+    @method("playFileInLoop::v(sff)")
+    def play_file_in_loop_with(self, path: str, volume: float, pan: float) -> Any:
+        """Play a file again and again, so loud, more on the left or on the right."""
+        return self.play_file_with(path, volume, pan)
+
+    @method("playFileFromPosition::v(sf)")
+    def play_file_from(self, path: str, position: float) -> Any:
+        """Play a file from so many seconds on."""
+        return self.play_file(path)
+
+    @method("playFileFromPosition::v(sfff)")
+    def play_file_from_with(self, path: str, position: float, volume: float, pan: float) -> Any:
+        """Play a file from so many seconds on, so loud, more on the left or on the right."""
+        return self.play_file_with(path, volume, pan)
+
+    @method("stopAll::v()")
+    def stop_all(self) -> None:
+        """Stop all files."""
+        self._robot.stop(lambda command: type(command.action).__name__ == "PlaySound")
+
+    @method("getInstalledSoundSetsList::[s]()")
+    def installed_sound_sets(self) -> list[str]:
+        """Return the sets of sounds that there are: none."""
+        return []
+
+    @method("getLoadedSoundSetsList::[s]()")
+    def loaded_sound_sets(self) -> list[str]:
+        """Return the sets of sounds that are loaded: none."""
+        return []
+
+    @method("isSoundSetInstalled::b(s)")
+    def is_sound_set_installed(self, name: str) -> bool:
+        """Return whether there is a set of sounds."""
+        return False
+
+    @method("playSoundSetFile::v(s)")
+    def play_sound_set_file(self, file: str) -> Any:
+        """Play a file of the loaded sets of sounds."""
+        return self.play_file(file)
+
+    @method("playSoundSetFile::v(ss)")
+    def play_sound_of_set(self, sound_set: str, file: str) -> Any:
+        """Play a file of a set of sounds."""
+        return self.play_file(f"{sound_set}/{file}")
+
+
+class ALAudioDevice(Module):
+    """How loud the robot is; its microphones hear nothing."""
+
+    def _muted(self) -> bool:
+        return bool(self._kept.get("muted", False))
+
+    @method("setOutputVolume::v(i)")
+    def set_output_volume(self, volume: int) -> Any:
+        """Choose how loud it is, 0 to 100."""
+        return self._do("volume", percent=within(volume, 0, 100, "The volume"))
+
+    @method("getOutputVolume::i()")
+    def output_volume(self) -> int:
+        """Return how loud it is, 0 to 100."""
+        return round(float(self._robot.state().settings["volume"]))
+
+    @method("muteAudioOut::v(b)")
+    def mute_audio_out(self, is_muted: bool) -> Any:
+        """Be silent, or as loud as before."""
+        if is_muted == self._muted():
+            return None
+        self._kept["muted"] = is_muted
+        if is_muted:
+            self._kept["volume"] = self.output_volume()
+        return self.set_output_volume(0 if is_muted else self._kept["volume"])
+
+    @method("isAudioOutMuted::b()")
+    def is_audio_out_muted(self) -> bool:
+        """Return whether it is silent."""
+        return self._muted()
+
+    @method("enableEnergyComputation::v()")
+    def enable_energy_computation(self) -> None:
+        """Measure how loud it is around: it is silent."""
+
+    @method("disableEnergyComputation::v()")
+    def disable_energy_computation(self) -> None:
+        """Measure no more."""
+
+    @method("getFrontMicEnergy::f()")
+    def front_energy(self) -> float:
+        """Return how loud it is in front: silent."""
+        return 0.0
+
+    @method("getRearMicEnergy::f()")
+    def rear_energy(self) -> float:
+        """Return how loud it is behind: silent."""
+        return 0.0
+
+    @method("getLeftMicEnergy::f()")
+    def left_energy(self) -> float:
+        """Return how loud it is on the left: silent."""
+        return 0.0
+
+    @method("getRightMicEnergy::f()")
+    def right_energy(self) -> float:
+        """Return how loud it is on the right: silent."""
+        return 0.0
+
+    @method("isInputClosed::b()")
+    def is_input_closed(self) -> bool:
+        """Return whether nothing comes from the microphones: so it is."""
+        return True
+
+    @method("isOutputClosed::b()")
+    def is_output_closed(self) -> bool:
+        """Return whether the loudspeakers are off."""
+        return False
+
+    @method("startMicrophonesRecording::v(s)")
+    def start_microphones_recording(self, file: str) -> None:
+        """Raise CallFailed: there is nothing to record."""
+        raise CallFailed(NO_MICROPHONE)

@@ -1,0 +1,141 @@
+"""A socket with frames in and out, plain or TLS: sending never waits, receiving has a thread."""
+
+from __future__ import annotations
+
+import contextlib
+import select
+import socket
+import ssl
+import threading
+import time
+from collections.abc import Callable
+
+from .errors import ConnectionLost
+from .frames import Frame, FrameReader
+
+MOST_AT_ONCE = 256 * 1024
+MOST_UNSENT = 64 * 1024 * 1024
+"""Who does not read this many bytes is not there any more."""
+DRAIN_S = 30.0
+LATER = (BlockingIOError, ssl.SSLWantReadError, ssl.SSLWantWriteError, InterruptedError)
+
+
+def wait_for(one: socket.socket, *, writing: bool, timeout_s: float | None) -> bool:
+    """Wait until a socket can be read or written; False when it could not in this time."""
+    if hasattr(select, "poll"):  # select() has none of the sockets above number 1023
+        poll = select.poll()
+        poll.register(one, select.POLLOUT if writing else select.POLLIN)
+        return bool(poll.poll(None if timeout_s is None else timeout_s * 1000.0))
+    reading, writable, broken = ([], [one], [one]) if writing else ([one], [], [])
+    return any(select.select(reading, writable, broken, timeout_s))
+
+
+class Line:
+    """One connection; ``read`` is the loop of its thread, ``send`` is for all threads."""
+
+    def __init__(self, connected: socket.socket) -> None:
+        connected.setblocking(False)
+        with contextlib.suppress(OSError):
+            connected.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._socket = connected
+        self._is_tls = isinstance(connected, ssl.SSLSocket)
+        self._frames = FrameReader()
+        self._lock = threading.Lock()
+        self._unsent = bytearray()
+        self._is_draining = False
+        self.is_closed = False
+
+    @property
+    def local_address(self) -> tuple[str, int]:
+        """This side's address."""
+        host, port, *_ = self._socket.getsockname()
+        return str(host), int(port)
+
+    def send(self, frame: Frame) -> None:
+        """Send a frame, soon if not now. Raises ConnectionLost."""
+        data = frame.encoded()
+        with self._lock:
+            if self.is_closed:
+                raise ConnectionLost("The connection to NAO has ended.")
+            if not self._unsent:
+                data = data[self._sent(data) :]
+            if not data:
+                return
+            self._unsent += data
+            if len(self._unsent) > MOST_UNSENT:
+                self._shut()
+                raise ConnectionLost("The other side has stopped reading.")
+            if not self._is_draining:
+                self._is_draining = True
+                threading.Thread(target=self._drain, name="naoqi-drain", daemon=True).start()
+
+    def read(self, take: Callable[[Frame], None]) -> None:
+        """Give every frame that arrives, until the connection ends. Raises BadFrame, OSError."""
+        one = self._socket
+        while not self.is_closed:
+            if not self._has_pending():
+                wait_for(one, writing=False, timeout_s=None)
+            data = self._received()
+            if data is None:
+                continue
+            if not data:
+                return
+            for frame in self._frames.take(data):
+                take(frame)
+
+    def close(self) -> None:
+        """End the connection; the reading loop ends too."""
+        with self._lock:
+            self._shut()
+
+    def release(self) -> None:
+        """Give the socket back, when nobody reads any more."""
+        self.close()
+        self._socket.close()
+
+    def _has_pending(self) -> bool:
+        return self._is_tls and bool(self._socket.pending())  # type: ignore[attr-defined]
+
+    def _received(self) -> bytes | None:
+        """Return what is there now, None when it is nothing yet."""
+        try:
+            if not self._is_tls:
+                return self._socket.recv(MOST_AT_ONCE)
+            with self._lock:  # OpenSSL does not read and write at the same time
+                return self._socket.recv(MOST_AT_ONCE)
+        except LATER:
+            return None
+
+    def _sent(self, data: bytes | bytearray) -> int:
+        """Send what can be sent now; return how many bytes that was. Raises ConnectionLost."""
+        try:
+            return self._socket.send(data)
+        except LATER:
+            return 0
+        except (OSError, ValueError) as problem:
+            self._shut()
+            raise ConnectionLost("The connection to NAO has ended.") from problem
+
+    def _drain(self) -> None:
+        """Send what could not be sent at once."""
+        until_s = time.monotonic() + DRAIN_S
+        while time.monotonic() < until_s and not self.is_closed:
+            try:
+                if not wait_for(self._socket, writing=True, timeout_s=1.0):
+                    continue
+            except (OSError, ValueError):  # closed meanwhile
+                return
+            with self._lock, contextlib.suppress(ConnectionLost):
+                # TLS must be given the same bytes again after a send that could not be
+                del self._unsent[: self._sent(bytes(self._unsent[:MOST_AT_ONCE]))]
+                until_s = time.monotonic() + DRAIN_S
+                if not self._unsent:
+                    self._is_draining = False
+                    return
+        self.close()
+
+    def _shut(self) -> None:
+        if not self.is_closed:
+            self.is_closed = True
+            with contextlib.suppress(OSError):
+                self._socket.shutdown(socket.SHUT_RDWR)

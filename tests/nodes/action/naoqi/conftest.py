@@ -1,0 +1,33 @@
+"""A lamp that speaks NAOqi, our server that offers it, and our client at it."""
+
+from collections.abc import Iterator
+
+import pytest
+from naoqi_lamp import CallingLamp, lamp_server
+
+from nodes.action.naoqi.client import RemoteObject, Session
+from nodes.action.naoqi.server import Server
+
+
+@pytest.fixture
+def lamp_serving() -> Iterator[tuple[CallingLamp, Server]]:
+    with lamp_server() as pair:
+        yield pair
+
+
+@pytest.fixture
+def lamp_session(lamp_serving: tuple[CallingLamp, Server]) -> Iterator[Session]:
+    session = Session(("127.0.0.1", lamp_serving[1].port))
+    session.connect()
+    yield session
+    session.close()
+
+
+@pytest.fixture
+def lamp(lamp_serving: tuple[CallingLamp, Server]) -> CallingLamp:
+    return lamp_serving[0]
+
+
+@pytest.fixture
+def lamp_remote(lamp_session: Session) -> RemoteObject:
+    return lamp_session.service("Lamp")

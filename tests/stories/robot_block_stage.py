@@ -1,0 +1,189 @@
+"""Runs one block after the other on a robot, and looks at the robot's own state after each."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from nep_core import tasks
+from nep_core.errors import NepError
+from nep_core.human import human_listener
+from nep_core.messages import (
+    HUMAN_BEHAVIOR,
+    ROBOT_STATE,
+    SENSE_REQUEST,
+    HumanBehavior,
+    RobotState,
+    SenseRequest,
+)
+from nep_core.p2p import PeerNetwork
+from nep_core.pubsub import Publisher, Subscriber
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.studio_language import studio_language
+from tests.node_running import NodeRunner
+from tests.stories.robot_block_looks import ANSWERED, LONG, LOOKS, Look, Seen, Sense
+from tests.stories.robot_theatre import B, build
+
+DRIVERS = ("virtual", "naoqi")
+SPEED = 10
+PATIENCE_S = 15.0
+STARTED = B("event.started")
+CALM = (
+    B("robot.stop"),
+    B("robot_moves.lock", {"part": "body"}),
+    B("robot_moves.track", {"using": "off"}),
+    B("robot_moves.awareness", {"on": False}),
+    B("robot_moves.breathing", {"on": False}),
+    B("robot.do", {"posture": "posture_stand"}),
+    B("robot_lights.reset"),
+)
+"""Brings the robot back to how it was at the start."""
+NOTHING: tuple[Sense, ...] = (
+    ("face", 0.0, {"name": "Anna"}),
+    ("mark", 0.0, {"name": "64"}),
+    ("head_front", 0.0, {}),
+    ("head_middle", 0.0, {}),
+    ("sonar_left", 2.5, {}),
+)
+LANGUAGE = studio_language()
+
+
+def robot_blocks() -> list[Definition]:
+    """Every block of the language that is about a robot."""
+    return [
+        definition
+        for definition in LANGUAGE.definitions.values()
+        if "robot" in definition.slots or definition.category.id in ("robot_events", "robot_speech")
+    ]
+
+
+class BlockStage(NodeRunner):
+    """A robot called NAO: on the screen, or behind NAOqi and driven by our driver."""
+
+    def __init__(
+        self, network: PeerNetwork, outside: PeerNetwork, driver: str, free_port: int
+    ) -> None:
+        super().__init__(network)
+        tasks.PROGRAM.cancelled.clear()
+        tasks.PROGRAM._children.clear()
+        human_listener(network)
+        self.body = "NAO" if driver == "virtual" else "Served"
+        """Whose state is looked at, and who is told what there is to sense."""
+        self.states_of: dict[str, list[RobotState]] = {"NAO": [], "Served": []}
+        self._is_answering = False
+        self._senses = Publisher(SENSE_REQUEST, network=outside)
+        self._person = Publisher(HUMAN_BEHAVIOR, network=outside)
+        Subscriber(ROBOT_STATE, RobotState, network=outside, callback=self._on_state)
+        if driver == "virtual":
+            self.start_node("action/nao", "NAO", robot="NAO", speed=SPEED)
+        else:
+            served = {"robot": "Served", "speed": SPEED, "naoqi_port": free_port}
+            self.start_node("action/nao", "Served", **served)
+            self.state("ready", node="Served")
+            address = f"127.0.0.1:{free_port}"
+            self.start_node("action/nao", "NAO", robot="NAO", driver="naoqi", address=address)
+        self.state("ready", node="NAO")
+        assert self._senses.wait_for_subscribers(1 if driver == "virtual" else 2, 10)
+        self._wait(lambda: self.states_of["NAO"] and self.states_of[self.body])
+
+    def look(self, block: str) -> Seen:
+        """Run a block and return what was seen; its look says whether that is right."""
+        look, definition = LOOKS[block], LANGUAGE.definitions[block]
+        self._calm_down()
+        for one in look.senses if definition.shape != "hat" else ():
+            self._sense(one)
+        self._settle()
+        seen = Seen(self.states_of[self.body][-1], self.states_of[self.body])
+        self._is_answering = block in ANSWERED
+        if definition.shape == "hat":
+            self._run_rule(B(block, look.fields), look, seen)
+        elif definition.is_value:
+            self._run([STARTED, *look.first, self._keeping(block, look)], seen)
+        else:
+            self._run([STARTED, *look.first, B(block, look.fields), *look.then], seen)
+        self._is_answering = False
+        with contextlib.suppress(TimeoutError):  # who looks says that it is not so
+            self._wait(lambda: look.holds(seen))
+        return seen
+
+    def _keeping(self, block: str, look: Look) -> B:
+        return B("variable.set", {"variable": "v1"}, {"value": B(block, look.fields)})
+
+    def _run(self, stack: list[B], seen: Seen) -> None:
+        try:
+            seen.value = self._play([stack]).get("x")
+        except NepError as problem:
+            seen.refused = problem.sentence
+
+    def _run_rule(self, hat: B, look: Look, seen: Seen) -> None:
+        """Run a rule beside this, let happen what it waits for until it has run."""
+        said = B("robot.say", {"text": LONG})
+        playing = threading.Thread(target=self._play, args=([[hat, said], [STARTED]],))
+        playing.start()
+        end_s = time.monotonic() + PATIENCE_S
+        while not look.holds(seen) and time.monotonic() < end_s:
+            for one in look.senses:
+                self._sense((one[0], 2.5 if one[0] == "sonar_left" else 0.0, one[2]))
+                time.sleep(0.4)
+                self._sense(one)
+            if look.state:
+                self._person.send(HumanBehavior(human_state=look.state))
+            with contextlib.suppress(TimeoutError):
+                self._wait(lambda: look.holds(seen), 2.5)
+        tasks.PROGRAM.cancel()
+        playing.join(10)
+        assert not playing.is_alive()
+        tasks.PROGRAM.cancelled.clear()
+
+    def _play(self, stacks: list[list[B]]) -> dict[str, Any]:
+        editor = build(LANGUAGE, *stacks, variables=("x",))
+        code = generate_program(editor.project, LANGUAGE).text
+        names: dict[str, Any] = {"__name__": "__main__"}
+        exec(compile(code, "program.py", "exec"), names)
+        return names
+
+    def _calm_down(self) -> None:
+        for one in NOTHING:
+            self._sense(one)
+        self._play([[STARTED, *CALM]])
+        self._wait(lambda: not self.states_of["NAO"][-1].sees)
+
+    def _settle(self) -> None:
+        """Begin with states that were told from now on."""
+        for states in self.states_of.values():
+            states[:] = states[-1:]
+        body, robot = self.states_of[self.body], self.states_of["NAO"]
+        self._wait(lambda: len(body) > 1 and len(robot) > 1)
+        body[:] = body[-1:]
+
+    def _sense(self, one: Sense) -> None:
+        what, value, more = one
+        self._senses.send(SenseRequest(robot=self.body, sense=what, value=value, **more))
+
+    def _on_state(self, state: RobotState) -> None:
+        self.states_of[state.robot].append(state)
+        if state.robot == self.body and state.listening and self._is_answering:
+            self._sense(("word", 1.0, {"name": "yes"}))
+
+    def _wait(self, is_so: Callable[[], object], at_most_s: float = PATIENCE_S) -> None:
+        end_s = time.monotonic() + at_most_s
+        while not is_so():
+            if time.monotonic() > end_s:
+                raise TimeoutError
+            time.sleep(0.01)
+
+
+@contextlib.contextmanager
+def block_stage(
+    network: PeerNetwork, outside: PeerNetwork, driver: str, free_port: int
+) -> Iterator[BlockStage]:
+    """A stage that is closed at the end."""
+    stage = BlockStage(network, outside, driver, free_port)
+    try:
+        yield stage
+    finally:
+        stage.close()

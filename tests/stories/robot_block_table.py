@@ -1,0 +1,62 @@
+"""The table of every block about robots, and what was looked at for it on both robots."""
+
+from __future__ import annotations
+
+import os
+
+from nep_core.default_network import set_default_network
+from nep_core.endpoints import MASTER_VARIABLE
+from nep_core.master import Master
+from nep_core.p2p import PeerNetwork
+from nep_studio.blocks.definitions import Definition
+from tests.stories.robot_block_looks import LOOKS
+from tests.stories.robot_block_stage import DRIVERS, block_stage, robot_blocks
+
+BEGINNING = """# Every block about robots
+
+Each block was run twice, as a program of its own: on the robot on the screen, and on a robot that
+is reached over NAOqi by the driver that also moves a real NAO. Then the state of the robot itself
+was looked at, not the answer to the call. `python docs/make_robot_blocks.py` makes this table;
+`tests/stories/test_robot_blocks_on_both_robots.py` runs the same blocks.
+
+| block | what was looked at | on the screen | over NAOqi |
+|---|---|---|---|
+"""
+YES, NO = "yes", "**no**"
+
+
+def words_of(definition: Definition) -> str:
+    """The sentence of a block, with … for each of its places."""
+    return definition.told.replace("|", "\\|")
+
+
+def table(results: dict[str, dict[str, bool]]) -> str:
+    """The whole file; ``results`` by driver and block, what is not there is taken as right."""
+    rows = []
+    for definition in robot_blocks():
+        told = [
+            YES if results.get(driver, {}).get(definition.id, True) else NO for driver in DRIVERS
+        ]
+        look = LOOKS[definition.id].what
+        rows.append(f"| {words_of(definition)} | {look} | {' | '.join(told)} |")
+    return BEGINNING + "\n".join(rows) + "\n"
+
+
+def run_all(driver: str, free_port: int) -> dict[str, bool]:
+    """Run every block on one robot; whether the robot then was as it should be."""
+    master = Master("tcp://127.0.0.1:*")
+    os.environ[MASTER_VARIABLE] = master.endpoint  # the nodes find it there
+    networks = [PeerNetwork(name, master=master.endpoint) for name in ("program", "outside")]
+    set_default_network(networks[0])
+    results = {}
+    try:
+        with block_stage(*networks, driver, free_port) as stage:
+            for definition in robot_blocks():
+                seen = stage.look(definition.id)
+                results[definition.id] = bool(LOOKS[definition.id].holds(seen))
+    finally:
+        set_default_network(None)
+        for network in networks:
+            network.close()
+        master.close()
+    return results

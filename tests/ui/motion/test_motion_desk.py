@@ -1,0 +1,99 @@
+"""The motion on the desk: posing, keys, and every step back."""
+
+from __future__ import annotations
+
+import pytest
+
+from nep_studio.blocks.own_animations import OwnAnimation
+from nep_studio.ui.motion import editing
+from nep_studio.ui.motion.desk import MotionDesk
+from nodes.action.naobody.body import load_body
+from nodes.resources import resource_folder
+
+BODY = load_body(resource_folder() / "robots" / "nao")
+RIGHT_ARM = {"RShoulderPitch", "RShoulderRoll", "RElbowYaw", "RElbowRoll", "RWristYaw", "RHand"}
+
+
+@pytest.fixture
+def desk() -> MotionDesk:
+    desk = MotionDesk(BODY)
+    desk.open(OwnAnimation("New", {}))
+    return desk
+
+
+def test_posing_an_arm_at_the_beginning_makes_the_first_key_of_that_arm(desk: MotionDesk) -> None:
+    desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+
+    assert editing.key_times(desk.motion) == [1.0]
+    assert desk.motion.joints.keys() == RIGHT_ARM
+    assert (desk.cursor_s, desk.chosen) == (1.0, (1.0,))
+
+
+def test_a_drag_is_one_step_and_the_next_one_another(desk: MotionDesk) -> None:
+    for angle in (-0.1, -0.2, -0.3):
+        desk.set_joints({"RShoulderPitch": angle}, "pose", merge="drag")
+    desk.seal()
+    desk.set_joints({"RShoulderPitch": -0.9}, "pose", merge="drag")
+
+    desk.undo()
+
+    assert desk.motion.joints["RShoulderPitch"].keys == (-0.3,)
+    desk.undo()
+    assert desk.motion.joints == {}
+    assert not desk.is_modified
+    desk.redo()
+    desk.redo()
+    assert desk.motion.joints["RShoulderPitch"].keys == (-0.9,)
+
+
+def test_with_both_sides_alike_the_other_arm_does_as_in_a_mirror(desk: MotionDesk) -> None:
+    desk.is_mirrored = True
+
+    desk.set_joints({"LShoulderRoll": 0.8}, "pose")
+
+    assert desk.motion.joints["RShoulderRoll"].keys == (-0.8,)
+
+
+def test_legs_that_move_start_from_a_standing_posture(desk: MotionDesk) -> None:
+    desk.set_joints({"LKneePitch": 0.9}, "pose")
+
+    assert desk.motion.starts_from == "StandInit"
+    desk.set_start("", "start")
+    assert desk.motion.starts_from == "StandInit"
+
+
+def test_angles_are_kept_within_the_limits(desk: MotionDesk) -> None:
+    desk.set_joints({"HeadYaw": 9.0}, "pose")
+
+    assert desk.motion.joints["HeadYaw"].keys[0] <= BODY.max[BODY.index["HeadYaw"]]
+
+
+def test_a_key_of_what_moves_is_kept_where_the_moment_is(desk: MotionDesk) -> None:
+    desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+    desk.show(2.0)
+
+    desk.add_key("key")
+
+    assert editing.key_times(desk.motion) == [1.0, 2.0]
+    assert editing.pose_at(desk.motion, 2.0)["RShoulderPitch"] == pytest.approx(-0.5)
+
+
+def test_chosen_keys_are_moved_copied_and_deleted(desk: MotionDesk) -> None:
+    desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+
+    desk.move_chosen(0.5, "move")
+    desk.copy_chosen(1.0, "copy")
+
+    assert editing.key_times(desk.motion) == [1.5, 2.5]
+    assert desk.chosen == (2.5,)
+    desk.delete_chosen("delete")
+    assert editing.key_times(desk.motion) == [1.5]
+
+
+def test_what_is_saved_is_not_modified_any_more(desk: MotionDesk) -> None:
+    desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+    assert desk.is_modified
+
+    desk.saved("new")
+
+    assert not desk.is_modified

@@ -1,0 +1,227 @@
+"""Making a motion with the mouse and the keys, and keeping it in the project."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from pytestqt.qtbot import QtBot
+
+from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.own_animations import own_animations
+from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.messages_question import QuestionDialog
+from nep_studio.ui.motion import editing
+from nep_studio.ui.motion.stage import ROBOT
+from nep_studio.ui.motion.window import MotionWindow
+from tests.blocks.block_building import B
+from tests.ui.running.window_use import block_of, press, state_is
+
+
+def place_of(motion: MotionWindow, link: str) -> QPointF:
+    """Where the middle of a link's part is in the view."""
+    motion.view.room.step(np.inf)
+    robot = next(r for r in motion.view.room.scene().robots if r.name == ROBOT)
+    numbers = [i for i, part in enumerate(robot.placed.parts) if part.link == link]
+    for middle in robot.placed.middles()[numbers]:
+        x, y = motion.view.lens.project(middle)
+        found = motion.view.found_at(QPointF(float(x), float(y)))
+        if found.part is not None and found.part.link == link:
+            return QPointF(float(x), float(y))
+    pytest.fail(f"{link} is not seen")
+
+
+def test_a_dragged_hand_goes_with_the_mouse_and_makes_a_key(motion: MotionWindow, drag) -> None:
+    start = place_of(motion, "R_wrist")
+
+    drag(motion.view, start, start + QPointF(-10, -60))
+
+    assert editing.key_times(motion.desk.motion) == [1.0]
+    assert motion.desk.motion.joints.keys() >= {"RShoulderPitch", "RElbowRoll"}
+    motion.stage.refresh()
+    end = place_of(motion, "R_wrist")
+    assert end.y() < start.y() - 30
+    assert motion.desk.undo_label
+
+
+def test_one_drag_is_one_step_back(motion: MotionWindow, drag) -> None:
+    start = place_of(motion, "R_wrist")
+    drag(motion.view, start, start + QPointF(-10, -60))
+
+    motion.actions_by_name["undo_motion"].trigger()
+
+    assert motion.desk.motion.joints == {}
+
+
+def test_a_slider_turns_its_joint(motion: MotionWindow, qtbot: QtBot) -> None:
+    row = motion.joints.rows["HeadYaw"]
+
+    row.slider.setFocus()
+    for _ in range(3):
+        qtbot.keyClick(row.slider, Qt.Key.Key_PageUp)
+
+    assert motion.desk.motion.joints["HeadYaw"].keys[0] > 0.02
+    assert row.box.value() == pytest.approx(row.slider.value() / 10)
+
+
+def test_keys_are_added_and_moved_on_the_timeline(motion: MotionWindow, drag, qtbot: QtBot) -> None:
+    motion.desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+    timeline = motion.timeline
+    qtbot.mouseClick(timeline, Qt.MouseButton.LeftButton, pos=timeline.row(0).center().toPoint())
+    shown = motion.desk.cursor_s
+    qtbot.keyClick(timeline, Qt.Key.Key_K)
+    assert editing.key_times(motion.desk.motion) == [1.0, pytest.approx(shown)]
+
+    drag(timeline, timeline.place_of(1.0), timeline.place_of(1.5))
+
+    assert editing.key_times(motion.desk.motion)[0] == pytest.approx(1.5, abs=0.051)
+    assert motion.desk.chosen == pytest.approx((1.5,), abs=0.051)
+
+
+def test_with_shift_all_later_keys_go_along(motion: MotionWindow, drag) -> None:
+    motion.desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+    motion.desk.show(2.0)
+    motion.desk.add_key("key")
+    timeline = motion.timeline
+
+    shift = Qt.KeyboardModifier.ShiftModifier
+    drag(timeline, timeline.place_of(1.0), timeline.place_of(1.5), modifier=shift)
+
+    first, second = editing.key_times(motion.desk.motion)
+    assert second - first == pytest.approx(1.0)
+    assert first == pytest.approx(1.5, abs=0.051)
+
+
+def test_space_plays_it_to_its_end(motion: MotionWindow, qtbot: QtBot) -> None:
+    motion.desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+    motion.desk.show(0.0)
+    motion.player.speed = 4.0
+
+    motion.timeline.setFocus()
+    qtbot.keyClick(motion.timeline, Qt.Key.Key_Space)
+
+    assert motion.player.is_playing
+    qtbot.waitUntil(lambda: not motion.player.is_playing)
+    assert motion.desk.cursor_s == motion.desk.motion.duration_s
+
+
+def test_posing_pauses_the_play(motion: MotionWindow, drag, qtbot: QtBot) -> None:
+    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.desk.show(0.0)
+    motion.player.play()
+    start = place_of(motion, "R_wrist")
+
+    drag(motion.view, start, start + QPointF(0, -20))
+
+    assert not motion.player.is_playing
+
+
+def test_too_fast_is_told_and_gets_its_time(motion: MotionWindow, qtbot: QtBot) -> None:
+    motion.desk.set_joints({"RShoulderPitch": -1.9}, "pose")
+    motion.desk.move_chosen(-0.9, "move")
+    qtbot.waitUntil(lambda: motion.faults.has_too_fast)
+    assert "Too fast" in motion.notes.words.text()
+
+    qtbot.mouseClick(motion.notes.give_time, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: motion.faults.is_sure)
+
+    assert motion.faults.now == []
+    assert "can do this" in motion.notes.words.text()
+
+
+def test_a_motion_that_would_fall_is_told(motion: MotionWindow, qtbot: QtBot) -> None:
+    motion.desk.set_joints({"LHipPitch": -1.3, "LKneePitch": 1.9}, "pose")
+    motion.desk.show(2.5)
+    motion.desk.add_key("hold")
+
+    qtbot.waitUntil(lambda: motion.faults.is_sure)
+
+    assert [fault.kind for fault in motion.faults.now] == ["fall"]
+    assert "fall" in motion.notes.words.text()
+
+
+def test_the_window_asks_before_it_throws_a_motion_away(
+    window: MainWindow, motion: MotionWindow, qtbot: QtBot
+) -> None:
+    project = window.files.document.project
+    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+
+    motion.close()
+
+    [question] = motion.findChildren(QuestionDialog)
+    assert motion.isVisible()
+    keep = next(button for button in question.buttons if "Keep" in button.text())
+    qtbot.mouseClick(keep, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(own_animations(project)))
+    assert own_animations(project).keys() == {"my_motion"}
+    qtbot.waitUntil(lambda: not window.findChildren(MotionWindow))
+
+
+def test_a_shipped_motion_is_a_start_and_is_kept_as_one_of_the_project(
+    motion: MotionWindow,
+) -> None:
+    motion.project.open("wave")
+    motion.desk.change("title", title="Wave twice")
+
+    motion.actions_by_name["save_motion"].trigger()
+
+    assert motion.desk.name == "wave_twice"
+    assert not motion.isWindowModified()
+    assert "Wave twice" in [action.text() for action in motion.project.open_menu().actions()]
+
+
+def test_another_title_renames_it_in_the_blocks_too(
+    motion: MotionWindow, window: MainWindow
+) -> None:
+    motion.project.open("wave")
+    motion.desk.change("title", title="Hop")
+    assert motion.project.save()
+    motion.desk.change("title", title="Jump")
+
+    assert motion.project.save()
+
+    assert own_animations(window.files.document.project).keys() == {"jump"}
+
+
+def test_a_kept_motion_is_played_by_a_block_in_a_run(
+    window: MainWindow, open_program, motion: MotionWindow, drag, qtbot: QtBot
+) -> None:
+    seen = open_program([B("event.started"), B("robot.play")])
+    start = place_of(motion, "R_wrist")
+    drag(motion.view, start, start + QPointF(-10, -60))
+    assert motion.project.save()
+    editor = window.files.document.editor
+    editor.apply(SetField(block_of(window, "robot.play"), "animation", motion.desk.name))
+
+    press(window, qtbot, "run")
+    state_is(window, qtbot, "running")
+    state_is(window, qtbot, "idle")
+
+    results = [one for one in seen.messages if getattr(one, "state", "") == "done"]
+    requests = [one for one in seen.messages if getattr(one, "action", "") == "play"]
+    assert {one.args["animation"] for one in requests} == {"my_motion"}
+    assert requests[0].id in [one.id for one in results]
+
+
+def test_the_program_is_not_closed_over_a_motion_that_is_not_kept(
+    window: MainWindow, motion: MotionWindow, qtbot: QtBot
+) -> None:
+    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+
+    window.close()
+
+    assert window.isVisible()
+    [question] = motion.findChildren(QuestionDialog)
+    throw = next(button for button in question.buttons if "Throw" in button.text())
+    qtbot.mouseClick(throw, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not window.isVisible())
+
+
+def test_a_motion_is_new_to_another_project(window: MainWindow, motion: MotionWindow) -> None:
+    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    assert motion.project.save()
+
+    window.files.document.editor.history.seal()
+    window.files.document_changed.emit(window.files.document)
+
+    assert motion.desk.name == ""
