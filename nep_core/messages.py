@@ -202,6 +202,7 @@ class SenseRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
     "face", "ball", "sound" or "mark", there while ``value`` is above 0, at ``place`` (x, y, z m
     from its feet), a face or mark with a ``name``; or "word", with the ``name`` that was said. Or
     hands: "push" towards a ``place``; "place" puts it down there (x, y m, theta rad on the floor).
+    "usual": all sensors measure by themselves again.
     """
 
     robot: str

@@ -40,6 +40,8 @@ ROOMS = {
 }
 """The arrows of the design; a module is in the room with the longest name that fits."""
 
+FINDING_ROOM, FINDING = "nodes.action.naoqi", "zeroconf"
+"""Where the library that finds robots may be imported: only inside functions."""
 LEARNING = ("sklearn", "scipy")
 TRAINING_ROOM, TRAINING = "nodes.perceptual.recognition", re.compile("_*(train|fit)")
 """Where the libraries of learning may be imported: only inside functions of such names."""
@@ -102,6 +104,8 @@ def is_allowed(module: str, found: Import) -> bool:
         return room_of(found.name) in room.ours
     if is_within(module, TRAINING_ROOM) and any(is_within(found.name, it) for it in LEARNING):
         return bool(TRAINING.match(found.function))
+    if is_within(module, FINDING_ROOM) and is_within(found.name, FINDING):
+        return bool(found.function)
     return any(is_within(found.name, other) for other in room.others)
 
 
@@ -134,6 +138,8 @@ def test_every_import_follows_an_arrow_of_the_design() -> None:
         ("nep_core/cli/__init__.py", "import nep_studio.paths", "nep_studio.paths"),
         ("nodes/action/nao.py", "from nep_studio import paths", "nep_studio.paths"),
         ("nodes/action/nao.py", "import sklearn", "sklearn"),
+        ("nodes/action/nao.py", "def find():\n    import zeroconf", "zeroconf"),
+        ("nodes/action/naoqi/discovery.py", "import zeroconf", "zeroconf"),
         ("nodes/perceptual/recognition/gmr.py", "def match():\n    import scipy", "scipy"),
         ("nodes/perceptual/recognition/training.py", "import sklearn.tree", "sklearn.tree"),
         ("nep_studio/blocks/edits.py", "import nep_core.errors", "nep_core.errors"),
@@ -164,6 +170,7 @@ def test_a_planted_wrong_arrow_is_found(tmp_path: Path, place: str, source: str,
         ("nep_core/robot.py", "from . import messages\nimport zmq.utils, msgspec, json"),
         ("nodes/action/nao.py", "from nep_core.node import Node\nimport numpy as np"),
         ("nodes/perceptual/recognition/gmr.py", "def fit():\n    from sklearn import mixture"),
+        ("nodes/action/naoqi/discovery.py", "def find():\n    from zeroconf import Zeroconf"),
         ("nep_studio/blocks/generate/names.py", "from ..edits import Edit\nimport msgspec"),
         ("nep_studio/session.py", "from nep_studio.blocks import edits\nimport nep_core"),
         ("nep_studio/session.py", "from PySide6.QtCore import QObject"),
@@ -194,7 +201,7 @@ print(*sorted(name for name in {slow!r} if name in sys.modules))
     [
         ("nep_core", ("numpy", "sklearn", "scipy", "PySide6", "pyqtgraph")),
         ("nep_studio.blocks", ("numpy", "sklearn", "scipy", "PySide6", "pyqtgraph", "zmq")),
-        ("nodes", ("sklearn", "scipy", "PySide6", "pyqtgraph")),
+        ("nodes", ("sklearn", "scipy", "PySide6", "pyqtgraph", "zeroconf")),
     ],
 )
 def test_no_module_of_a_quick_room_loads_a_slow_library(package: str, slow: tuple[str]) -> None:

@@ -16,6 +16,7 @@ from typing import Literal, get_args
 import msgspec
 
 from .edits import SetExtra
+from .edits.kept import ANIMATION
 from .file_text import in_words
 from .program import Project
 from .values import why_not_name, why_not_text
@@ -24,8 +25,7 @@ AnimationKind = Literal["animation", "animal", "gesture"]
 Handle = tuple[float, float, float, float]
 """A Bezier key's two handles: time (s) and angle (rad) before the key, time and angle after it."""
 
-PREFIX = "animation_"
-"""What the keys of animations begin with in the project's file."""
+PREFIX = ANIMATION
 
 SHORTEST_STEP_S = 0.01
 MOST_JOINTS = 100

@@ -126,13 +126,15 @@ class Changes:
     """What a step changed: whole stacks, and in them the blocks (or stacks) changed themselves.
 
     ``notes`` are the ids of notes. ``whole`` says that something of the project as a whole
-    changed: its name, variables, own blocks, pages.
+    changed: its name, variables, own blocks, pages. ``kept`` are the keys of what is kept beside
+    the program.
     """
 
     stacks: set[str] = field(default_factory=set)
     owners: set[str] = field(default_factory=set)
     notes: set[str] = field(default_factory=set)
     whole: bool = False
+    kept: set[str] = field(default_factory=set)
 
     def __bool__(self) -> bool:
         return bool(self.stacks or self.owners or self.notes or self.whole)

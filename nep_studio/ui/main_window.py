@@ -106,6 +106,7 @@ class MainWindow(QMainWindow):
             "edit": add_edit_menu(self),
             "view": add_view_menu(self),
             "run": add_run_menu(self),
+            "robots": self.menuBar().addMenu(tr("R&obots")),
             "help": add_help_menu(self),
         }
         self.toolbar: QToolBar = add_toolbar(self)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction
 
 from nep_studio.ui.command_palette.palette import add_command_palette
+from nep_studio.ui.connecting.adding import add_connecting
 from nep_studio.ui.exporting.actions import NEEDS_PROJECT, add_exporting
 from nep_studio.ui.help.adding import add_help
 from nep_studio.ui.motion.adding import add_motion
@@ -57,6 +58,8 @@ def add_rooms(window: MainWindow) -> Iterator[None]:
     add_tour(window)
     yield
     add_study(window)
+    yield
+    add_connecting(window)
     add_motion(window)
     yield
     add_command_palette(window)

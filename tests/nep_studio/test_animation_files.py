@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -9,6 +12,8 @@ import pytest
 
 from nep_studio.animation_files import AnimationFiles, animation_files, to_toml
 from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.files import save
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.animations import keep_animation
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation
@@ -110,3 +115,23 @@ def test_without_a_folder_there_are_the_shipped_animations(body: Body) -> None:
 
     assert animations.names() == shipped.names()
     assert left_out == []
+
+
+def test_a_project_run_without_a_window_plays_its_own_animation(
+    editor: Editor, tmp_path: Path
+) -> None:
+    name = keep_animation(editor, HOP)
+    plays = next(b.id for b in editor.project.blocks.values() if b.type == "robot.play")
+    editor.apply(SetField(plays, "animation", name))
+    save(editor.project, tmp_path / "hop.nep")
+    command = ["run", str(tmp_path / "hop.nep"), "--json", "--speed", "5"]
+
+    done = subprocess.run(
+        [sys.executable, "-m", "nep_studio", *command], capture_output=True, text=True, timeout=60
+    )
+
+    told = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
+    results = [one["state"] for one in told if one.get("topic") == "/action_result"]
+    assert done.returncode == 0, done.stderr
+    assert "done" in results
+    assert "failed" not in results

@@ -7,109 +7,21 @@ must be then. The same looks are taken at the virtual robot and at one that is d
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
 
-from nep_core.messages import RobotState
+from tests.stories.robot_block_seen import (
+    LONG,
+    Look,
+    joint,
+    light,
+    needs,
+    rule,
+    sense,
+    setting,
+    value_is,
+    value_near,
+    went,
+)
 from tests.stories.robot_theatre import B
-
-NEAR_RAD, NEAR_M = 0.06, 0.04
-LONG = "This is what I have been asked to say to you"
-Sense = tuple[str, float, dict[str, Any]]
-
-
-@dataclass
-class Seen:
-    """The robot before and after, all its states in between, what a reporter gave, a refusal."""
-
-    before: RobotState
-    states: list[RobotState] = field(default_factory=list)
-    value: Any = None
-    refused: str = ""
-
-    @property
-    def after(self) -> RobotState:
-        return self.states[-1] if self.states else self.before
-
-    @property
-    def said(self) -> set[str]:
-        return {state.saying for state in self.states}
-
-    def way(self) -> tuple[float, float, float]:
-        """How far it went forward, to the left, and how far it turned."""
-        x, y, theta = self.before.base
-        to_x, to_y, to_theta = self.after.base
-        cosine, sine = math.cos(theta), math.sin(theta)
-        east, north = to_x - x, to_y - y
-        turn = math.remainder(to_theta - theta, math.tau)
-        return east * cosine + north * sine, north * cosine - east * sine, turn
-
-    def moved(self, joint: str) -> float:
-        """The most that a joint was away from where it was before."""
-        start = self.before.joints[joint]
-        return max((abs(state.joints[joint] - start) for state in self.states), default=0.0)
-
-
-@dataclass(frozen=True)
-class Look:
-    """``what``: what is looked at, in words; ``holds``: whether it is so."""
-
-    what: str
-    holds: Callable[[Seen], object]
-    fields: dict[str, Any] = field(default_factory=dict)
-    first: tuple[B, ...] = ()
-    then: tuple[B, ...] = ()
-    senses: tuple[Sense, ...] = ()
-    state: str = ""
-    """What the person does, for rules that wait for that."""
-
-
-def joint(name: str, degrees: float) -> Callable[[Seen], bool]:
-    return lambda seen: abs(seen.after.joints[name] - math.radians(degrees)) < NEAR_RAD
-
-
-def went(forward: float, left: float, turn_deg: float) -> Callable[[Seen], bool]:
-    def has_gone(seen: Seen) -> bool:
-        ahead, aside, turn = seen.way()
-        return (
-            abs(ahead - forward) < NEAR_M
-            and abs(aside - left) < NEAR_M
-            and abs(math.remainder(turn - math.radians(turn_deg), math.tau)) < NEAR_RAD
-        )
-
-    return has_gone
-
-
-def setting(name: str, value: object) -> Callable[[Seen], bool]:
-    return lambda seen: seen.after.settings.get(name) == value
-
-
-def light(name: str, colour: int) -> Callable[[Seen], bool]:
-    return lambda seen: seen.after.leds.get(name) == colour
-
-
-def value_near(value: float, by: float = 1.0) -> Callable[[Seen], bool]:
-    return lambda seen: isinstance(seen.value, int | float) and abs(seen.value - value) <= by
-
-
-def value_is(value: object) -> Callable[[Seen], bool]:
-    return lambda seen: seen.value == value
-
-
-def needs(what: str) -> Look:
-    words = f"says that it needs a robot with {what}, and why"
-    return Look(words, lambda seen: "A real NAO can" in seen.refused)
-
-
-def rule(what: str, *senses: Sense, state: str = "", **fields: Any) -> Look:
-    words = f"the rule runs when {what}"
-    return Look(words, lambda seen: LONG in seen.said, fields, senses=senses, state=state)
-
-
-def sense(what: str, value: float = 1.0, **more: Any) -> Sense:
-    return what, value, more
-
 
 FACE = sense("face", name="Anna", place=(0.8, 0.2, 0.5))
 MARK = sense("mark", name="64", place=(1.0, 0.0, 0.4))

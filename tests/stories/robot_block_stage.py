@@ -25,7 +25,8 @@ from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.studio_language import studio_language
 from tests.node_running import NodeRunner
-from tests.stories.robot_block_looks import ANSWERED, LONG, LOOKS, Look, Seen, Sense
+from tests.stories.robot_block_looks import ANSWERED, LOOKS
+from tests.stories.robot_block_seen import LONG, Look, Seen, Sense
 from tests.stories.robot_theatre import B, build
 
 DRIVERS = ("virtual", "naoqi")

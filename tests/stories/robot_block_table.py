@@ -54,6 +54,7 @@ def run_all(driver: str, free_port: int) -> dict[str, bool]:
             for definition in robot_blocks():
                 seen = stage.look(definition.id)
                 results[definition.id] = bool(LOOKS[definition.id].holds(seen))
+                print(driver, definition.id, YES if results[definition.id] else seen, flush=True)
     finally:
         set_default_network(None)
         for network in networks:

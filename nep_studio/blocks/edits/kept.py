@@ -26,6 +26,9 @@ FILE_KEYS = frozenset(
 
 LONGEST_KEY = 64
 LARGEST_BYTES = 200_000
+ANIMATION = "animation_"
+"""What the keys of the project's animations begin with: a dance has many numbers."""
+LARGEST_ANIMATION_BYTES = 1_000_000
 DEEPEST = 20
 
 
@@ -47,6 +50,7 @@ class SetExtra(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         else:
             project.extra[self.key] = self.value
         project.touch_extra()
+        project.changes.kept.add(self.key)
         return old
 
 
@@ -58,6 +62,7 @@ def why_not_extra(key: str, value: object) -> str | None:
         size = len(msgspec.json.encode(value))
     except (TypeError, ValueError, RecursionError, UnicodeEncodeError):
         return "This cannot be written into the project's file."
-    if size > LARGEST_BYTES or is_deeper(value, DEEPEST):
+    most = LARGEST_ANIMATION_BYTES if key.startswith(ANIMATION) else LARGEST_BYTES
+    if size > most or is_deeper(value, DEEPEST):
         return "This is too much to be kept in the project's file."
     return None

@@ -71,7 +71,9 @@ def _stand_first(editor: Editor, data: Data) -> str:
     return _create(editor, POSTURE, place, {"robot": data["robot"], "posture": posture})
 
 
-def append_entry(editor: Editor, page: str, block_type: str, fields: Mapping[str, FieldValue]) -> str:
+def append_entry(
+    editor: Editor, page: str, block_type: str, fields: Mapping[str, FieldValue]
+) -> str:
     """Make a block at the end of the last stack of a page that takes it, else below them."""
     stacks = editor.project.pages[page]
     new = editor.language.definitions[block_type].new_block(editor.project.new_id("b"))

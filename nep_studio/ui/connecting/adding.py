@@ -18,14 +18,13 @@ if TYPE_CHECKING:
 
 
 def add_connecting(window: MainWindow) -> None:
-    """Add the action; it is in the Run menu and in the command palette."""
+    """Add the action; it is in the Robots menu and in the command palette."""
     words = tr("Connect a robot…")
     tip = tr("Find a real NAO in the network, test the way to it, and use it in this project.")
     action = window.actions_by_name.add(
         "connect_robot", words, lambda: open_connecting(window), icon_name="plug", tip=tip
     )
-    window.menus["run"].addSeparator()
-    window.menus["run"].addAction(action)
+    window.menus["robots"].addAction(action)
 
 
 def open_connecting(window: MainWindow, robot: str = "") -> ConnectDialog | None:

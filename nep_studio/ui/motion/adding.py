@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDialog
 
 from nep_studio.blocks.operations.animations import Use, use_of
 from nep_studio.blocks.own_animations import own_animations
+from nep_studio.plan import PlannedNode
 from nep_studio.ui.canvas.menu_entries import MenuEntry, MenuPlace
 from nep_studio.ui.words import tr
 
@@ -24,7 +25,7 @@ MOTION_WINDOW = "motion_window"
 
 
 def add_motion(window: MainWindow) -> MotionKit:
-    """Add the actions "make_motion" and "teleoperate" to the Run menu."""
+    """Add the actions "make_motion" and "teleoperate" to the Robots menu."""
     return MotionKit(window)
 
 
@@ -38,8 +39,7 @@ class MotionKit(QObject):
         tip = tr("Pose the robot, put the poses on a timeline, and let blocks play the motion")
         words = tr("Make a motion…")
         make = add("make_motion", words, self.make, icon_name="person-standing", tip=tip)
-        menu = window.menus["run"]
-        menu.addSeparator()
+        menu = window.menus["robots"]
         menu.addAction(make)
         words = tr("Drive a robot…")
         tip = tr("Let a robot walk and look around with keys, a gamepad or a watch")
@@ -53,7 +53,7 @@ class MotionKit(QObject):
         """Show the window in which motions are made; there is one."""
         from nep_studio.ui.motion.window import MotionWindow
 
-        made = self._open_motion() or MotionWindow(self._window)
+        made = self._open_motion() or MotionWindow(self._window, self._model())
         made.show()
         made.raise_()
         made.activateWindow()
@@ -69,6 +69,12 @@ class MotionKit(QObject):
         made.raise_()
         made.activateWindow()
         return made
+
+    def _model(self) -> str:
+        """The model of the project's robots; a NAO's where they are different ones."""
+        planned = self._window.running.runner.planned()
+        models = {str(node.parameters.get("model", "")) for node in planned if is_robot(node)}
+        return models.pop() if len(models) == 1 else ""
 
     def make_for(self, use: Use) -> None:
         """Make a new motion, which a block plays once it is kept."""
@@ -120,3 +126,8 @@ class MotionKit(QObject):
     def _update(self, _document: object = None) -> None:
         is_open = self._window.files.document is not None
         self._window.actions_by_name.enable(is_open, "make_motion", "teleoperate")
+
+
+def is_robot(node: PlannedNode) -> bool:
+    """Whether a node plays a robot."""
+    return node.node.startswith("action/")

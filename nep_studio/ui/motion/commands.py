@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt
@@ -104,6 +105,16 @@ class Commands:
         add("mirror", mirror, lambda: self._do(mirror, editing.mirrored))
         add("backwards", backwards, lambda: self._do(backwards, editing.backwards))
         add("stretch", tr("Slower or faster…"), self.ask_stretch, icon_name="gauge")
+        look = add("look_from", tr("Look from"), lambda: None, icon_name="eye")
+        menu = QMenu(self.window)
+        for preset, words in (
+            ("front", tr("the front")),
+            ("side", tr("the side")),
+            ("back", tr("behind")),
+            ("top", tr("above")),
+        ):
+            menu.addAction(words, partial(self._look_from, preset))
+        look.setMenu(menu)
         words = tr("Give it the time it needs")
         add("give_time", words, self.give_time, icon_name="hourglass")
 
@@ -171,6 +182,9 @@ class Commands:
         self.player.pause()
         self.desk.choose(())
         self.desk.do(label, change(self.desk.motion))
+
+    def _look_from(self, preset: str) -> None:
+        self.window.view.look_from(preset)
 
     def _on_loop_toggled(self, is_on: bool) -> None:
         self.player.is_looping = is_on

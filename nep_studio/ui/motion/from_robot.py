@@ -23,17 +23,22 @@ if TYPE_CHECKING:
     from nep_studio.ui.running.tap import Heard
 
 ACTION = "action/"
+HEAD = "head_middle"
 NEXT_POSE_S = 1.0
 """So much later than the last one the next pose of a robot comes."""
 
 
 class RobotPoses(QObject):
-    """Hears the robots that run, and lets their joints go or hold."""
+    """Hears the robots that run, and lets their joints go or hold.
+
+    While one is moved by hand, a touch of its head takes its pose: both hands are busy there.
+    """
 
     def __init__(self, runner: Runner, desk: MotionDesk, parent: QObject) -> None:
         super().__init__(parent)
         self._runner, self._desk = runner, desk
         self.states: dict[str, m.RobotState] = {}
+        self._by_hand: set[str] = set()
         self._tap = runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
         self._tap.arrived.connect(self._on_arrived)
         runner.nodes_changed.connect(self._on_nodes_changed)
@@ -47,6 +52,9 @@ class RobotPoses(QObject):
             menu.addAction(tr("Take its pose"), partial(self.take, name))
             play = menu.addAction(tr("Let it play the motion"), partial(self.play, name))
             play.setEnabled(bool(self._desk.motion.joints))
+            if name in self._by_hand:
+                hint = tr("Or touch the middle of its head")
+                menu.addAction(hint).setEnabled(False)
             self._add_parts(menu, tr("Let it be moved by hand"), name, language, is_on=False)
             self._add_parts(menu, tr("Hold it again"), name, language, is_on=True)
         waiting = [node for node in self._planned() if node.name not in self.states]
@@ -83,6 +91,10 @@ class RobotPoses(QObject):
 
     def let_go(self, name: str, part: str, *, is_on: bool) -> None:
         """Switch the motors of a part of a robot on or off."""
+        if is_on:
+            self._by_hand.discard(name)
+        else:
+            self._by_hand.add(name)
         self._ask(name, "stiffness", {"part": part, "on": is_on})
 
     def _ask(self, name: str, action: str, args: dict[str, Any]) -> None:
@@ -101,10 +113,20 @@ class RobotPoses(QObject):
         return [node for node in self._runner.planned() if node.node.startswith(ACTION)]
 
     def _on_arrived(self, batch: list[Heard]) -> None:
-        self.states |= {heard.message.robot: heard.message for heard in batch}
+        for heard in batch:
+            state: m.RobotState = heard.message
+            before = self.states.get(state.robot)
+            self.states[state.robot] = state
+            is_touch = before is not None and not _is_touched(before) and _is_touched(state)
+            if is_touch and state.robot in self._by_hand:
+                self.take(state.robot)
 
     def _on_nodes_changed(self, names: list[str]) -> None:
         nodes = self._runner.board.nodes
         for name in names:
             if name in nodes and not nodes[name].is_there:
                 self.states.pop(name, None)
+
+
+def _is_touched(state: m.RobotState) -> bool:
+    return state.sensors.get(HEAD, 0.0) > 0.5

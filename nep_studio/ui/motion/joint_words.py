@@ -15,6 +15,8 @@ def joint_words(language: Language, body: Body, name: str) -> str:
         return tr("hand, open")
     part = part_of(body, name)
     words = language.choices.get(f"joints.{part}", {}).get(name, name)
+    if not name.startswith(("L", "R")):
+        return words
     if part.endswith("_leg") and name not in body.same_motor.values():
         side = tr("left") if name.startswith("L") else tr("right")
         return f"{side}: {words}"

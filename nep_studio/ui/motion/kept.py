@@ -22,12 +22,13 @@ from nep_studio.blocks.own_animations import (
 )
 from nodes.action.naobody.animations import Animation, load_animation
 from nodes.action.naobody.body import Body
-from nodes.action.naobody.keyframes import Keyframes
+from nodes.action.naobody.keyframes import Handle, Keyframes
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor
     from nep_studio.ui.documents_files import Files
 
+DIGITS = 5
 TABLES = ("animations", "animals", "say_gestures")
 
 
@@ -103,8 +104,21 @@ def as_own(animation: Animation) -> OwnAnimation:
 
 
 def joints_of(keyframes: Keyframes) -> dict[str, JointKeys]:
-    """Keyframes as a project keeps them."""
+    """Keyframes as a project keeps them: to a hundredth of a millisecond and of a mrad."""
     return {
-        name: JointKeys(track.times, track.keys, track.handles)
+        name: JointKeys(
+            _rounded(track.times),
+            _rounded(track.keys),
+            tuple(_handle(handle) for handle in track.handles) if track.handles else None,
+        )
         for name, track in keyframes.tracks.items()
     }
+
+
+def _rounded(numbers: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(round(number, DIGITS) for number in numbers)
+
+
+def _handle(handle: Handle) -> Handle:
+    a, b, c, d = _rounded(handle)
+    return (a, b, c, d)

@@ -24,9 +24,9 @@ Place = tuple[float, float, float]
 class PosingStage(QObject):
     """Keeps a robot view and a desk together."""
 
-    def __init__(self, view: RobotView, desk: MotionDesk, parent: QObject | None = None) -> None:
-        super().__init__(parent or view)
-        self.view, self.desk = view, desk
+    def __init__(self, view: RobotView, desk: MotionDesk, model: str = "") -> None:
+        super().__init__(view)
+        self.view, self.desk, self._model = view, desk, model
         self.skeleton = Skeleton(desk.body)
         self.reach = Reach(self.skeleton)
         self._grip: _Grip | None = None
@@ -51,6 +51,7 @@ class PosingStage(QObject):
             joints={name: float(angle) for name, angle in zip(names, pose, strict=True)},
             posture=starting_posture(desk.body, desk.motion),
             torso=self.torso(pose),
+            model=self._model,
         )
         self.view.show_robot(ROBOT, state, can_touch=False)
 

@@ -36,34 +36,36 @@ from nep_studio.ui.motion.project_commands import ProjectCommands
 from nep_studio.ui.motion.stage import PosingStage
 from nep_studio.ui.motion.timeline import Timeline
 from nep_studio.ui.motion.transport import Transport
-from nep_studio.ui.robot_view.view import RobotView, nao_folder
+from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.screens import room_around
 from nep_studio.ui.words import tr
 from nodes.action.naobody.body import load_body
+from nodes.action.naobody.models import NAO, robot_folder
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
 
 
 class MotionWindow(QDialog):
-    """Makes one motion at a time."""
+    """Makes one motion at a time, for a robot of a ``model``: "" is a NAO."""
 
-    def __init__(self, main: MainWindow) -> None:
+    def __init__(self, main: MainWindow, model: str = "") -> None:
         super().__init__(main)
         self.main, self.look = main, main.look
         self.setObjectName(MOTION_WINDOW)
         self.setWindowFlag(Qt.WindowType.WindowMaximizeButtonHint)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         language = main.studio.language
-        body = load_body(nao_folder())
+        self.model, folder = model, robot_folder(model or NAO)
+        body = load_body(folder)
         self.desk = MotionDesk(body, self)
         self.player = Player(self.desk, self)
-        self.kept = KeptMotions(main.files, nao_folder(), body)
+        self.kept = KeptMotions(main.files, folder, body)
         self.actions_by_name = Actions(self, self.look)
         self.commands = Commands(self)
         self.project = ProjectCommands(self)
         self.view = RobotView(self.look)
-        self.stage = PosingStage(self.view, self.desk, self)
+        self.stage = PosingStage(self.view, self.desk, model)
         self.joints = JointPanel(self.desk, language)
         self.header = Header(self.desk, language)
         self.timeline = Timeline(self.desk, self.look)
@@ -76,6 +78,7 @@ class MotionWindow(QDialog):
         self._lay_out()
         self._connect()
         self.desk.open(new_motion())
+        self.timeline.setFocus()
 
     def _connect(self) -> None:
         self.faults.found.connect(self.timeline.show_faults)
@@ -125,6 +128,9 @@ class MotionWindow(QDialog):
         if is_shown and self.curve.curve.joint not in moving and moving:
             self.curve.show_joint(moving[0])
         self.time_pages.setCurrentIndex(int(is_shown))
+        line = self.timeline.line
+        height = self.timeline.sizeHint().height() + 2
+        self.time_pages.setFixedHeight(height + line * 5 if is_shown else height)
 
     def _toolbar(self) -> QWidget:
         bar = QToolBar()
@@ -138,7 +144,7 @@ class MotionWindow(QDialog):
             bar.addAction(actions[name])
             _button_of(bar, actions[name]).setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
         bar.addSeparator()
-        for name in ("change_motion", "robot_pose", "more_motion"):
+        for name in ("change_motion", "robot_pose", "look_from", "more_motion"):
             bar.addAction(actions[name])
             mode = QToolButton.ToolButtonPopupMode.InstantPopup
             _button_of(bar, actions[name]).setPopupMode(mode)

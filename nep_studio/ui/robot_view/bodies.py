@@ -11,14 +11,16 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QBrush, QPainter, QTransform
 
 from .camera import Lens
-from .figure import Placed
 from .ordering import drawing_order
 from .parts import Part
+from .placed import Placed
 from .polygons import fitting_polygons
 from .shading import Shades
 from .silhouettes import Silhouettes, silhouettes
 
 OUTLINE_PX = 0.9
+RIM_FROM_PX = 6.0
+"""Smaller parts have no rim: it would be all that is seen of them."""
 GLOW_GROWTH = 3.2
 DIMMEST = 0x18
 """A light whose colours are all darker than this looks switched off."""
@@ -63,24 +65,23 @@ class Bodies:
         counts = [len(one.parts) for one, _ in groups]
         whose = np.repeat(np.arange(len(groups)), counts)
         seen = silhouettes(placed, lens)
-        order = _order(placed, seen, lens, np.cumsum([0, *counts]))
+        order = _order(placed, seen, lens)
         return cls(placed, [dress for _, dress in groups], whose, seen, order)
 
     def paint(self, painter: QPainter, shades: Shades) -> None:
-        """Paint all parts; what lights shed is painted with them, so that nearer parts cover it."""
+        """Paint all parts."""
         painter.setPen(Qt.PenStyle.NoPen)
         sizes = np.ptp(self.seen.outlines, axis=1).max(axis=1) * self.seen.ratio
         rims = fitting_polygons(self.seen.grown(OUTLINE_PX), sizes)
         faces = fitting_polygons(self.seen.outlines, sizes)
+        has_rim = (sizes > RIM_FROM_PX).tolist()
         middles, stretches = self.seen.centres.tolist(), self.seen.stretches.tolist()
-        glows: list[Spot] = []
+        glowing = self._glowing()
         for number in self.order:
             part, dress = self.placed.parts[number], self.dresses[self.whose[number]]
-            if not part.on:
-                _shed(painter, glows)
             shape = _ellipse(middles[number], stretches[number])
             colour, light = dress.colours[part.colour], dress.light_of(part)
-            if part.finish != "flat":
+            if has_rim[number] and part.finish != "flat":
                 painter.setBrush(shades.outline(colour, dress.is_pale))
                 painter.drawConvexPolygon(rims[number])
             known = shades.round(colour, dress.is_pale, part.finish)
@@ -90,9 +91,24 @@ class Bodies:
             painter.drawConvexPolygon(faces[number])
             if part.gloss and not dress.is_pale:
                 _shed(painter, [(_SPOT * shape, shades.gloss(part.gloss))])
+            if number in glowing:
+                lamps = ((_ellipse(middles[i], stretches[i]), glow) for i, glow in glowing[number])
+                _shed(painter, [(_HALO * lamp, shades.glow(glow)) for lamp, glow in lamps])
+
+    def _glowing(self) -> dict[int, list[tuple[int, int]]]:
+        """The lights that are on, with their colours, by what they lie on and shed their light on.
+
+        That is painted before them and all else that lies there, so that eyes stay clear.
+        """
+        glowing: dict[int, list[tuple[int, int]]] = {}
+        carrier = -1
+        for number in self.order:
+            part, dress = self.placed.parts[number], self.dresses[self.whose[number]]
+            carrier = carrier if part.on else number
+            light = dress.light_of(part)
             if light:
-                glows.append((_HALO * shape, shades.glow(light)))
-        _shed(painter, glows)
+                glowing.setdefault(carrier, []).append((number, light))
+        return glowing
 
     def part_at(self, x: float, y: float) -> int | None:
         """The number of the part that is seen at a pixel."""
@@ -118,16 +134,13 @@ Spot = tuple[QTransform, QBrush]
 
 
 def _shed(painter: QPainter, spots: list[Spot]) -> None:
-    """Paint spots of light, each a brush on the unit circle, and forget them."""
-    if not spots:
-        return
+    """Paint spots of light, each a brush on the unit circle."""
     plain = QTransform(painter.transform())
     for shape, brush in spots:
         painter.setTransform(shape * plain)
         painter.setBrush(brush)
         painter.drawEllipse(_MIDDLE, 1, 1)
     painter.setTransform(plain)
-    spots.clear()
 
 
 _MIDDLE = QPointF(0, 0)
@@ -141,27 +154,23 @@ def _holds(outline: NDArray[np.float64], x: float, y: float) -> bool:
     return bool((side >= -1e-9).all() or (side <= 1e-9).all())
 
 
-def _order(placed: Placed, seen: Silhouettes, lens: Lens, starts: NDArray[np.intp]) -> list[int]:
+def _order(placed: Placed, seen: Silhouettes, lens: Lens) -> list[int]:
     """All parts that are seen from far to near, those that lie on others right after them."""
-    bare = [i for i, part in enumerate(placed.parts) if not part.on and seen.is_seen[i]]
-    riders = _riders(placed, seen, lens, starts)
+    bare = placed.assembly.bare
+    riders = _riders(placed, seen, lens)
     order = []
-    for number in drawing_order(placed, seen, lens, np.array(bare, dtype=np.intp)):
+    for number in drawing_order(placed, seen, lens, bare[seen.is_seen[bare]]):
         order += [number, *riders.get(number, ())]
     return order
 
 
-def _riders(
-    placed: Placed, seen: Silhouettes, lens: Lens, starts: NDArray[np.intp]
-) -> dict[int, list[int]]:
+def _riders(placed: Placed, seen: Silhouettes, lens: Lens) -> dict[int, list[int]]:
     """The parts that lie on others and face the eye, by those others."""
     to_eye = lens.camera.eye - placed.origins
     faces_eye = np.einsum("pij,pj,pi->p", placed.turns, placed.normals, to_eye) > 0
+    shown = (faces_eye & seen.is_seen).tolist()
     riders: dict[int, list[int]] = {}
-    for start, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True):
-        carriers = {placed.parts[i].name: i for i in range(start, end)}
-        for i in range(start, end):
-            part = placed.parts[i]
-            if part.on and faces_eye[i] and seen.is_seen[i]:
-                riders.setdefault(carriers[part.on], []).append(i)
+    for number, carrier in placed.assembly.riders:
+        if shown[number]:
+            riders.setdefault(carrier, []).append(number)
     return riders

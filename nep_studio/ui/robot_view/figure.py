@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
 
@@ -17,54 +16,10 @@ from nodes.action.naobody.body import load_body
 from nodes.action.naobody.skeleton import UPRIGHT, Skeleton, TorsoPose
 from nodes.action.naobody.skeleton import rotation as turned_by
 
-from .parts import VIEW_FILE, Part, Shaped, all_parts, read_view, rotation
-from .shapes import Solids
+from .parts import VIEW_FILE, Shaped, all_parts, read_view, rotation
+from .placed import UP, Assembly, Placed
 
 Array = NDArray[np.float64]
-UP, ASIDE, AHEAD = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
-
-
-@dataclass(frozen=True, eq=False)
-class Placed:
-    """Parts in the room: their shapes, the places (parts, 3) and turns (parts, 3, 3) of them."""
-
-    parts: tuple[Part, ...]
-    solids: Solids
-    origins: Array
-    turns: Array
-    normals: Array
-    """Where the parts (parts, 3) face, along their own axes."""
-    links: Mapping[str, Array]
-    """Each link's frame (4, 4) in the room."""
-
-    def middles(self) -> Array:
-        """The middles (parts, 3) of the parts."""
-        middles: Array = self.origins + np.einsum("pij,pj->pi", self.turns, self.solids.middle)
-        return middles
-
-    def farthest(self, way: Array) -> Array:
-        """The farthest point (parts, 3) of each part in one direction of the room."""
-        ways = np.einsum("pij,i->pj", self.turns, way)[:, None]
-        points = self.solids.farthest(ways)[:, 0]
-        reached: Array = self.origins + np.einsum("pij,pj->pi", self.turns, points)
-        return reached
-
-    def corners(self) -> Array:
-        """Points (6 * parts, 3) that no part goes far beyond, to fit a camera."""
-        ways = [AHEAD, -AHEAD, ASIDE, -ASIDE, UP, -UP]
-        return np.concatenate([self.farthest(way) for way in ways])
-
-    @staticmethod
-    def joined(many: list[Placed]) -> Placed:
-        """The parts of several, one after the other."""
-        return Placed(
-            tuple(part for one in many for part in one.parts),
-            Solids.joined([one.solids for one in many]),
-            np.concatenate([one.origins for one in many]),
-            np.concatenate([one.turns for one in many]),
-            np.concatenate([one.normals for one in many]),
-            {},
-        )
 
 
 class RobotFigure:
@@ -77,12 +32,11 @@ class RobotFigure:
         self.colours, self.head, self.top_m = view.colours, view.head, view.top_m
         shaped = list(all_parts(view))
         _check_links(folder, shaped, self.skeleton.links)
-        self.parts = tuple(one.part for one in shaped)
-        self.solids = Solids.of([one.blobs for one in shaped])
+        self.assembly = Assembly.of(shaped)
+        self.parts = self.assembly.parts
         self.sensors = tuple(dict.fromkeys(p.sensor for p in self.parts if p.sensor))
         self._at = np.array([one.at for one in shaped])
         self._turn = np.array([one.turn for one in shaped])
-        self._normal = np.array([one.normal for one in shaped])
         self._link_names = tuple(dict.fromkeys(part.link for part in self.parts))
         self._link = np.array([self._link_names.index(part.link) for part in self.parts])
         self._hinges = _Hinges(shaped)
@@ -132,7 +86,7 @@ class RobotFigure:
         at, turn = self._hinges.opened(self._at, self._turn, joints)
         origins = frames[:, :3, 3] + np.einsum("pij,pj->pi", frames[:, :3, :3], at)
         turns = frames[:, :3, :3] @ turn
-        return Placed(self.parts, self.solids, origins, turns, self._normal, links)
+        return Placed(self.assembly, origins, turns, links)
 
 
 def _check_links(folder: Path, shaped: Sequence[Shaped], links: Sequence[str]) -> None:

@@ -43,25 +43,28 @@ def begun(view: RobotView, event: QMouseEvent, found: Found) -> Gesture:
         return MoveThing(view, found, at)
     if found.robot:
         view.robot_chosen.emit(found.robot)
-    return Orbit(view, at)
+    return Orbit(view, at, lets_go=not found.robot)
 
 
 class Orbit:
-    """Goes around what is looked at."""
+    """Goes around what is looked at; a click that ``lets_go`` chooses no thing any more."""
 
     cursor = Qt.CursorShape.ClosedHandCursor
 
-    def __init__(self, view: RobotView, at: QPointF) -> None:
-        self._view, self._last = view, at
+    def __init__(self, view: RobotView, at: QPointF, *, lets_go: bool = False) -> None:
+        self._view, self._last, self._lets_go = view, at, lets_go
 
     def move(self, at: QPointF) -> None:
         """Turn the room with the pointer."""
         way, self._last = at - self._last, at
+        self._lets_go = self._lets_go and way.manhattanLength() < 2
         camera = self._view.camera.orbited(-way.x() * RAD_PER_PX, way.y() * RAD_PER_PX)
         self._view.look_through(camera)
 
     def end(self) -> None:
         """Stay where it is."""
+        if self._lets_go:
+            self._view.thing_chosen.emit("")
 
 
 class Pan:

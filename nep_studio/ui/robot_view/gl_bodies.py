@@ -12,7 +12,7 @@ from PySide6.QtOpenGL import QOpenGLFramebufferObject
 
 from .camera import Lens
 from .drawing import Group, NoContext
-from .gl_buffers import GpuRows, OnGpu
+from .gl_buffers import STRIP, TRIANGLES, GpuRows, OnGpu
 from .gl_context import GlContext, program
 from .gl_meshes import mesh_of
 from .gl_shaders import BODY_FRAGMENT, BODY_VERTEX, GLOW_FRAGMENT, GLOW_VERTEX, MOST_PARTS
@@ -20,6 +20,8 @@ from .gl_values import glows_of, rows_of, tell_lens
 from .shading import Shades
 from .shapes import Solids
 
+MOST_MESHES = 100
+"""So many kinds of robots and sizes of things are kept."""
 COLOUR_AND_DEPTH = 0x4000 | 0x0100
 DEPTH_TEST, BLEND, LEQUAL = 0x0B71, 0x0BE2, 0x0203
 ONE, ONE_MINUS_SRC_ALPHA = 1, 0x0303
@@ -61,6 +63,7 @@ class GlBodies:
         self._paint_glows(groups, lens)
         image = self._sheet.toImage()
         self._sheet.release()
+        self._gl.leave()
         image.setDevicePixelRatio(lens.ratio)
         return image
 
@@ -71,14 +74,16 @@ class GlBodies:
             if len(placed.parts) > MOST_PARTS:
                 raise NoContext(f"a robot of {len(placed.parts)} parts is too much for it")
             self._rows.fill(rows_of(placed, dress, lens, shades))
-            self._mesh(placed.solids).draw(self._calls, self._body)
+            self._mesh(placed.solids).draw(self._calls, self._body, STRIP)
         self._body.release()
 
     def _mesh(self, solids: Solids) -> OnGpu:
         known = self._meshes.get(id(solids))
         if known is None:
-            mesh, made = mesh_of(solids), OnGpu((3, 3, 1))
-            made.fill(mesh.vertices, mesh.triangles)
+            if len(self._meshes) >= MOST_MESHES:
+                self._meshes.clear()
+            made = OnGpu((3, 3, 1))
+            made.fill(mesh_of(solids))
             known = self._meshes[id(solids)] = (solids, made)
         return known[1]
 
@@ -92,8 +97,8 @@ class GlBodies:
         self._calls.glBlendFunc(ONE, ONE_MINUS_SRC_ALPHA)
         self._glow.bind()
         tell_lens(self._glow, lens)
-        self._glow_sheet.fill(vertices, np.arange(len(vertices), dtype=np.uint32))
-        self._glow_sheet.draw(self._calls, self._glow)
+        self._glow_sheet.fill(vertices)
+        self._glow_sheet.draw(self._calls, self._glow, TRIANGLES)
         self._glow.release()
         self._calls.glDepthMask(1)
         self._calls.glDisable(BLEND)

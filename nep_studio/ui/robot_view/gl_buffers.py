@@ -7,35 +7,30 @@ from numpy.typing import NDArray
 from PySide6.QtGui import QOpenGLExtraFunctions
 from PySide6.QtOpenGL import QOpenGLBuffer, QOpenGLShaderProgram, QOpenGLVertexArrayObject
 
-FLOAT, TRIANGLES, UNSIGNED_INT = 0x1406, 0x0004, 0x1405
+FLOAT, TRIANGLES, STRIP = 0x1406, 0x0004, 0x0005
 UNIFORM_BUFFER = 0x8A11
 BYTES = 4
-"""Of a number, a float32 or a uint32."""
+"""Of a float32."""
 
 
 class OnGpu:
-    """Vertices, of values as wide as ``widths`` says, and triangles between them."""
+    """Vertices, of values as wide as ``widths`` says."""
 
     def __init__(self, widths: tuple[int, ...]) -> None:
         self._widths = widths
         self._state = QOpenGLVertexArrayObject()
         self._vertices = QOpenGLBuffer(QOpenGLBuffer.Type.VertexBuffer)
-        self._numbers = QOpenGLBuffer(QOpenGLBuffer.Type.IndexBuffer)
         self._count = 0
         self._state.create()
         self._vertices.create()
-        self._numbers.create()
 
-    def fill(self, vertices: NDArray[np.float32], numbers: NDArray[np.uint32]) -> None:
-        """Put them into the memory of the GPU."""
-        self._state.bind()
+    def fill(self, vertices: NDArray[np.float32]) -> None:
+        """Put vertices (n, all widths) into the memory of the GPU."""
         _put(self._vertices, vertices.tobytes())
-        _put(self._numbers, numbers.tobytes())
-        self._count = numbers.size
-        self._state.release()
+        self._count = len(vertices)
 
-    def draw(self, calls: QOpenGLExtraFunctions, program: QOpenGLShaderProgram) -> None:
-        """Paint all triangles with a program that is in use."""
+    def draw(self, calls: QOpenGLExtraFunctions, program: QOpenGLShaderProgram, how: int) -> None:
+        """Paint the vertices as triangles, or a strip of them, with a program that is in use."""
         self._state.bind()
         self._vertices.bind()
         stride, start = BYTES * sum(self._widths), 0
@@ -43,9 +38,7 @@ class OnGpu:
             program.enableAttributeArray(number)
             program.setAttributeBuffer(number, FLOAT, start, width, stride)
             start += BYTES * width
-        self._numbers.bind()
-        # Qt's own description of the call says int; what it takes is a pointer: nothing, for the beginning.
-        calls.glDrawElements(TRIANGLES, self._count, UNSIGNED_INT, None)  # type: ignore[arg-type]
+        calls.glDrawArrays(how, 0, self._count)
         self._state.release()
 
 

@@ -46,7 +46,9 @@ class GlContext:
         wanted.setRenderableType(QSurfaceFormat.RenderableType.OpenGL)
         wanted.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
         wanted.setVersion(*VERSION)
-        context, surface = QOpenGLContext(), QOffscreenSurface()
+        # They go with the application: a driver that is asked later may crash.
+        app = QGuiApplication.instance()
+        context, surface = QOpenGLContext(app), QOffscreenSurface(None, app)
         context.setFormat(wanted)
         if not context.create():
             raise NoContext("no context can be made")
@@ -63,6 +65,10 @@ class GlContext:
         """Let what follows paint here. Raises NoContext when the GPU is gone."""
         if not self.context.makeCurrent(self.surface):
             raise NoContext("the context is lost")
+
+    def leave(self) -> None:
+        """Let what follows paint elsewhere."""
+        self.context.doneCurrent()
 
     def sheet(self, size: QSize) -> QOpenGLFramebufferObject:
         """Something to paint on, with smooth edges where that costs little. Raises NoContext."""

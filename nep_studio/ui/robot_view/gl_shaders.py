@@ -106,7 +106,7 @@ out vec4 painted;
 
 void main() {
     float far = min(length(off), 1.0);
-    float alpha = 0.42 * pow(1.0 - far, 2.2);
+    float alpha = 0.26 * pow(1.0 - far, 2.2);
     painted = vec4(colour * alpha, alpha);
 }
 """

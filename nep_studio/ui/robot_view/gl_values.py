@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QColor, QMatrix3x3, QMatrix4x4, QVector3D
@@ -11,9 +9,8 @@ from PySide6.QtOpenGL import QOpenGLShaderProgram
 
 from .bodies import GLOW_GROWTH, Dress
 from .camera import Lens
-from .figure import Placed
 from .gl_shaders import MOST_PARTS, ROWS
-from .parts import Part
+from .placed import Placed
 from .shading import Shades, lit_colour, mixed
 
 Array = NDArray[np.float64]
@@ -77,21 +74,10 @@ def _lifts(placed: Placed, lens: Lens) -> Array:
     """How much nearer each part counts; hidden ones lie on the far side of others."""
     to_eye = lens.camera.eye - placed.origins
     is_away = np.einsum("pij,pj,pi->p", placed.turns, placed.normals, to_eye) <= 0
-    layers = _layers(placed.parts)
+    layers = placed.assembly.layers
     lifts = np.where(layers > 0, LIFT_M + LAYER_M * layers, 0.0)
     lifts[(layers > 0) & is_away] = HIDDEN
     return lifts
-
-
-@lru_cache(maxsize=32)
-def _layers(parts: tuple[Part, ...]) -> Array:
-    """The how manieth on its carrier each part is; 0 for those that lie on none."""
-    counts: dict[str, int] = {}
-    layers = np.zeros(len(parts))
-    for number, part in enumerate(parts):
-        if part.on:
-            layers[number] = counts[part.on] = counts.get(part.on, 0) + 1
-    return layers
 
 
 def glows_of(placed: Placed, dress: Dress, lens: Lens) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .camera import Lens
-from .figure import Placed
+from .placed import Placed
 from .silhouettes import Silhouettes
 
 Array = NDArray[np.float64]

@@ -14,9 +14,9 @@ from .bodies import Bodies, Dress
 from .bubbles import Bubble, Said, paint_bubble, placed_bubbles
 from .camera import Lens
 from .drawing import NoContext, OnGpu
-from .figure import Placed
 from .floor import paint_grid, paint_path
 from .looking import head_of
+from .placed import Placed
 from .polygons import polygons
 from .scene import Scene, SceneRobot
 from .shading import Shades

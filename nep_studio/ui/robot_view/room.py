@@ -9,8 +9,9 @@ import msgspec
 
 from nep_core.messages import RobotState, Thing
 
-from .figure import Placed, RobotFigure
+from .figure import RobotFigure
 from .motion import Motion
+from .placed import Placed
 from .scene import FloorPlace, Marked, Scene, SceneRobot
 
 STEP_M = 0.015

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 from nep_core.messages import RobotState, Thing
 
-from .figure import Placed, RobotFigure
+from .figure import RobotFigure
+from .placed import Placed
 
 FloorPlace = tuple[float, float]
 

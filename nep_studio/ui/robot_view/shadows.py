@@ -11,7 +11,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QImage, QPainter, QPolygonF, QTransform
 
 from .camera import Camera, Lens
-from .figure import Placed
+from .placed import UP, Placed
 from .polygons import polygons
 
 Array = NDArray[np.float64]
@@ -21,7 +21,6 @@ AIR_M = 0.09
 LOW_M = 0.05
 """Parts that come so near to the floor cast a darker, sharper shadow."""
 SLANT = 0.32
-SMALLEST_M = 0.009
 SOFT, FIRM = 0.30, 0.34
 TONE = (0.09, 0.11, 0.17)
 """Red, green and blue of a full shadow."""
@@ -59,18 +58,15 @@ _SHEET = [(0, 0), (SIDE_PX, 0), (SIDE_PX, SIDE_PX), (0, SIDE_PX)]
 
 def cast_shadow(placed: Placed, camera: Camera, depth: float = 1.0) -> Shadow | None:
     """The shadow of some parts; the light comes over the left shoulder of who looks."""
-    extent = placed.solids.extent
-    casting = np.array(
-        [not part.on and min(extent[i]) > SMALLEST_M for i, part in enumerate(placed.parts)]
-    )
-    if not casting.any():
+    placed = placed.casting()
+    if not placed.parts:
         return None
-    outlines = _on_floor(placed, _slope(camera))[casting]
+    outlines = _on_floor(placed, _slope(camera))
     low, high = outlines.min(axis=(0, 1)) - AIR_M, outlines.max(axis=(0, 1)) + AIR_M
     middle, side = (low + high) / 2, float((high - low).max())
     low = middle - side / 2
     pixels = (outlines - low) * (SIDE_PX / side)
-    lowest = placed.farthest(np.array([0.0, 0.0, -1.0]))[casting, 2]
+    lowest = placed.farthest(-UP)[:, 2]
     unit = SIDE_PX / side
     soft = _blurred(_filled(pixels), max(1, round(0.034 * unit)))
     firm = _blurred(_filled(pixels[lowest < LOW_M]), max(1, round(0.012 * unit)))

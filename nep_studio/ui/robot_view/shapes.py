@@ -65,6 +65,13 @@ class Solids:
         )
         return cls._boxed(owner, centre, size, powers, int(starts[-1]))
 
+    def only(self, numbers: Indices) -> Solids:
+        """Some of the parts, in the order of their numbers."""
+        kept = np.isin(self.owner, numbers)
+        owner = np.searchsorted(numbers, self.owner[kept])
+        parts = (self.centre[kept], self.size[kept], self.powers[kept])
+        return self._boxed(owner.astype(np.intp), *parts, len(numbers))
+
     @classmethod
     def _boxed(
         cls, owner: Indices, centre: Array, size: Array, powers: Array, count: int

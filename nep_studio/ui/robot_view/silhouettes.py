@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .camera import BEFORE_EYE_M, Lens
-from .figure import Placed
+from .placed import Placed
 
 Array = NDArray[np.float64]
 CORNERS = ((1000.0, 32), (4000.0, 64), (math.inf, 128))

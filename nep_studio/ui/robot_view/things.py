@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from nep_core.messages import Thing
 from nep_studio import paths
 
-from .figure import Placed
 from .parts import Shaped, Triple, ViewFile, all_parts, read_view, rotation
+from .placed import Assembly, Placed
 from .shapes import Solids
 
 Array = NDArray[np.float64]
@@ -55,12 +55,11 @@ def _made(kind: str, size: Triple) -> Placed:
     wide, deep, high = size
     scale = np.array([deep, wide, high] if view.stretches else [high, high, high])
     shaped = list(all_parts(view))
+    known = Assembly.of(shaped)
     return Placed(
-        tuple(one.part for one in shaped),
-        _scaled(shaped, scale),
+        replace(known, solids=_scaled(shaped, scale)),
         np.array([one.at for one in shaped]) * scale,
         np.array([one.turn for one in shaped]),
-        np.array([one.normal for one in shaped]),
         {},
     )
 

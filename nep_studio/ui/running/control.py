@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.errors import NepError
+from nep_studio import cues, surroundings
 from nep_studio.blocks.checks import Problem as BlockProblem
 from nep_studio.blocks.checks.problem import page_of
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import Changes, Project
 from nep_studio.plan import Choices, PlannedNode, plan
 from nep_studio.session import Ending, Watching
 from nep_studio.ui.messages import Answer
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
 
 log = logging.getLogger(__name__)
+
+AT_ONCE = frozenset((cues.KEY, surroundings.KEY))
+"""What a project keeps that a running program needs no new start for."""
 
 
 class RunControl(QObject):
@@ -242,7 +246,9 @@ class RunControl(QObject):
             if panel.name == "RobotsPanel" and not window.settings.is_chosen(panel.name):
                 window.workbench.panels.show(panel.widget)
 
-    def _on_edited(self, _changes: object) -> None:
+    def _on_edited(self, changes: Changes) -> None:
+        if changes.kept and changes.kept <= AT_ONCE and not changes.stacks:
+            return
         if self.runner.state != "idle" and not self.is_stale:
             self.is_stale = True
             self.became_stale.emit()

@@ -49,7 +49,7 @@ class Say(msgspec.Struct, frozen=True):
 
 
 class Do(msgspec.Struct, frozen=True):
-    """Take a posture, such as ``posture_stand``; ``pace``: how many times as fast as it likes to."""
+    """Take a posture, such as ``posture_stand``, ``pace`` times as fast as it likes to."""
 
     posture: str
     pace: Annotated[float, Meta(ge=0.1, le=2.0)] = 1.0

@@ -85,6 +85,21 @@ class Way(msgspec.Struct, frozen=True):
     through: tuple[str, ...]
 
 
+class Camera(msgspec.Struct, frozen=True):
+    """A camera in the head: where it is in the head's frame (m), how far down it looks (rad)."""
+
+    at_m: Vector
+    down_rad: float = 0.0
+
+
+class Sonar(msgspec.Struct, frozen=True):
+    """A sonar: where it is in the frame of a link (m), and how far to the left it points (rad)."""
+
+    link: str
+    at_m: Vector
+    yaw_rad: float = 0.0
+
+
 class _BodyFile(msgspec.Struct, frozen=True):
     joints: tuple[Joint, ...]
     same_motor: dict[str, str]
@@ -93,6 +108,8 @@ class _BodyFile(msgspec.Struct, frozen=True):
     links: dict[str, Link] = {}
     key_poses: dict[str, KeyPose] = {}
     ways: tuple[Way, ...] = ()
+    cameras: tuple[Camera, ...] = ()
+    sonars: dict[str, Sonar] = {}
 
 
 class Body:
@@ -111,6 +128,7 @@ class Body:
         self.same_motor = file.same_motor
         self.postures = file.postures
         self.links = file.links
+        self.cameras, self.sonars = file.cameras, file.sonars
         self._key_poses = file.key_poses
         self._ways = {way.between: way.through for way in file.ways}
         self._shell = np.radians([(s.yaw, s.min_pitch, s.max_pitch) for s in file.head_shell_deg]).T

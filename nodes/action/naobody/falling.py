@@ -44,7 +44,7 @@ def sink(robot: VirtualRobot) -> Task:
     columns = robot.body.columns({Limb.LEGS})
     goal = robot.angles.copy()
     goal[columns] = robot.body.posture_angles(SUNK_POSTURE)[columns]
-    robot.posture = SUNK_POSTURE
+    robot.be_in(SUNK_POSTURE)
     yield from lean(robot, goal, -robot.stance.skeleton.resting_turn(goal)[2])
     return ""
 
@@ -68,7 +68,7 @@ def fall(robot: VirtualRobot) -> Task:
     motion = move(robot.body, robot.angles, goal, columns, speed=PROTECTING_SPEED)
     yield from play_motion(robot, motion)
     yield from _come_to_rest(robot)
-    robot.posture = posture
+    robot.be_in(posture)
     yield from lean(robot, goal, np.asarray(resting_down(robot, posture)))
     return ""
 

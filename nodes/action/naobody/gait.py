@@ -15,7 +15,7 @@ import numpy as np
 
 from nodes.action.naobody.body import Angles, Body
 from nodes.action.naobody.curves import minimum_jerk, ticks
-from nodes.action.naobody.legs import HIP_LEFT_M, write_legs
+from nodes.action.naobody.legs import leg_sizes, write_legs
 from nodes.action.naobody.motion import TICK_S, Motion
 from nodes.action.naobody.skeleton import Frames, Points, Skeleton
 
@@ -106,7 +106,7 @@ def _walk(
     """Return a walk of so many steps, and the angles of every joint in it."""
     skeleton = Skeleton(body)
     lean = skeleton.resting_turn(standing)
-    feet = _feet(way / steps, steps, step_s)
+    feet = _feet(way / steps, steps, step_s, leg_sizes(body).hip_left)
     frames = skeleton.transforms(standing)
     middle = lean @ skeleton.feet_middle(frames)
     offset = lean @ skeleton.mass_centre(frames)
@@ -157,7 +157,7 @@ def _fastest_part(body: Body, standing: Angles, angles: Angles) -> float:
     return float((steps / TICK_S / body.max_speed).max())
 
 
-def _feet(step: Angles, steps: int, step_s: float) -> _Feet:
+def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
     swings = steps + 1
     times_s = ticks(2.0 * LEAVING_S + swings * step_s, TICK_S)
     swing_s = step_s * (1.0 - BOTH_FEET_PART)
@@ -172,8 +172,8 @@ def _feet(step: Angles, steps: int, step_s: float) -> _Feet:
             gone += (landing - here) * minimum_jerk(s)
             height += np.sin(np.pi * s) ** 2 * FOOT_LIFT_M
             here = landing
-        places[side], yaws[side] = _foot(gone, step, sign * HIP_LEFT_M, height), gone * step[2]
-        middle, _ = _foot(gone, step, sign * (HIP_LEFT_M - INWARD_M), height), None
+        places[side], yaws[side] = _foot(gone, step, sign * hip_left_m, height), gone * step[2]
+        middle, _ = _foot(gone, step, sign * (hip_left_m - INWARD_M), height), None
         stands[side] = middle[:, :2] + SOLE_MIDDLE_M * _heading(yaws[side])
     return _Feet(places, yaws, _weight(times_s, stands, swings, step_s))
 

@@ -10,7 +10,7 @@ import numpy as np
 from nodes.action.naobody.body import Angles
 from nodes.action.naobody.curves import minimum_jerk, ticks
 from nodes.action.naobody.gait import FOOT_LIFT_M
-from nodes.action.naobody.legs import HIP_LEFT_M, write_legs
+from nodes.action.naobody.legs import leg_sizes, write_legs
 from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import TICK_S, Motion
 from nodes.action.naobody.pose import VirtualRobot
@@ -46,7 +46,11 @@ def plan_joining(robot: VirtualRobot, standing: Angles) -> Joining:
     feet = {side: _foot(robot, side) for side in SIDES}
     firm = min(feet, key=lambda side: _looseness(robot, feet[side]))
     there = _Foot(feet[firm].place, feet[firm].heading)
-    middle = there.place + turned(there.heading) @ [0.0, -SIDES[firm] * HIP_LEFT_M, 0.0]
+    middle = there.place + turned(there.heading) @ [
+        0.0,
+        -SIDES[firm] * leg_sizes(robot.body).hip_left,
+        0.0,
+    ]
     base = np.array([middle[0], middle[1], there.heading])
     seconds = JOINING_S
     for _ in range(TRIES):
@@ -78,7 +82,8 @@ def _planned(
     torso = stance.place + part[:, None] * (goal - stance.place)
     ankles, yaws = {}, {}
     for side, sign in SIDES.items():
-        places, yaws[side] = _way(feet[side], base, sign, part)
+        aside_m = sign * leg_sizes(robot.body).hip_left
+        places, yaws[side] = _way(feet[side], base, aside_m, part)
         ankles[side] = _level(places - torso, yaw) @ lean
     angles = np.repeat(standing[None, :], len(part), axis=0)
     write_legs(robot.body, angles, ankles, lean[2], yaws["L"] - yaws["R"])
@@ -103,10 +108,10 @@ def _looseness(robot: VirtualRobot, foot: _Foot) -> float:
     return float(foot.place[2]) + 0.01 * away_m
 
 
-def _way(foot: _Foot, base: Angles, sign: float, part: Angles) -> tuple[Points, Angles]:
+def _way(foot: _Foot, base: Angles, aside_m: float, part: Angles) -> tuple[Points, Angles]:
     """Return where a foot is while it comes to its side of the base, and how it is turned."""
     goal = np.array([*base[:2], SOLE_DOWN_M])
-    goal += turned(float(base[2])) @ [0.0, sign * HIP_LEFT_M, 0.0]
+    goal += turned(float(base[2])) @ [0.0, aside_m, 0.0]
     way = goal - foot.place
     places = foot.place + part[:, None] * way
     if float(np.hypot(*way[:2])) > BESIDE_M:

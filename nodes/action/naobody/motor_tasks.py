@@ -9,12 +9,13 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from nep_core.errors import ActionFailed
 from nodes.action.naobody import motor_actions as m
 from nodes.action.naobody.body import Angles, Body
 from nodes.action.naobody.body_tasks import check_joint
 from nodes.action.naobody.keyframes import Keyframes, Track
 from nodes.action.naobody.limbs import Limb
-from nodes.action.naobody.motion import TICK_S, Motion, keyframe_motion, move
+from nodes.action.naobody.motion import TICK_S, Motion, keyframe_motion, move, playable
 from nodes.action.naobody.parts import SINGLE_PARTS, part_of
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.tasks import Task
@@ -22,6 +23,7 @@ from nodes.action.naobody.tasks import Task
 TO_FULL_SPEED_S = 0.15
 """In this time a joint gets from rest to its top speed."""
 NEAR_RAD = 1e-4
+LONGEST_S = 600.0
 
 
 def motor_limbs(robot: VirtualRobot, action: object) -> frozenset[Limb]:
@@ -91,12 +93,21 @@ def reach(robot: VirtualRobot, action: m.ReachAngles) -> Task:
 
 def move_through(robot: VirtualRobot, action: m.MoveThrough) -> Task:
     """Move joints through their keys."""
-    tracks = {name: track for name, track in action.tracks.items() if track.times}
-    if action.relative:
-        tracks = {n: _added(t, _angle(robot, n)) for n, t in tracks.items()}
+    tracks = {
+        name: _allowed(robot, name, track, relative=action.relative)
+        for name, track in action.tracks.items()
+        if track.times
+    }
     if not tracks:
         return ""
-    motion = keyframe_motion(robot.body, robot.angles, Keyframes(tracks), softly=False)
+    keyframes = Keyframes(tracks)
+    seconds = playable(robot.body, robot.angles, keyframes, softly=False)[0].duration_s
+    if seconds > LONGEST_S:
+        raise ActionFailed(
+            f"This movement would last {seconds:.0f} s. At most {LONGEST_S:.0f} s are possible: "
+            "let it have fewer or earlier keys."
+        )
+    motion = keyframe_motion(robot.body, robot.angles, keyframes, softly=False)
     yield from _play(robot, motion)
     return "; ".join(motion.notes)
 
@@ -214,9 +225,10 @@ def _joints_of(body: Body, part: str) -> list[str]:
     return [name for name in body.names if part_of(body, name) == part]
 
 
-def _angle(robot: VirtualRobot, joint: str) -> float:
-    return float(robot.angles[robot.body.index[joint]])
-
-
-def _added(track: Track, angle: float) -> Track:
-    return Track(track.times, tuple(key + angle for key in track.keys), track.handles)
+def _allowed(robot: VirtualRobot, joint: str, track: Track, *, relative: bool) -> Track:
+    """Return a joint's keys within its limits, counted from where it is if they are relative."""
+    column = robot.body.index[joint]
+    start = float(robot.angles[column]) if relative else 0.0
+    low, high = float(robot.body.min[column]), float(robot.body.max[column])
+    keys = tuple(min(max(key + start, low), high) for key in track.keys)
+    return Track(track.times, keys, track.handles)

@@ -9,7 +9,7 @@ import numpy as np
 from nep_core.messages import Thing
 from nodes.action.naobody import leds
 from nodes.action.naobody.animations import Animations
-from nodes.action.naobody.body import Angles, Body
+from nodes.action.naobody.body import Angles, Body, KeyPose
 from nodes.action.naobody.body_language import GestureWords
 from nodes.action.naobody.skeleton import Skeleton
 from nodes.action.naobody.stance import Stance
@@ -58,6 +58,8 @@ class VirtualRobot:
     noticed: dict[str, tuple[float, float, float]] = field(default_factory=dict)
     bumped: frozenset[str] = frozenset()
     battery: float = 1.0
+    passed: tuple[KeyPose, ...] = ()
+    towards: str = ""
     model: str = ""
     stance: Stance = field(init=False)
     settings: dict[str, bool | float | str] = field(default_factory=lambda: dict(AT_START))
@@ -66,6 +68,10 @@ class VirtualRobot:
         self.angles = self.body.posture_angles(self.posture)
         down = self.body.postures[self.posture].down
         self.stance = Stance(Skeleton(self.body), self.angles, down)
+
+    def be_in(self, posture: str) -> None:
+        """Have reached a posture."""
+        self.posture, self.passed, self.towards = posture, (), ""
 
     @property
     def seen(self) -> dict[str, tuple[float, float, float]]:

@@ -62,13 +62,20 @@ class Sagging:
         stance = self._robot.stance
         centres, masses = stance.skeleton.mass_centres(stance.frames), stance.skeleton.masses_kg
         torques = np.zeros(len(self._robot.body.names))
+        down = stance.down
         for column, (link, carried) in self._lever.items():
             frame = stance.frames[link]
             axis = frame[:3, :3] @ self._robot.body.joints[column].axis
-            weight = (masses[carried] * GRAVITY_M_S2)[:, None] * stance.down
-            arms = centres[carried] - frame[:3, 3]
-            torques[column] = float(axis @ np.cross(arms, weight).sum(axis=0))
+            # the pull of all links together: numpy's cross product is slow for single vectors
+            arm = masses[carried] @ (centres[carried] - frame[:3, 3])
+            torques[column] = GRAVITY_M_S2 * _triple(axis, arm, down)
         return torques
+
+
+def _triple(a: Angles, b: Angles, c: Angles) -> float:
+    """Return how much of the cross product of b and c is along a."""
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = a.tolist(), b.tolist(), c.tolist()
+    return float(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx))
 
 
 def _levers(skeleton: Skeleton) -> dict[int, tuple[int, list[int]]]:

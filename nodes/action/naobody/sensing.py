@@ -20,6 +20,9 @@ def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
         return [state_of_word(request.name)] if plain(request.name) else []
     if request.sense in THINGS:
         return _see(robot, request)
+    if request.sense == "usual":
+        robot.felt.clear()
+        return []
     if request.sense in HANDLED:
         HANDLED[request.sense](robot, request.place)
         return []

@@ -12,7 +12,7 @@ from nodes.action.naobody.body import Angles
 from nodes.action.naobody.parts import part_of
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.stance import TOUCHING_M, Stance
-from nodes.action.naobody.surroundings import SONARS, sonar_m
+from nodes.action.naobody.surroundings import sonar_m
 
 TOUCH_SENSORS = (
     "head_front",
@@ -48,7 +48,7 @@ def measured(robot: VirtualRobot, joint_speed: Angles, turning: Angles) -> dict[
     ``turning``: how fast the torso turns about its own axes, rad/s.
     """
     sensors = dict.fromkeys(TOUCH_SENSORS, 0.0) | dict.fromkeys(robot.bumped, 1.0)
-    sensors |= {name: sonar_m(robot, name) for name in SONARS}
+    sensors |= {name: sonar_m(robot, name) for name in robot.body.sonars}
     down = robot.stance.down
     for axis, part, rate in zip("xyz", down.tolist(), turning.tolist(), strict=True):
         sensors[f"acc_{axis}"] = round(GRAVITY_M_S2 * part, 4)

@@ -11,10 +11,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nodes.action.naobody.body import Angles, Vector
 from nodes.action.naobody.resting import Points, Rotation, hull, inside_by, tilt_for, tipped
 from nodes.action.naobody.skeleton import TORSO, Frames, Skeleton, TorsoPose, pose_of, turned
+
+Touching = NDArray[np.bool_]
 
 FOLLOWING_RAD_S = 1.5
 """So fast a body that stands still follows its own small movements."""
@@ -59,6 +62,8 @@ class Stance:
         self.last_guide: Leaning | Carried | None = None
         """How a task held the torso at the last tick, if one did."""
         self._speed_rad_s = FOLLOWING_RAD_S
+        self._angles: Angles = angles
+        self._places: Points = np.zeros((0, 3))
         self.put_down(angles, np.zeros(3), down)
 
     def put_down(self, angles: Angles, base: Angles, down: Vector) -> None:
@@ -142,7 +147,7 @@ class Stance:
             self.has_lost_balance = True
 
     def _keep_touching_places(
-        self, places: Points, outline: Points, before: Points, touched: Angles
+        self, places: Points, outline: Points, before: Points, touched: Touching
     ) -> Points:
         """Move the body over the floor so that what touches it slides as little as it can."""
         low = places[:, 2] < places[:, 2].min() + TOUCHING_M
@@ -177,9 +182,9 @@ class Stance:
         self._speed_rad_s = FOLLOWING_RAD_S + FALLING_RAD_S2 * PUSHED_S
 
     @property
-    def touching(self) -> Angles:
+    def touching(self) -> Touching:
         """Which of the skeleton's outline points touch the floor (points,), true or false."""
-        touching: Angles = self._places[:, 2] < TOUCHING_M
+        touching: Touching = self._places[:, 2] < TOUCHING_M
         return touching
 
     @property

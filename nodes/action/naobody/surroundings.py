@@ -8,16 +8,13 @@ import numpy as np
 
 from nep_core.messages import Thing
 from nep_core.words import plain, state_of_thing
-from nodes.action.naobody.body import Vector
+from nodes.action.naobody.body import Camera
 from nodes.action.naobody.obstacles import half_size, seen_from, ways_m
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.skeleton import Points, rotation
 
 Place = tuple[float, float, float]
 
-CAMERAS = (((0.05871, 0.0, 0.06364), 0.0209), ((0.05071, 0.0, 0.01774), 0.6929))
-"""The top and the bottom camera in the head's frame: where, m, and how far down they look, rad.
-Source: nao_description V50 URDF."""
 HALF_VIEW_RAD = (math.radians(60.97 / 2.0), math.radians(47.64 / 2.0))
 """What a camera sees to each side, and up and down. Source: NAO documentation, video cameras."""
 SIGHT_M = {"person": 3.0, "ball": 3.0, "mark": 2.5}
@@ -32,9 +29,6 @@ FORGETTING_S = 1.0
 """What is out of sight for less than this is still taken to be there."""
 SENSES = {"person": "face", "ball": "ball", "mark": "mark"}
 
-SONARS = {"sonar_left": (0.0192, 0.392441), "sonar_right": (-0.0192, -0.392441)}
-"""Where the sonars are to the left in the torso, m, and where they point, rad. Source: as above."""
-SONAR_AHEAD_M, SONAR_UP_M = 0.0056, 0.0624
 SONAR_RANGE_M, SONAR_NEAREST_M = 2.55, 0.2
 SONAR_HALF_RAD = (math.radians(30.0), 0.13)
 """How wide a sonar hears to each side, and up and down."""
@@ -90,7 +84,9 @@ def visible(robot: VirtualRobot) -> dict[str, Place]:
 
     Of several of a kind, the nearest is "face", "ball" or "mark".
     """
-    eye = robot.stance.link_place("Head", CAMERAS[0][0])
+    if not robot.body.cameras:
+        return {}
+    eye = _eye(robot)
     seen: dict[str, Place] = {}
     for thing in sorted(robot.things, key=lambda thing: math.dist(thing.place, eye)):
         if thing.kind not in SENSES or not _is_seen(robot, thing):
@@ -104,12 +100,11 @@ def visible(robot: VirtualRobot) -> dict[str, Place]:
 
 def sonar_m(robot: VirtualRobot, sonar: str) -> float:
     """Return how far the nearest thing before a sonar is (m), or its range when there is none."""
-    left_m, yaw = SONARS[sonar]
-    stance = robot.stance
+    built, stance = robot.body.sonars[sonar], robot.stance
     if stance.turn[2, 2] < 0.5 or not robot.things:
         return SONAR_RANGE_M
-    start = stance.link_place("torso", (SONAR_AHEAD_M, left_m, SONAR_UP_M))
-    heading = math.atan2(stance.turn[1, 0], stance.turn[0, 0]) + yaw
+    start = stance.link_place(built.link, built.at_m)
+    heading = math.atan2(stance.turn[1, 0], stance.turn[0, 0]) + built.yaw_rad
     side, upwards = SONAR_HALF_RAD
     turns = heading + np.linspace(-side, side, SONAR_RAYS)
     rays = np.column_stack([np.cos(turns), np.sin(turns)])
@@ -134,13 +129,13 @@ def _target(thing: Thing, eye: Points) -> Place:
 
 
 def _is_seen(robot: VirtualRobot, thing: Thing) -> bool:
-    eye = robot.stance.link_place("Head", CAMERAS[0][0])
+    eye = _eye(robot)
     target = np.array(_target(thing, eye))
     if float(np.linalg.norm(target - eye)) > SIGHT_M[thing.kind]:
         return False
     if thing.kind != "ball" and _turned_away(thing, eye) > TURNED_AWAY_RAD:
         return False
-    if not any(_in_view(robot, target, place, down) for place, down in CAMERAS):
+    if not any(_in_view(robot, target, camera) for camera in robot.body.cameras):
         return False
     others = [other for other in robot.things if other.id != thing.id]
     return not any(_hides(other, eye, target) for other in others)
@@ -151,10 +146,15 @@ def _turned_away(thing: Thing, eye: Points) -> float:
     return abs(math.remainder(to_eye - thing.heading, 2.0 * math.pi))
 
 
-def _in_view(robot: VirtualRobot, target: Points, place: Vector, down_rad: float) -> bool:
+def _eye(robot: VirtualRobot) -> Points:
+    """Return where the first camera is in the room."""
+    return robot.stance.link_place("Head", robot.body.cameras[0].at_m)
+
+
+def _in_view(robot: VirtualRobot, target: Points, camera: Camera) -> bool:
     stance = robot.stance
-    turn = stance.link_turn("Head") @ rotation(0.0, down_rad, 0.0)
-    x, y, z = turn.T @ (target - stance.link_place("Head", place))
+    turn = stance.link_turn("Head") @ rotation(0.0, camera.down_rad, 0.0)
+    x, y, z = turn.T @ (target - stance.link_place("Head", camera.at_m))
     sideways, upwards = HALF_VIEW_RAD
     return x > 0.0 and abs(math.atan2(y, x)) < sideways and abs(math.atan2(z, x)) < upwards
 

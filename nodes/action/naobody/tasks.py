@@ -56,17 +56,33 @@ def speak(robot: VirtualRobot, text: str, seconds: float) -> Task:
 def take_posture(robot: VirtualRobot, goal: str) -> Task:
     """Move to a posture, through the postures and key poses that lie between."""
     body = robot.body
-    for posture in posture_path(body, robot.posture, goal):
-        for pose in body.key_poses(robot.posture, posture):
+    path = posture_path(body, robot.posture, goal)
+    if robot.passed and path[0] != robot.towards:
+        yield from _go_back(robot)
+    for posture in path:
+        poses = body.key_poses(robot.posture, posture)[len(robot.passed) :]
+        robot.towards = posture
+        for pose in poses:
             yield from lean(robot, np.array(pose.angles), np.array(pose.down))
+            robot.passed = (*robot.passed, pose)
         yield from lean(robot, body.posture_angles(posture), resting_down(robot, posture))
-        robot.posture = posture
+        robot.be_in(posture)
     if robot.family != "lying":
         robot.fallen = False
     feet = robot.stance.feet_base()
     if robot.family == "standing" and not np.allclose(robot.base, feet, atol=MOVED_FEET_M):
         robot.base = feet
     return ""
+
+
+def _go_back(robot: VirtualRobot) -> Task:
+    """Go back to the posture that was left on a way which was not gone to its end."""
+    while robot.passed:
+        pose = robot.passed[-1]
+        yield from lean(robot, np.array(pose.angles), np.array(pose.down))
+        robot.passed = robot.passed[:-1]
+    goal = robot.body.posture_angles(robot.posture)
+    return (yield from lean(robot, goal, resting_down(robot, robot.posture)))
 
 
 def lean(robot: VirtualRobot, goal: Angles, down: Angles) -> Task:

@@ -36,6 +36,9 @@ from nodes.action.naobody.walking import come_to_rest
 LOOKING_S = 0.1
 BATTERY_S = 90.0 * 60.0
 """So long a full battery lasts. Source: NAO documentation, in normal use."""
+TICKS_IN_TIME, MOST_TICKS_A_LOOK = 4, 8
+"""A robot that lives faster looks less often how it stands: so many ticks at once are in time."""
+MOST_TICKS = 1000
 FELL = "robot_fell"
 """What is told when the robot has lost its balance."""
 
@@ -60,6 +63,8 @@ class VirtualDriver:
         self._notice = Notice(robot)
         self._noticed: list[str] = []
         self._next_look_s = now_s
+        self._ticks_a_look = 1
+        self._ticks_since_look = 0
 
     @property
     def moving(self) -> bool:
@@ -115,12 +120,21 @@ class VirtualDriver:
         self._next_look_s = self._clock_s
 
     def step(self, now_s: float) -> list[Ended]:
-        """Go on to a time, or to the first tick in which a command ends."""
+        """Go on to a time, or to the first tick in which a command ends.
+
+        A time that is too far off is not reached at once: the robot lives slower for a moment.
+        """
         self._look_around(now_s)
-        while self.moving and self._clock_s + TICK_S <= now_s:
+        hurry = int((now_s - self._clock_s) / TICK_S) // TICKS_IN_TIME
+        self._ticks_a_look = min(max(hurry, 1), MOST_TICKS_A_LOOK)
+        for _ in range(MOST_TICKS):
+            if not self.moving or self._clock_s + TICK_S > now_s:
+                break
             self._clock_s += TICK_S
             if ended := self._tick():
                 return ended
+        if self._ticks_since_look:
+            self._follow(must=True)
         if not self.moving:
             self._use_battery(now_s - self._clock_s)
             self._clock_s = now_s
@@ -176,7 +190,7 @@ class VirtualDriver:
         return {**robot.settings, "awake": awake, **locked}
 
     def _tick(self) -> list[Ended]:
-        angles, turn = self.robot.angles.copy(), self.robot.stance.turn
+        angles = self.robot.angles.copy()
         self._use_battery(TICK_S)
         self._braking = [one for one in self._braking if not _is_over(one.task)]
         ended = [end for name in tuple(self._running) if (end := self._advance(name))]
@@ -185,9 +199,9 @@ class VirtualDriver:
             self._held_up.clear()
         self._idling.step(self._used_limbs(), self._clock_s)
         self._sagging.step()
-        self.robot.stance.follow(self.robot.angles, TICK_S)
+        self._ticks_since_look += 1
+        self._follow(must=bool(ended))
         self._joint_speed = (self.robot.angles - angles) / TICK_S
-        self._turning = turning_rad_s(turn, self.robot.stance.turn, TICK_S)
         if self.robot.stance.has_lost_balance and not self.robot.fallen:
             ended += self._fall()
         elif gives_way(self.robot):
@@ -195,6 +209,14 @@ class VirtualDriver:
             ended += self._instead(sink(self.robot), sentence, frozenset({Limb.LEGS}))
         self._look_around(self._clock_s)
         return ended
+
+    def _follow(self, *, must: bool) -> None:
+        """Let the body stand on the floor as its joints are now; not at each tick in a hurry."""
+        if must or self._ticks_since_look >= self._ticks_a_look:
+            seconds, before = TICK_S * self._ticks_since_look, self.robot.stance.turn
+            self.robot.stance.follow(self.robot.angles, seconds)
+            self._turning = turning_rad_s(before, self.robot.stance.turn, seconds)
+            self._ticks_since_look = 0
 
     def _used_limbs(self) -> frozenset[Limb]:
         """Return the limbs that move for a command, or come to rest."""

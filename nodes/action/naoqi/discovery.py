@@ -7,12 +7,9 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 from nodes.action.naoqi.driver.address import NAOQI_PORT, plain_address
-
-if TYPE_CHECKING:
-    from zeroconf import ServiceInfo, Zeroconf
 
 SERVICE = "_naoqi._tcp.local."
 SEARCH_S = 4.0
@@ -72,8 +69,8 @@ def find_robots(
     return list(robots.values())
 
 
-def _ask(network: Zeroconf, name: str) -> FoundRobot | None:
-    """Where a robot is, None when it does not tell it."""
+def _ask(network: Any, name: str) -> FoundRobot | None:
+    """Where a robot is, None when it does not tell it; ``network`` is a Zeroconf."""
     info = network.get_service_info(SERVICE, name, timeout=round(ASK_S * 1000))
     host = _host(info) if info is not None else ""
     if info is None or not host:
@@ -81,8 +78,8 @@ def _ask(network: Zeroconf, name: str) -> FoundRobot | None:
     return FoundRobot(name.removesuffix(f".{SERVICE}"), host, info.port or NAOQI_PORT)
 
 
-def _host(info: ServiceInfo) -> str:
-    """The address to reach a robot at: one of the usual, short kind if there is one."""
+def _host(info: Any) -> str:
+    """The address to reach a robot at, out of its ServiceInfo: a short, usual one if it can."""
     addresses = [ipaddress.ip_address(text) for text in _without_zones(info.parsed_addresses())]
     usual = [one for one in addresses if one.version == 4]
     if usual:

@@ -45,6 +45,9 @@ class Check:
     about: AboutRobot | None = None
 
 
+IS_NAOQI = Check("naoqi", True, "It is a NAOqi robot.")
+
+
 class _Failed(Exception):
     """A step has failed; the later ones are not tried."""
 
@@ -61,6 +64,8 @@ def probe(address: str, login: Login | None, robot: str = ROBOT) -> Iterator[Che
     try:
         yield from _steps(address, login, robot)
     except _Failed as failed:
+        if failed.check.step == "login":  # who asks for a password has said what it is
+            yield IS_NAOQI
         yield failed.check
 
 
@@ -73,7 +78,7 @@ def _steps(text: str, login: Login | None, robot: str) -> Iterator[Check]:
     yield Check("port", True, f"A program answers at {place}.")
     session = _connect(address, login, robot)
     try:
-        yield Check("naoqi", True, "It is a NAOqi robot.")
+        yield IS_NAOQI
         words = "It let us in." if login else "It asks for no password."
         yield Check("login", True, words)
         missing = [name for name in NEEDED if not _has(session, name)]

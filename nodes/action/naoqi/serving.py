@@ -6,9 +6,10 @@ who asks for something is called back when it has ended.
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from nep_core.messages import ActionRequest, ActionResult, RobotState
@@ -33,6 +34,7 @@ class ServedRobot:
         self._others: list[ActionResult] = []
         self._awaited: list[tuple[Condition, Callable[[], None]]] = []
         self._numbers = itertools.count(1)
+        self._moment: RobotState | None = None
 
     @property
     def name(self) -> str:
@@ -97,9 +99,21 @@ class ServedRobot:
         """Return the limbs that are used, or waited for."""
         return frozenset(limb for command in self.commands() for limb in command.limbs)
 
+    @contextlib.contextmanager
+    def moment(self) -> Iterator[None]:
+        """Let nothing change meanwhile: ``state`` is made once, however often it is asked."""
+        with self.lock:
+            self._moment = self.state()
+            try:
+                yield
+            finally:
+                self._moment = None
+
     def state(self) -> RobotState:
         """Return how the robot is now."""
         with self.lock:
+            if self._moment is not None:
+                return self._moment
             state = self.actor.driver.state()
         assert state is not None  # of a virtual robot it is always known
         return state

@@ -108,6 +108,16 @@ def test_nao_keeps_its_balance(name: str, posture: str) -> None:
     assert balance_m(played(animation, posture)[::4]) >= 0.01
 
 
+@pytest.mark.parametrize("name", ANIMATIONS.names())
+def test_nao_plays_each_animation_to_its_end_without_falling(name: str) -> None:
+    stage = Stage()
+
+    result = stage.do("play", animation=name)
+
+    assert (result.state, result.description) == ("done", "")
+    assert not stage.robot.fallen and np.abs(stage.robot.base).max() < 0.02
+
+
 def test_a_planted_pose_that_falls_is_found() -> None:
     angles = BODY.posture_angles("StandInit")
     angles[[BODY.index["LAnklePitch"], BODY.index["RAnklePitch"]]] -= 0.4

@@ -74,6 +74,7 @@ def test_its_manifest_is_right() -> None:
         "speed": 1.0,
         "animations": "",
         "naoqi_port": 0,
+        "model": "nao",
     }
 
 
@@ -198,13 +199,30 @@ def test_a_real_robot_that_does_not_answer_is_told_and_requests_fail_with_the_sa
         Robot("NAO").say("Hello")
 
 
-def test_a_real_robot_that_answers_is_told_that_it_cannot_be_driven_yet(theatre: Theatre) -> None:
+def test_a_program_that_is_no_robot_is_told_apart_from_one(theatre: Theatre) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         theatre.start(driver="naoqi", address=f"127.0.0.1:{server.getsockname()[1]}")
 
         failed = theatre.state("connection_failed")
 
-    assert "can drive the virtual NAO only" in failed.description
+    assert failed.description.startswith("NAO does not answer")
+
+
+def test_a_robot_behind_naoqi_does_what_programs_ask(theatre: Theatre, free_port: int) -> None:
+    theatre.ready(robot="Served", speed=20, naoqi_port=free_port)
+    theatre.ready(robot="NAO", driver="naoqi", address=f"127.0.0.1:{free_port}")
+    robot = Robot("NAO")
+
+    robot.say("Hello", gesture="greet")
+    robot.walk(0.2)
+    robot.do("posture_sit")
+
+    def sits(state: RobotState) -> bool:
+        return state.robot == "Served" and state.posture == "Sit"
+
+    last = until(theatre.robot_states, sits)[-1]
+    assert last.base[0] == pytest.approx(0.2, abs=0.02)
+    assert robot.posture() == "Sit"
 
 
 def test_a_wrong_address_ends_the_node_with_a_sentence(theatre: Theatre) -> None:

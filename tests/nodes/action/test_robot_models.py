@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from nep_core.errors import NodeStartError
-from nep_core.messages import ROBOT_STATE, ActionRequest, ActionResult, RobotState
+from nep_core.messages import ROBOT_STATE, ActionRequest, ActionResult, RobotState, Thing
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Subscriber
 from nep_core.robot import Robot
@@ -121,6 +121,36 @@ def test_pepper_looks_and_points_from_its_own_neck_and_shoulders() -> None:
     assert angle["HeadPitch"] + lean == pytest.approx(0.0, abs=0.02)
     assert angle["LShoulderPitch"] + lean == pytest.approx(0.0, abs=0.02)
     assert angle["LShoulderRoll"] == pytest.approx(0.0088, abs=0.01)
+
+
+def test_pepper_sees_a_ball_from_its_own_head_and_a_wall_from_its_base() -> None:
+    stage = PepperOnStage()
+    ball = Thing(id="b", kind="ball", place=(1.0, 0.0, 1.0), size=(0.1, 0.1, 0.1))
+    wall = Thing(id="w", kind="wall", place=(0.9, 0.0, 0.0), size=(2.0, 0.1, 0.5))
+    stage.robot.things = (ball, wall)
+
+    stage.do("do", posture="posture_stand")
+
+    state = stage.driver.state()
+    assert state.sees["ball"] == pytest.approx((1.0, 0.0, 1.05), abs=0.01)
+    assert state.sensors["sonar_left"] == pytest.approx(0.85 - 0.07, abs=0.02)
+
+
+def test_a_nao_with_longer_thighs_walks_with_its_own_legs(tmp_path: Path) -> None:
+    made = tmp_path / "tall"
+    shutil.copytree(ROBOTS / "nao", made)
+    body = json.loads((made / "body.json").read_text())
+    for joint in body["joints"]:
+        if joint["name"] in ("LKneePitch", "RKneePitch"):
+            joint["origin_m"] = [0.0, 0.0, -0.11]
+    (made / "body.json").write_text(json.dumps(body))
+    stage = PepperOnStage(load_body(made), made)
+
+    result = stage.do("walk", forward_m=0.2)
+
+    assert (result.state, stage.robot.fallen) == ("done", False)
+    assert stage.driver.state().base[0] == pytest.approx(0.2, abs=1e-3)
+    assert stage.least_margin_m > -0.01
 
 
 def test_pepper_says_which_postures_it_has() -> None:

@@ -10,6 +10,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
+from nep_core import messages as m
 from nep_studio.blocks.own_animations import OwnAnimation, own_animations
 from nep_studio.ui.canvas.menu_entries import MenuPlace
 from nep_studio.ui.canvas.page import Hit
@@ -124,10 +125,12 @@ def test_the_pose_of_a_robot_that_was_moved_by_hand_becomes_a_key(
         lambda: robots.states["NAO"].settings["locked_left_arm"] is False, timeout=WAIT_MS
     )
     robots.take("NAO")
-    robots.take("NAO")
+    joints = robots.states["NAO"].joints
+    touch = m.SenseRequest(robot="NAO", sense="head_middle", value=1.0)
+    window.running.runner.send(m.SENSE_REQUEST, touch)
+    qtbot.waitUntil(lambda: len(editing.key_times(motion.desk.motion)) == 2, timeout=WAIT_MS)
 
     assert editing.key_times(motion.desk.motion) == [1.0, 2.0]
-    joints = robots.states["NAO"].joints
     pose = editing.pose_at(motion.desk.motion, 1.0)
     assert pose == pytest.approx(joints, abs=1e-3)
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from nep_studio.blocks.own_animations import OwnAnimation
+from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
 from nep_studio.ui.motion import editing
 from nep_studio.ui.motion.desk import MotionDesk
 from nodes.action.naobody.body import load_body
@@ -97,3 +99,55 @@ def test_what_is_saved_is_not_modified_any_more(desk: MotionDesk) -> None:
     desk.saved("new")
 
     assert not desk.is_modified
+
+
+steps = st.lists(
+    st.tuples(
+        st.sampled_from(["pose", "legs", "add", "move", "copy", "delete", "shift", "time", "show"]),
+        st.floats(-3, 6),
+    ),
+    max_size=15,
+)
+
+
+@settings(deadline=None, max_examples=40)
+@given(steps)
+def test_every_step_can_be_taken_back_and_done_again(taken: list[tuple[str, float]]) -> None:
+    desk = MotionDesk(BODY)
+    desk.open(OwnAnimation("New", {}))
+    begun = desk.motion
+
+    for what, number in taken:
+        step(desk, what, number)
+        motion = desk.motion
+        assert not motion.joints or why_not_animation("new", motion) is None
+
+    done = desk.motion
+    while desk.undo_label:
+        desk.undo()
+    assert desk.motion == begun
+    while desk.redo_label:
+        desk.redo()
+    assert desk.motion == done
+
+
+def step(desk: MotionDesk, what: str, number: float) -> None:
+    match what:
+        case "pose":
+            desk.set_joints({"RShoulderPitch": number, "LHand": 0.5}, "pose")
+        case "legs":
+            desk.set_joints({"LKneePitch": number}, "legs")
+        case "add":
+            desk.add_key("add")
+        case "move":
+            desk.move_chosen(number, "move")
+        case "copy":
+            desk.copy_chosen(number, "copy")
+        case "delete":
+            desk.delete_chosen("delete")
+        case "shift":
+            desk.shift_after(abs(number), number, "shift")
+        case "time":
+            desk.give_time("time")
+        case "show":
+            desk.show(number)

@@ -170,3 +170,16 @@ def test_a_watch_that_falls_silent_stops_the_robot(
     assert driving.pilot.drive.forward > 0
     qtbot.waitUntil(lambda: driving.pilot.drive == STILL)
     assert "not heard" in driving.told.text()
+
+
+def test_another_window_in_front_stops_what_a_gamepad_drives(
+    driving: TeleoperationWindow, window: MainWindow, qtbot: QtBot
+) -> None:
+    driving.gamepad.changed.emit(Drive(forward=1.0))
+    assert driving.pilot.drive.forward > 0
+
+    window.activateWindow()
+
+    qtbot.waitUntil(lambda: driving.pilot.drive == STILL)
+    driving.gamepad.changed.emit(Drive(forward=0.9))
+    assert driving.pilot.drive == STILL

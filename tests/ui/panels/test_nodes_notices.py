@@ -46,7 +46,7 @@ def test_a_wrong_address_offers_the_robot_on_the_screen_and_the_address() -> Non
     notice = notice_of(READY, after, replace(OURS, has_block=True, address="10.0.0.9"))
 
     assert notice is not None
-    assert notice.fixes == ("use_virtual", "change_address")
+    assert notice.fixes == ("use_virtual", "test_connection", "change_address")
     assert notice.problem.sentence == "NAO does not answer: not at 10.0.0.9."
     assert notice.problem.checklist == ("Is NAO switched on?", "Same network?")
 

@@ -173,6 +173,22 @@ def test_a_thing_is_dragged_over_the_floor(shown: RobotView, qtbot: QtBot) -> No
     assert shown.room.things[0].place[:2] == pytest.approx((x, y))
 
 
+def test_a_click_on_the_floor_chooses_nothing_and_a_drag_keeps_what_is_chosen(
+    shown: RobotView, qtbot: QtBot
+) -> None:
+    chosen: list[str] = []
+    shown.thing_chosen.connect(chosen.append)
+
+    qtbot.mousePress(shown, LEFT, pos=empty(shown))
+    qtbot.mouseMove(shown, empty(shown) + QPoint(50, 0))
+    qtbot.mouseRelease(shown, LEFT)
+    after_drag = list(chosen)
+    qtbot.mouseClick(shown, LEFT, pos=empty(shown))
+
+    assert after_drag == []
+    assert chosen == [""]
+
+
 def test_a_limb_is_dragged_while_the_robot_is_posed(shown: RobotView, qtbot: QtBot) -> None:
     shown.is_posing = True
     shown.look_through(shown.camera.orbited(0.0, 0.2))

@@ -78,7 +78,7 @@ def test_a_real_robot_is_looked_for_and_then_met_or_missing() -> None:
 
     missing = needs(nodes=[REAL], answers={"NAO": False})[0]
     assert (missing.state, missing.block) == ("missing", "b1")
-    assert fixes(missing) == ["simulator", "address"]
+    assert fixes(missing) == ["simulator", "connect", "address"]
 
 
 def test_an_address_answers_when_somebody_listens_there() -> None:

@@ -83,6 +83,7 @@ def karate(window: MainWindow, qtbot: QtBot) -> MainWindow:
     """The window with a copy of the karate example."""
     window.files.open_example(paths.examples() / "karate_greeting.nep")
     qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+    qtbot.waitUntil(lambda: "Impressive" in window.workbench.code.text.toPlainText())
     return window
 
 

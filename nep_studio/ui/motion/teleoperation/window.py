@@ -6,7 +6,7 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -67,7 +67,7 @@ class TeleoperationWindow(QDialog):
         self._lay_out()
         self._connect()
         self.refresh()
-        self.pad.setFocus()
+        (self.pad if self.states else self.start_button).setFocus()
 
     def refresh(self) -> None:
         """Show which robots there are."""
@@ -172,8 +172,15 @@ class TeleoperationWindow(QDialog):
 
     # What is wanted
 
+    def changeEvent(self, event: QEvent) -> None:
+        """Who turns to another window lets go, of a gamepad and a watch too."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
+            self._drives.clear()
+            self._steer()
+
     def _on_drive(self, source: str, drive: Drive) -> None:
-        self._drives[source] = drive
+        self._drives[source] = drive if self.isActiveWindow() else STILL
         self._steer()
 
     def _steer(self) -> None:

@@ -6,7 +6,7 @@ import math
 import uuid
 from collections.abc import Collection, Mapping
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core import messages as m
 from nep_core.robot_senses import TOUCHES
@@ -35,6 +35,8 @@ DOINGS: Mapping[str, tuple[str, dict[str, object]]] = {
 }
 """What a robot is asked for so that it does this."""
 
+SOUND_MS = 1500
+"""So long a sound is heard."""
 TOLD_BY_HAND = ("word", "face", "ball", "mark", "sound", "touch", "distance")
 """What a program can be told of without a robot that notices it."""
 
@@ -140,9 +142,14 @@ class Hands(QObject):
 
     def make_sound(self, degrees: float, robot: str = "") -> bool:
         """Let a sound come from a direction, 0 is ahead, 90 from the left; it is short."""
-        angle = math.radians(degrees)
+        angle, robot = math.radians(degrees), robot or self.robot
         self._sense(robot, "sound", 0.0)
+        QTimer.singleShot(SOUND_MS, self, lambda: self._sense(robot, "sound", 0.0))
         return self._sense(robot, "sound", place=(math.cos(angle), math.sin(angle), 0.5))
+
+    def let_measure(self, robot: str = "") -> bool:
+        """Let all sensors measure by themselves again."""
+        return self._sense(robot, "usual")
 
     def take_posture(self, posture: str, robot: str = "") -> bool:
         """Ask a robot to take a posture."""

@@ -31,6 +31,7 @@ from nep_studio.ui.theme import icon
 from nep_studio.ui.words import tr
 
 from .buttons import WordsButton
+from .columns import Columns
 from .hands import Hands
 from .person_box import PersonBox
 from .section import Section
@@ -42,6 +43,10 @@ from .waiting import WaitingBoard
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
+
+
+SHARE = 0.4
+"""When it is opened, it gets at least this much of the window's height."""
 
 
 class HumanPanel(QScrollArea):
@@ -118,6 +123,7 @@ class HumanPanel(QScrollArea):
             label.setWordWrap(True)
             label.setTextFormat(Qt.TextFormat.PlainText)
         self.told.setProperty("role", "hint")
+        self.told.hide()
         top = QHBoxLayout()
         top.addWidget(self.state, 1)
         top.addWidget(self.run_button)
@@ -132,8 +138,7 @@ class HumanPanel(QScrollArea):
         box.addLayout(top)
         box.addWidget(self.told)
         box.addWidget(self._which)
-        for section in self.sections:
-            box.addWidget(section)
+        box.addWidget(Columns(self.sections))
         box.addWidget(self.reset_button, 0, Qt.AlignmentFlag.AlignLeading)
         box.addStretch(1)
         self.setWidget(inner)
@@ -221,10 +226,12 @@ class HumanPanel(QScrollArea):
 
     def _on_told(self, words: str) -> None:
         self.told.setText(words)
+        self.told.show()
         announce(self, words)
 
     def _on_refused(self, reason: str) -> None:
         self.told.setText(reason)
+        self.told.show()
         announce(self, reason)
         if self.run_button.isVisible():
             self.run_button.setFocus()
@@ -253,4 +260,6 @@ class HumanPanel(QScrollArea):
 def add_human_panel(window: MainWindow) -> Panel:
     """Put the simulated human beside the canvas; hidden until somebody wants it."""
     panel = HumanPanel(window, floor_of(window))
-    return window.add_side_panel(panel, tr("Person"), "user", "right", is_shown=False)
+    added = window.add_side_panel(panel, tr("Person"), "user", "bottom", is_shown=False)
+    window.workbench.panels.give_room(added, SHARE)
+    return added

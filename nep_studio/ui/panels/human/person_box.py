@@ -52,7 +52,9 @@ class PersonBox(QWidget):
         self.way_words = QLabel()
         self.before = WordsButton(tr("Step before its eyes"), look, "eye")
         self.looks = [
-            HappeningButton(Happening("emotion", value, label), look, hands.begin, hands.end, label)
+            HappeningButton(
+                Happening("emotion", value, label), look, hands.begin, hands.end, label.capitalize()
+            )
             for value, label in language.choices.get("emotions", {}).items()
         ]
         self._lay_out()

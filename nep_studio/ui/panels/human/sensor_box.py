@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
@@ -64,9 +64,12 @@ class SensorBox(QWidget):
         box.addWidget(others)
 
     def rest(self) -> None:
-        """Let all measure what they usually do."""
+        """Let all measure by themselves again."""
         for sensor, slider in self.sliders.items():
-            slider.setValue(SLIDERS[sensor][2])
+            with QSignalBlocker(slider):
+                slider.setValue(SLIDERS[sensor][2])
+            self._values[sensor].setText(str(SLIDERS[sensor][2]))
+        self._hands.let_measure()
 
     def _add_slider(self, row: int, sensor: str, name: str) -> None:
         low, high, usual = SLIDERS[sensor]

@@ -115,6 +115,7 @@ class GestureBox(QWidget):
         ]
         for button in self.buttons:
             self._flow.addWidget(button)
+            button.show()
 
     def _on_certainty_changed(self, percent: int) -> None:
         self._hands.certainty = percent / 100.0

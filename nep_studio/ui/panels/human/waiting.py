@@ -63,6 +63,7 @@ class WaitingBoard(QWidget):
         ]
         for button in self.buttons:
             self._flow.addWidget(button)
+            button.show()  # now: Qt would show it later, and not make room for it then
         self._rows.setVisible(bool(self.buttons))
 
 

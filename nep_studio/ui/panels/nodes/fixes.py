@@ -10,6 +10,7 @@ from nep_studio.blocks.edits import SetField
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.own_master import MASTER
 from nep_studio.plan import PlannedNode
+from nep_studio.ui.connecting.adding import open_connecting
 from nep_studio.ui.messages import Answer
 from nep_studio.ui.words import tr
 
@@ -45,6 +46,7 @@ class NodeFixes:
             "show_log": tr("Show its log"),
             "show_settings": tr("Show its settings"),
             "use_virtual": tr("Use the robot on the screen"),
+            "test_connection": tr("Find it and test the connection"),
             "change_address": tr("Change the address"),
             "run": tr("Run again"),
             "stop": tr("Stop"),
@@ -65,6 +67,8 @@ class NodeFixes:
                 self._window.workbench.show_block(self.block_of(name))
             case "use_virtual":
                 self._use_virtual(name)
+            case "test_connection":
+                open_connecting(self._window, name)
             case "change_address":
                 self._change_address(name)
             case "run":

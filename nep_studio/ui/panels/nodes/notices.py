@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,6 +20,7 @@ Fix = Literal[
     "show_log",
     "show_settings",
     "use_virtual",
+    "test_connection",
     "change_address",
     "run",
     "stop",
@@ -111,21 +113,29 @@ def _silent(name: str) -> str:
     return tr("“{name}” has said nothing for three seconds.", name=name)
 
 
+def _steps(lines: Sequence[str]) -> tuple[str, ...]:
+    """The checklist that a node tells below its sentence."""
+    return tuple(tr(line.removeprefix(STEP.lstrip())) for line in lines if line.strip())
+
+
 def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
     """The node's own words are a sentence and a checklist."""
     first, *rest = status.description.splitlines() or [""]
-    steps = tuple(tr(line.removeprefix(STEP.lstrip())) for line in rest if line.strip())
+    steps = _steps(rest)
     where = tr(
         "The program could not reach {name} at {address}.", name=status.name, address=at.address
     )
     sentence = tr(first) if first else where
     problem = Problem(tr("{name} does not answer", name=status.name), sentence, steps)
-    fixes: tuple[Fix, ...] = ("use_virtual", "change_address") if at.has_block else ()
+    fixes: tuple[Fix, ...] = (
+        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
+    )
     return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
 
 
 def _warning(status: NodeStatus, at: Circumstances) -> Notice:
-    name, described = status.name, " ".join(status.description.split())
+    name = status.name
+    described, *rest = status.description.splitlines() or [""]
     steps: tuple[str, ...]
     if status.event == "disconnected":
         title = tr("“{name}” has lost its connection", name=name)
@@ -133,6 +143,7 @@ def _warning(status: NodeStatus, at: Circumstances) -> Notice:
     else:
         title = tr("“{name}” needs attention", name=name)
         steps = (tr("Look into its log."), tr("Look at its settings."))
+    steps = _steps(rest) or steps
     problem = Problem(title, tr(described), steps)
     fixes: list[Fix] = ["show_log"] if at.is_ours or at.is_program else []
     if at.has_block:

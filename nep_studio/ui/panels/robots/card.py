@@ -145,7 +145,9 @@ class RobotCard(QFrame):
 
     def show_doings(self, doings: Sequence[str]) -> None:
         """Say what it does."""
-        shown = "\n".join(doings[:DOINGS_SHOWN])
+        said = self.facts.words("saying")
+        others = [one for one in doings if one.casefold() != said.casefold()]
+        shown = "\n".join(others[:DOINGS_SHOWN])
         self.facts.show_fact("doing", "play", shown, "success")
         self._describe()
 

@@ -189,8 +189,7 @@ class RobotsPanel(QWidget):
             look, is_there = look_of(state), state is not None
         card.show_health(look, is_there=is_there)
         shown = state if is_there else None
-        start, is_real = self._begin_at.get(name, ORIGIN), card.plan.is_real
-        self.stage.show_robot(name, shown, start=start, is_real=is_real)
+        self.stage.show_robot(card.plan, shown, self._begin_at.get(name, ORIGIN))
         if shown is not None:
             card.show_state(shown)
             card.show_doings(self._doings.words(name))

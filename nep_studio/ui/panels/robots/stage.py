@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Signal
@@ -16,6 +17,7 @@ from nep_studio.ui.theme import Look
 from nep_studio.ui.words import tr
 
 from .floor import Floor
+from .plans import RobotPlan
 from .stage_keys import StageKeys
 from .stage_tools import StageTools
 from .starts import ORIGIN, Base
@@ -23,6 +25,9 @@ from .thing_bar import ThingBar, thing_words
 
 if TYPE_CHECKING:
     from nep_studio.ui.robot_view.view import RobotView
+
+
+ASIDE_RAD = math.radians(65)
 
 
 class RobotStage(QWidget):
@@ -111,14 +116,13 @@ class RobotStage(QWidget):
 
     # Robots
 
-    def show_robot(
-        self, name: str, state: RobotState | None, *, start: Base, is_real: bool
-    ) -> None:
+    def show_robot(self, plan: RobotPlan, state: RobotState | None, start: Base) -> None:
         """Show a robot as it is; None: it is not there, and will begin at ``start``."""
         shown = (state, start)
-        if self._shown.get(name) != shown:
-            self._shown[name] = shown
-            self.view.show_robot(name, state, can_touch=not is_real, start=start)
+        if self._shown.get(plan.name) != shown:
+            self._shown[plan.name] = shown
+            is_ours = not plan.is_real
+            self.view.show_robot(plan.name, state, plan.folder, can_touch=is_ours, start=start)
 
     def keep_robots(self, names: list[str]) -> None:
         """Show only these robots."""
@@ -132,12 +136,23 @@ class RobotStage(QWidget):
         """Put a new thing before the first robot, and choose it."""
         if not self.floor.has_room:
             return
-        bases = [state.base if state else start for state, start in self._shown.values()]
-        base = bases[0] if bases else ORIGIN
+        base = next(iter(self._bases()), ORIGIN)
         thing = new_thing(kind, base, self.floor.things)  # type: ignore[arg-type]
         self.floor.add(thing)
         self.choose(thing.id)
         self.view.setFocus()
+
+    def _look_past(self, view: RobotView) -> None:
+        """Look from aside, where what stands before a robot does not hide it."""
+        bases = self._bases()
+        heading = bases[0][2] if bases else 0.0
+        if abs(math.remainder(view.camera.yaw - heading, math.tau)) < ASIDE_RAD:
+            view.look_through(replace(view.camera, yaw=heading + ASIDE_RAD))
+            view.fit()
+
+    def _bases(self) -> list[Base]:
+        """Where the robots are, or will begin."""
+        return [state.base if state else start for state, start in self._shown.values()]
 
     def choose(self, thing_id: str) -> None:
         """Let a thing be the one that keys move and the bar tells of; "" is none."""
@@ -186,7 +201,10 @@ class RobotStage(QWidget):
         self.tools.allow_placing(self.floor.has_room)
         self.invitation.setVisible(not things and self.floor.has_room)
         if self._view is not None:
+            is_first = bool(things) and not self._view.room.things
             self._view.show_things(things)
+            if is_first:
+                self._look_past(self._view)
 
     def _on_follow_switched(self, is_on: bool) -> None:
         self.view.follows = is_on

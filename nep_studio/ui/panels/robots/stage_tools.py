@@ -38,8 +38,9 @@ class StageTools(QWidget):
     def __init__(self, look: Look) -> None:
         super().__init__()
         self._look = look
-        self.view, self.fit, self.place = QToolButton(), QToolButton(), QToolButton()
+        self.view, self.place = QToolButton(), QToolButton()
         self.sound, self.large = QToolButton(), QToolButton()
+        self.fit = QAction(tr("See all"), self)
         self.clear = QAction(tr("Clear the walked paths"), self)
         self.follow = QAction(tr("Follow the robot"), self, checkable=True, checked=True)
         self._things_menu = QMenu(tr("Choose"), self)
@@ -57,7 +58,6 @@ class StageTools(QWidget):
         flow = FlowLayout(self, self.fontMetrics().height() // 5)
         named = (
             (self.view, tr("View"), tr("From where the robots are looked at")),
-            (self.fit, tr("Fit"), tr("See all robots")),
             (self.place, tr("Place"), tr("Put something before the robots")),
             (self.sound, tr("Sound"), ""),
             (self.large, tr("Large"), ""),
@@ -86,7 +86,7 @@ class StageTools(QWidget):
         for preset, words in presets.items():
             menu.addAction(words).triggered.connect(partial(self._ask_view, preset))
         menu.addSeparator()
-        menu.addActions([self.follow, self.clear])
+        menu.addActions([self.fit, self.follow, self.clear])
         self.view.setMenu(menu)
 
     def _ask_view(self, preset: str) -> None:
@@ -105,7 +105,7 @@ class StageTools(QWidget):
         self._placing.triggered.connect(lambda action: self.place_asked.emit(action.data()))
 
     def _connect(self) -> None:
-        self.fit.clicked.connect(self.fit_asked)
+        self.fit.triggered.connect(self.fit_asked)
         self.follow.toggled.connect(self.follow_switched)
         self.clear.triggered.connect(self.clear_asked)
         self.sound.clicked.connect(self.sound_switched)
@@ -150,7 +150,6 @@ class StageTools(QWidget):
         theme, line = self._look.theme, self.fontMetrics().height()
         icons = (
             (self.view, "eye"),
-            (self.fit, "crosshair"),
             (self.place, "plus"),
             (self.sound, "volume-2" if self.sound.isChecked() else "volume-x"),
             (self.large, "maximize"),
@@ -158,6 +157,7 @@ class StageTools(QWidget):
         for button, name in icons:
             button.setIcon(icon(name, theme, "selection_text" if button.isChecked() else "text"))
             button.setIconSize(icon_room(line))
+        self.fit.setIcon(icon("crosshair", theme))
         self.clear.setIcon(icon("brush", theme))
         for action in self._placing.actions():
             action.setIcon(icon(ICONS[action.data()], theme))

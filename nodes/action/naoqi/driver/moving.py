@@ -48,7 +48,7 @@ def to_posture(robot: RealRobot, name: str, speed: float = POSTURE_SPEED) -> Tas
         "ALRobotPosture", "goToPosture", name, speed, limit_s=POSTURE_S, uses=joints
     )
     found = yield from robot.call("ALRobotPosture", "getPosture")
-    if not reached or found != name:
+    if not reached or not _is_alike(robot, str(found), name):
         raise ActionFailed(
             f"{robot.name} did not get into the posture {name}. "
             "Put it on flat ground with space around it, and try again."
@@ -56,6 +56,12 @@ def to_posture(robot: RealRobot, name: str, speed: float = POSTURE_SPEED) -> Tas
     robot.known.posture = name
     yield from robot.measure(joints)
     return ""
+
+
+def _is_alike(robot: RealRobot, found: str, name: str) -> bool:
+    """Whether a posture is the wanted one, or one of its kind: some look the same to NAOqi."""
+    postures = robot.known.body.postures
+    return found in postures and postures[found].family == postures[name].family
 
 
 def wake_up(robot: RealRobot) -> Task:

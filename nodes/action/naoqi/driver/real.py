@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,6 +20,8 @@ NEAR_RAD = 0.14
 """So far (8 degrees) a joint may be from where it was sent: motors give way a little."""
 HANDS_NEAR = 0.35
 """The same for hands, which count 0 to 1 and are soft."""
+SETTLING_S = 0.6
+"""So long joints may still move after NAOqi says that they are there."""
 LIFE_S = 8.0
 UPRIGHT = (0.0, 0.0, -1.0)
 
@@ -88,13 +91,12 @@ class RealRobot:
         return measured
 
     def check_reached(self, goal: Mapping[str, float]) -> Calling:
-        """Raise ActionFailed when joints are not where they were sent."""
-        measured = yield from self.measure(list(goal))
-        for name, angle in goal.items():
-            away = abs(measured.get(name, angle) - angle)
-            if away > (HANDS_NEAR if name.endswith("Hand") else NEAR_RAD):
+        """Raise ActionFailed when joints are not where they were sent, and do not get there."""
+        end_s = time.monotonic() + SETTLING_S
+        while missed := _missed(goal, (yield from self.measure(list(goal)))):
+            if time.monotonic() > end_s:
                 raise ActionFailed(
-                    f"{self.name}'s joint {name} did not get where it was sent. "
+                    f"{self.name}'s joint {missed} did not get where it was sent. "
                     "Look whether something holds it, or whether its motors are hot."
                 )
 
@@ -154,3 +156,12 @@ class RealRobot:
             for name, angle in goal.items()
         ]
         return 3.0 * float(np.max(ways, initial=0.0))
+
+
+def _missed(goal: Mapping[str, float], measured: Mapping[str, float]) -> str:
+    """A joint that is not where it should be, "" when all are."""
+    for name, angle in goal.items():
+        near = HANDS_NEAR if name.endswith("Hand") else NEAR_RAD
+        if abs(measured.get(name, angle) - angle) > near:
+            return name
+    return ""

@@ -23,8 +23,8 @@ from nodes.action.naoqi.services.speech import ALTextToSpeech
 from nodes.action.naoqi.services.tracker import ALTracker
 from nodes.action.naoqi.serving import ServedRobot
 
-NOTICE_S = 0.02
-"""So often events are looked for: as often as NAO's own sensors are read, about."""
+NOTICE_S = 0.04
+"""So often what has changed is looked for."""
 
 
 class Services:

@@ -10,7 +10,7 @@ from nodes.action.naobody.animations import NO_GESTURE
 from nodes.action.naobody.body_language import BODY_LANGUAGES, UPPER_BODY
 from nodes.action.naoqi.server import CallFailed, method
 from nodes.action.naoqi.services.animation_names import AnimationNames
-from nodes.action.naoqi.services.arguments import words
+from nodes.action.naoqi.services.arguments import texts, words
 from nodes.action.naoqi.services.module import Module
 from nodes.action.naoqi.services.scripts import Asked, Begin, Plot, Script, play_script
 from nodes.action.naoqi.services.speech import say_words
@@ -97,7 +97,7 @@ class ALAnimatedSpeech(Module):
     def declare_tags(self, tags: Any) -> None:
         """Give animations more tags."""
         for tag, paths in words(tags, "The tags of animations").items():
-            self._names.tags.setdefault(tag, []).extend(paths)
+            self._names.tags.setdefault(tag, []).extend(texts(paths))
 
     def _say(self, text: str, mode: str) -> Any:
         parts = read_text(text, self._voice(), with_instructions=True)

@@ -98,6 +98,13 @@ def lists(value: Any, count: int, what: str) -> list[list[float]]:
     return [[number(one) for one in row] for row in rows]
 
 
+def rows(value: Any, what: str) -> list[Any]:
+    """Return a list of anything. Raises CallFailed for what is none."""
+    if not isinstance(value, (list, tuple)):
+        raise CallFailed(f"{what}: a list was expected, not {value!r}.")
+    return list(value)
+
+
 def within(value: float, low: float, high: float, what: str) -> float:
     """Return a number that is in a range. Raises CallFailed."""
     if not low <= number(value) <= high:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from nodes.action.naoqi.server import CallFailed, method, signal
-from nodes.action.naoqi.services.arguments import texts
+from nodes.action.naoqi.services.arguments import rows, texts
 from nodes.action.naoqi.services.module import Module
 from nodes.action.naoqi.serving import ServedRobot
 
@@ -83,7 +83,8 @@ class ALMemory(Module):
     @method("getListData::m(m)")
     def get_list_data(self, keys: Any) -> list[Any]:
         """Return the values of some keys; None for those that there are not."""
-        return [self._value(key) for key in texts(keys)]
+        with self._robot.moment():
+            return [self._value(key) for key in texts(keys)]
 
     @method("insertData::v(si)")
     def insert_int(self, key: str, value: int) -> None:
@@ -108,10 +109,11 @@ class ALMemory(Module):
     @method("insertListData::v(m)")
     def insert_list_data(self, pairs: Any) -> None:
         """Keep values, given as pairs of key and value."""
-        if not all(isinstance(pair, (list, tuple)) and len(pair) >= 2 for pair in pairs):
-            raise CallFailed("A list of pairs of key and value was expected.")
-        for key, value, *_ in pairs:
-            self._store(str(key), value)
+        what = "Pairs of key and value"
+        for pair in rows(pairs, what):
+            if len(rows(pair, what)) < 2:
+                raise CallFailed(f"{what}: one of them is no pair.")
+            self._store(str(pair[0]), pair[1])
 
     @method("removeData::v(s)")
     def remove_data(self, key: str) -> None:

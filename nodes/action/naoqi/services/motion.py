@@ -6,10 +6,11 @@ from nodes.action.naoqi.server import method
 from nodes.action.naoqi.services.motion_info import BodyInfo
 from nodes.action.naoqi.services.motion_joints import JointControl
 from nodes.action.naoqi.services.motion_places import Places
+from nodes.action.naoqi.services.motion_reach import Reaching
 from nodes.action.naoqi.services.motion_walk import Locomotion
 
 
-class ALMotion(JointControl, Locomotion, BodyInfo, Places):
+class ALMotion(JointControl, Locomotion, BodyInfo, Places, Reaching):
     """All that moves."""
 
     @method("getSummary::s()")

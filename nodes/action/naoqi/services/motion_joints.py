@@ -9,7 +9,7 @@ from nodes.action.naobody.keyframes import SHORTEST_STEP_S
 from nodes.action.naobody.motor_actions import Approach
 from nodes.action.naobody.motor_tasks import stiffness
 from nodes.action.naoqi.server import CallFailed, method
-from nodes.action.naoqi.services.arguments import joints_of, lists, number, numbers, within
+from nodes.action.naoqi.services.arguments import joints_of, lists, number, numbers, rows, within
 from nodes.action.naoqi.services.module import Module
 
 SLOWEST = 0.01
@@ -29,7 +29,7 @@ class JointControl(Module):
         angles = lists(angle_lists, len(joints), "lists of angles")
         times = lists(time_lists, len(joints), "lists of times")
         tracks = {
-            joint: {"times": _rising(joint, at, keys), "keys": keys}
+            joint: {"times": rising(joint, at, keys), "keys": keys}
             for joint, keys, at in zip(joints, angles, times, strict=True)
         }
         return self._do("move_through", tracks=tracks, relative=not is_absolute)
@@ -38,31 +38,33 @@ class JointControl(Module):
     def angle_interpolation_bezier(self, names: list[str], times: Any, control_points: Any) -> Any:
         """Move joints through keys with Bezier handles; wait until they are there."""
         joints = joints_of(self._robot.robot.body, names)
-        if len(times) != len(joints) or len(control_points) != len(joints):
+        all_times, all_points = rows(times, "The times"), rows(control_points, "The keys")
+        if len(all_times) != len(joints) or len(all_points) != len(joints):
             raise CallFailed(f"{len(joints)} joints need as many lists of times and of keys.")
         tracks = {}
-        for joint, at, points in zip(joints, times, control_points, strict=True):
+        for joint, at, of_joint in zip(joints, all_times, all_points, strict=True):
+            points = rows(of_joint, "The keys of a joint")
             keys = [_key(point) for point in points]
             tracks[joint] = {
-                "times": _rising(joint, [number(time) for time in at], keys),
+                "times": rising(joint, [number(time) for time in rows(at, "The times")], keys),
                 "keys": keys,
                 "handles": [(*_handle(point, 1), *_handle(point, 2)) for point in points],
             }
         return self._do("move_through", tracks=tracks)
 
     @method("angleInterpolationWithSpeed::v(mmf)")
-    def angle_interpolation_with_speed(self, names: Any, angles: Any, fraction: float) -> Any:
+    def angle_interpolation_withspeed_of(self, names: Any, angles: Any, fraction: float) -> Any:
         """Move joints to angles at a part of their top speed; wait until they are there."""
         joints = joints_of(self._robot.robot.body, names)
         goals = dict(zip(joints, numbers(angles, len(joints), "angles"), strict=True))
-        return self._do("reach_angles", angles=goals, speed=_speed(fraction))
+        return self._do("reach_angles", angles=goals, speed=speed_of(fraction))
 
     @method("setAngles::v(mmf)")
     def set_angles(self, names: Any, angles: Any, fraction: float) -> None:
         """Let joints go to angles at a part of their top speed; nobody waits."""
         joints = joints_of(self._robot.robot.body, names)
         goals = dict(zip(joints, numbers(angles, len(joints), "angles"), strict=True))
-        self._set("set_angles", angles=goals, speed=_speed(fraction))
+        self._set("set_angles", angles=goals, speed=speed_of(fraction))
 
     @method("setAngles::v(mm[f])")
     def set_angles_each(self, names: Any, angles: Any, fractions: list[float]) -> None:
@@ -71,7 +73,7 @@ class JointControl(Module):
         goals = numbers(angles, len(joints), "angles")
         speeds = numbers(fractions, len(joints), "fractions of the top speed")
         for joint, angle, fraction in zip(joints, goals, speeds, strict=True):
-            self._set("set_angles", angles={joint: angle}, speed=_speed(fraction))
+            self._set("set_angles", angles={joint: angle}, speed=speed_of(fraction))
 
     @method("changeAngles::v(mmf)")
     def change_angles(self, names: Any, changes: Any, fraction: float) -> None:
@@ -81,7 +83,7 @@ class JointControl(Module):
         goals = {
             name: self._commanded(name) + change for name, change in zip(joints, by, strict=True)
         }
-        self._set("set_angles", angles=goals, speed=_speed(fraction))
+        self._set("set_angles", angles=goals, speed=speed_of(fraction))
 
     @method("getAngles::[f](mb)")
     def angles(self, names: Any, use_sensors: bool) -> list[float]:
@@ -157,7 +159,8 @@ class JointControl(Module):
             return float(robot.angles[robot.body.index[joint]])
 
 
-def _speed(fraction: float) -> float:
+def speed_of(fraction: float) -> float:
+    """Return a fraction of the top speed, never quite 0. Raises CallFailed."""
     return max(SLOWEST, within(fraction, 0.0, 1.0, "The fraction of the top speed"))
 
 
@@ -167,7 +170,7 @@ def _side(hand: str) -> str:
     return SIDES[hand]
 
 
-def _rising(joint: str, times: list[float], keys: list[float]) -> list[float]:
+def rising(joint: str, times: list[float], keys: list[float]) -> list[float]:
     """Return the times of a joint. Raises CallFailed unless each is later than the one before."""
     if len(times) != len(keys):
         raise CallFailed(f"{joint}: there are {len(keys)} angles for {len(times)} times.")
@@ -183,7 +186,7 @@ def _key(point: Any) -> float:
 def _handle(point: Any, place: int) -> tuple[float, float]:
     """Return the time (s) and angle (rad) of one of a key's handles: [kind, time, angle]."""
     handles = point if isinstance(point, (list, tuple)) else []
-    if len(handles) <= place or len(handles[place]) < 3:
+    if len(handles) <= place:
         return 0.0, 0.0
-    _, time, angle = handles[place][:3]
+    _, time, angle, *_ = [*rows(handles[place], "A handle"), 0.0, 0.0, 0.0]
     return number(time), number(angle)

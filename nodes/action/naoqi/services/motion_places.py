@@ -14,6 +14,7 @@ from nodes.action.naoqi.services.arguments import EVERYTHING
 from nodes.action.naoqi.services.module import Module
 
 Frame = NDArray[np.float64]
+Point = tuple[float, float, float]
 SPACES = ("torso", "world", "robot")
 """By NAOqi's numbers."""
 HAND, SOLE, HERE = (0.05775, 0.0, -0.01231), (0.0, 0.0, -0.04519), (0.0, 0.0, 0.0)
@@ -49,42 +50,43 @@ class Places(Module):
             raise CallFailed("Only the centre of mass of the whole Body is known here.")
         with self._robot.lock:
             centre = np.array([*self._robot.robot.stance.centre_of_mass, 1.0])
-            seen = np.linalg.inv(_origin(self._robot.robot, space)) @ centre
+            seen = np.linalg.inv(origin_of(self._robot.robot, space)) @ centre
         return [float(number) for number in seen[:3]]
 
     def _in_space(self, name: str, space: int) -> Frame:
         with self._robot.lock:
             robot = self._robot.robot
-            origin = _origin(robot, space)
-            seen: Frame = np.linalg.inv(origin) @ _part(robot, name)
+            origin = origin_of(robot, space)
+            seen: Frame = np.linalg.inv(origin) @ frame_in_room(robot, *end_of(robot, name))
         return seen
 
 
-def _part(robot: VirtualRobot, name: str) -> Frame:
-    """Return the frame of a part of the body in the room."""
+def end_of(robot: VirtualRobot, name: str) -> tuple[str, Point]:
+    """Return the link of a part of the body, and the point of it. Raises CallFailed."""
     if name == "Torso":
-        return _frame(robot, TORSO, HERE)
+        return TORSO, HERE
     joint, offset = EFFECTORS.get(name, (name, HERE))
     links = {one.name: one.child for one in robot.body.joints if one.child}
     if joint not in links:
         known = ", ".join((*EFFECTORS, "Torso"))
         raise CallFailed(f"There is no part “{name}” of the body. Possible: {known}, or a joint.")
-    return _frame(robot, links[joint], offset)
+    return links[joint], offset
 
 
-def _frame(robot: VirtualRobot, link: str, offset: tuple[float, float, float]) -> Frame:
+def frame_in_room(robot: VirtualRobot, link: str, offset: Point) -> Frame:
+    """Return the frame at a point of a link, in the room."""
     frame = np.eye(4)
     frame[:3, :3] = robot.stance.link_turn(link)
     frame[:3, 3] = robot.stance.link_place(link, offset)
     return frame
 
 
-def _origin(robot: VirtualRobot, space: int) -> Frame:
+def origin_of(robot: VirtualRobot, space: int) -> Frame:
     """Return the frame in the room from which places are told."""
     if not 0 <= space < len(SPACES):
         raise CallFailed(f"There is no space {space}: 0 is torso, 1 world, 2 robot.")
     if SPACES[space] == "torso":
-        return _frame(robot, TORSO, HERE)
+        return frame_in_room(robot, TORSO, HERE)
     origin = np.eye(4)
     if SPACES[space] == "robot":
         x, y, theta = (float(number) for number in robot.base)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import time
+from collections.abc import Callable
 from typing import Any
 
 from nodes.action.naobody.actions import Turn, Walk
@@ -13,6 +15,7 @@ from nodes.action.naoqi.server import CallFailed, Promise, method
 from nodes.action.naoqi.services.arguments import number, within, words
 from nodes.action.naoqi.services.module import Module
 from nodes.action.naoqi.services.scripts import one_by_one, play_script
+from nodes.action.naoqi.serving import ServedRobot
 
 MOVE_CONFIG = {
     "MaxStepX": 0.04,
@@ -24,12 +27,21 @@ MOVE_CONFIG = {
     "TorsoWy": 0.0,
 }
 """How a NAO walks by default, by NAOqi's names."""
+SAME = 0.05
+"""Speeds that differ by less than this part of the highest ones are the same."""
+SHORTEST_WALK_S = 2.5
+"""It walks for so long at least before it changes its speeds: each change costs it a step."""
 FASTEST = (STEP_FORWARD_M / STEP_S, STEP_LEFT_M / STEP_S, STEP_TURN_RAD / STEP_S)
 """m/s forward, m/s to the left, rad/s."""
 
 
 class Locomotion(Module):
     """Walking; NAOqi's older names for the same are there too."""
+
+    def __init__(self, robot: ServedRobot) -> None:
+        super().__init__(robot)
+        self._next_change_s = 0.0
+        self._end_waiting: Callable[[], bool] = lambda: False
 
     @method("moveInit::v()")
     def move_init(self) -> Any:
@@ -152,7 +164,7 @@ class Locomotion(Module):
     @method("stopMove::b()")
     def stop_move(self) -> bool:
         """Stop walking."""
-        self._robot.stop(_is_walk)
+        self.kill_move()
         return True
 
     @method("stopWalk::b()")
@@ -163,12 +175,13 @@ class Locomotion(Module):
     @method("killMove::v()")
     def kill_move(self) -> None:
         """Stop walking."""
+        self._end_waiting()
         self._robot.stop(_is_walk)
 
     @method("killWalk::v()")
     def kill_walk(self) -> None:
         """Stop walking."""
-        self._robot.stop(_is_walk)
+        self.kill_move()
 
     @method("getRobotPosition::[f](b)")
     def robot_position(self, use_sensors: bool) -> list[float]:
@@ -183,9 +196,7 @@ class Locomotion(Module):
     @method("getRobotVelocity::[f]()")
     def robot_velocity(self) -> list[float]:
         """Return how fast it was told to walk: m/s forward, m/s to the left, rad/s."""
-        actions = [command.action for command in self._robot.commands()]
-        free = next((one for one in actions if isinstance(one, WalkFreely)), WalkFreely())
-        parts = (free.forward, free.left, free.turn)
+        parts = self._free_walk() or (0.0, 0.0, 0.0)
         return [part * most for part, most in zip(parts, FASTEST, strict=True)]
 
     @method("getMoveConfig::m(s)")
@@ -215,11 +226,27 @@ class Locomotion(Module):
         return play_script(self._robot, one_by_one(ways), True, stopped=False)
 
     def _walk_on(self, parts: list[float]) -> None:
-        wanted = WalkFreely(*parts)
+        """Walk on at other speeds; a robot that has just begun a step is let go on for a while."""
+        self._end_waiting()
         if not any(parts):
             self._robot.stop(_is_walk)
-        elif all(command.action != wanted for command in self._robot.commands()):
-            self._set("walk_freely", forward=parts[0], left=parts[1], turn=parts[2])
+            return
+        now = self._free_walk()
+        if now is not None and all(abs(a - b) <= SAME for a, b in zip(now, parts, strict=True)):
+            return
+        if now is not None and time.monotonic() < self._next_change_s:
+            self._end_waiting = self._robot.when(
+                lambda: time.monotonic() >= self._next_change_s, lambda: self._walk_on(parts)
+            )
+            return
+        self._next_change_s = time.monotonic() + SHORTEST_WALK_S
+        self._set("walk_freely", forward=parts[0], left=parts[1], turn=parts[2])
+
+    def _free_walk(self) -> tuple[float, float, float] | None:
+        """Return the parts of the highest speeds at which it walks on, None when it does not."""
+        actions = [command.action for command in self._robot.commands()]
+        free = next((one for one in actions if isinstance(one, WalkFreely)), None)
+        return None if free is None else (free.forward, free.left, free.turn)
 
 
 def _is_walk(command: Command) -> bool:
@@ -238,7 +265,8 @@ def _way(here: tuple[float, float, float], there: tuple[float, float, float]) ->
 
 
 def _places(points: Any) -> list[list[float]]:
-    rows = points if points and isinstance(points[0], (list, tuple)) else [points]
+    is_list = isinstance(points, (list, tuple)) and bool(points)
+    rows = points if is_list and isinstance(points[0], (list, tuple)) else [points]
     if not all(isinstance(row, (list, tuple)) and len(row) == 3 for row in rows):
         raise CallFailed("A place is three numbers: x m, y m, theta rad.")
     return [[number(one) for one in row] for row in rows]

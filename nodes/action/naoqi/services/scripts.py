@@ -6,7 +6,7 @@ from collections.abc import Callable, Generator
 from typing import Any
 
 from nep_core.messages import ActionResult
-from nodes.action.naoqi.server import Promise
+from nodes.action.naoqi.server import CallFailed, Promise
 from nodes.action.naoqi.serving import ServedRobot
 
 
@@ -80,13 +80,20 @@ class _Playing:
                 return
             result = self._waits_for.result if self._waits_for is not None else None
             is_right = result is None or result.state == "done"
-            self._waits_for = next(self._script, None) if is_right else None
-            following = self._waits_for
-            self._is_over = following is None
+            try:
+                following = next(self._script, None) if is_right else None
+            except CallFailed as problem:
+                following, refused = None, problem.sentence
+            else:
+                refused = ""
+            self._waits_for, self._is_over = following, following is None
         if following is not None:
             following.then(self.go_on)
+            return
+        self._stop_rest()
+        if refused:
+            self._promise.fail(refused)
         else:
-            self._stop_rest()
             self._answer(result)
 
     def give_up(self) -> None:

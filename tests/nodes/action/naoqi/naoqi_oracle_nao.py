@@ -13,12 +13,9 @@ import qi
 qi.logging.setLevel(qi.logging.FATAL)
 
 MOMENT_S = 0.15
-NAOQI_JOINTS = (
-    "HeadYaw HeadPitch LShoulderPitch LShoulderRoll LElbowYaw LElbowRoll LWristYaw LHand "
-    "LHipYawPitch LHipRoll LHipPitch LKneePitch LAnklePitch LAnkleRoll RHipYawPitch RHipRoll "
-    "RHipPitch RKneePitch RAnklePitch RAnkleRoll RShoulderPitch RShoulderRoll RElbowYaw "
-    "RElbowRoll RWristYaw RHand"
-).split()
+SIDE = ["ShoulderPitch", "ShoulderRoll", "ElbowYaw", "ElbowRoll", "WristYaw", "Hand"]
+LEG = ["HipYawPitch", "HipRoll", "HipPitch", "KneePitch", "AnklePitch", "AnkleRoll"]
+NAOQI_JOINTS = ["HeadYaw", "HeadPitch", *(side + name for side in "LR" for name in SIDE + LEG)]
 STATE = {
     "angles": dict.fromkeys(NAOQI_JOINTS, 0.0),
     "base": [0.0, 0.0, 0.0],
@@ -66,9 +63,7 @@ class ALMotion:
     def go(self, names, angles, speed):
         return later(None, lambda: put(names, angles))
 
-    @qi.bind(
-        qi.Void, (qi.List(qi.String), qi.Dynamic, qi.Dynamic), "angleInterpolationBezier"
-    )
+    @qi.bind(qi.Void, (qi.List(qi.String), qi.Dynamic, qi.Dynamic), "angleInterpolationBezier")
     def bezier(self, names, times, keys):
         return later(None, lambda: put(names, [key[-1][0] for key in keys]))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Iterator
 
@@ -191,45 +190,6 @@ def test_a_body_bent_by_its_joints_is_in_no_posture(theatre: NaoqiTheatre) -> No
     assert theatre.call("ALRobotPosture", "getPosture") == "Unknown"
 
 
-def test_walking_ends_where_it_was_told_to(theatre: NaoqiTheatre) -> None:
-    arrived = theatre.call("ALMotion", "moveTo", 0.1, 0.05, 0.3)
-
-    assert arrived is True
-    place = theatre.call("ALMotion", "getRobotPosition", True)
-    assert place == pytest.approx([0.1, 0.05, 0.3], abs=0.02)
-
-
-def test_several_places_are_seen_from_where_the_walk_starts(theatre: NaoqiTheatre) -> None:
-    places = [[0.1, 0.0, math.pi / 2.0], [0.1, 0.1, math.pi / 2.0]]
-
-    theatre.call("ALMotion", "moveTo", places)
-
-    place = theatre.call("ALMotion", "getRobotPosition", True)
-    assert place == pytest.approx([0.1, 0.1, math.pi / 2.0], abs=0.03)
-
-
-def test_walking_on_lasts_until_it_is_stopped(theatre: NaoqiTheatre) -> None:
-    theatre.call("ALMotion", "moveToward", 1.0, 0.0, 0.0)
-    theatre.until(lambda: theatre.state().base[0] > 0.05)
-    was_walking = theatre.call("ALMotion", "moveIsActive")
-
-    theatre.call("ALMotion", "stopMove")
-
-    theatre.call("ALMotion", "waitUntilMoveIsFinished")
-    assert was_walking is True
-    assert theatre.call("ALMotion", "moveIsActive") is False
-
-
-def test_a_motion_of_the_head_does_not_wait_for_the_legs(theatre: NaoqiTheatre) -> None:
-    walking = theatre.service("ALMotion").begin("moveTo", 0.6, 0.0, 0.0)
-    theatre.until(theatre.service("ALMotion").begin("moveIsActive").result(1.0).__bool__)
-
-    theatre.call("ALMotion", "angleInterpolation", "HeadYaw", 0.5, 0.3, True)
-
-    assert not walking.done
-    assert theatre.joint("HeadYaw") == pytest.approx(0.5, abs=0.01)
-
-
 def test_two_motions_of_one_joint_come_one_after_the_other(theatre: NaoqiTheatre) -> None:
     motion = theatre.service("ALMotion")
     first = motion.begin("angleInterpolation", "HeadYaw", 1.0, 2.0, True)
@@ -239,41 +199,6 @@ def test_two_motions_of_one_joint_come_one_after_the_other(theatre: NaoqiTheatre
     second.result(10.0)
     assert first.done
     assert theatre.joint("HeadYaw") == pytest.approx(-0.5, abs=1e-3)
-
-
-def test_tasks_are_listed_and_can_be_ended_one_by_one(real_time: NaoqiTheatre) -> None:
-    motion = real_time.service("ALMotion")
-    moving = motion.begin("angleInterpolation", "HeadYaw", 1.0, 5.0, True)
-    real_time.until(lambda: bool(motion.call("getTaskList")))
-    ((name, number, _, _, joints),) = motion.call("getTaskList")
-
-    ended = motion.call("killTask", number)
-
-    assert (name, joints) == ("MoveThrough", ["HeadYaw", "HeadPitch"])
-    assert ended is True
-    assert moving.result(0.5) is None
-    assert motion.call("killTask", number) is False
-
-
-def test_a_hand_is_where_the_arm_points(theatre: NaoqiTheatre) -> None:
-    straight = {"LShoulderPitch": 0.0, "LShoulderRoll": 0.0, "LElbowRoll": -0.04}
-    theatre.call(
-        "ALMotion", "angleInterpolation", list(straight), list(straight.values()), 1.0, True
-    )
-
-    x, y, z, *_ = theatre.call("ALMotion", "getPosition", "LArm", 0, True)
-
-    assert x > 0.2
-    assert y == pytest.approx(0.1, abs=0.03)
-    assert z == pytest.approx(0.1, abs=0.03)
-
-
-def test_the_torso_stands_above_the_feet(theatre: NaoqiTheatre) -> None:
-    height_m = theatre.call("ALMotion", "getPosition", "Torso", 2, True)[2]
-    feet_m = theatre.call("ALMotion", "getPosition", "LLeg", 2, True)[2]
-
-    assert 0.25 < height_m < 0.4
-    assert feet_m == pytest.approx(0.0, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -286,10 +211,14 @@ def test_the_torso_stands_above_the_feet(theatre: NaoqiTheatre) -> None:
         ("angleInterpolation", ["HeadYaw", [0.1, 0.2], [1.0], True], "2 angles for 1 times"),
         ("angleInterpolation", ["HeadYaw", [0.1, 0.2], [1.0, 0.5], True], "later than the one"),
         ("angleInterpolation", ["HeadYaw", 0.1, 0.0, True], "times must be above 0"),
+        ("angleInterpolation", ["HeadYaw", 0.1, 1e9, True], "At most 600 s are possible"),
+        ("moveTo", [3.0], "A place is three numbers"),
         ("openHand", ["LFoot"], "no hand “LFoot”"),
         ("setStiffnesses", ["Body", 2.0], "from 0 to 1, not 2"),
         ("moveToward", [2.0, 0.0, 0.0], "from -1 to 1, not 2"),
         ("getPosition", ["LArm", 7, True], "no space 7"),
+        ("setPosition", ["LLeg", 0, [0.0] * 6, 0.5, 7], "“LLeg” cannot be sent to a place"),
+        ("setPosition", ["LArm", 0, [0.1, 0.2], 0.5, 7], "A place is six numbers"),
         ("moveTo", [0.1, 0.0, 0.0, [["Speed", 1.0]]], "no setting “Speed”"),
     ],
 )
@@ -300,12 +229,3 @@ def test_what_cannot_be_is_refused_in_words(
         theatre.call("ALMotion", method, *arguments)
 
     assert words in refused.value.sentence
-
-
-def test_a_robot_that_sits_says_why_it_does_not_walk(theatre: NaoqiTheatre) -> None:
-    theatre.call("ALRobotPosture", "goToPosture", "Sit", 1.0)
-
-    with pytest.raises(CallFailed) as refused:
-        theatre.call("ALMotion", "moveTo", 0.2, 0.0, 0.0)
-
-    assert "it must stand before it can walk" in refused.value.sentence

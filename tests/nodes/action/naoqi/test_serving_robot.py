@@ -71,7 +71,7 @@ def test_the_network_and_a_program_take_turns_with_a_limb(theatre: NaoqiTheatre)
 
     theatre.call("ALMotion", "angleInterpolation", "HeadYaw", -0.3, 0.5, True)
 
-    assert ("mine", "done") in [(result.id, result.state) for result in theatre.results]
+    theatre.until(lambda: ("mine", "done") in [(r.id, r.state) for r in theatre.results])
     assert theatre.joint("HeadYaw") == pytest.approx(-0.3, abs=1e-3)
 
 

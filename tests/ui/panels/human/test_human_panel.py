@@ -266,3 +266,42 @@ def test_a_hidden_panel_listens_to_nothing(human: Human, window: MainWindow) -> 
 
     assert panel._tap is None
     assert tap._is_closed
+
+
+def test_a_word_that_a_robot_listens_for_has_a_button_meanwhile(
+    human: Human, run: Run, qtbot: QtBot
+) -> None:
+    wait = B("robot_speech.wait_for_word", {"word": "yes", "seconds": 60})
+    panel = human([B("event.started"), wait, B("robot.say", {"text": "Thank you"})])
+    heard = run()
+    qtbot.waitUntil(lambda: bool(panel.listening.buttons), timeout=RUN_MS)
+
+    click(qtbot, panel.listening.buttons[0])
+
+    qtbot.waitUntil(lambda: "Thank you" in said(heard), timeout=RUN_MS)
+    qtbot.waitUntil(lambda: not panel.listening.buttons, timeout=RUN_MS)
+
+
+def test_sensors_are_slid_a_sound_passes_and_a_push_makes_it_fall(
+    human: Human, run: Run, qtbot: QtBot
+) -> None:
+    panel = human(rule("robot_events.heard"))
+    run()
+
+    def state() -> m.RobotState:
+        return panel.visitors.states.get("NAO") or m.RobotState(robot="NAO", joints={})
+
+    qtbot.waitUntil(lambda: bool(panel.hands.noticing(panel.happenings()[0])), timeout=RUN_MS)
+    panel.sensors.sliders["sonar_left"].setValue(40)
+    panel.sensors.sliders["battery"].setValue(10)
+    qtbot.waitUntil(lambda: state().sensors.get("sonar_left") == 0.4, timeout=RUN_MS)
+    qtbot.waitUntil(lambda: state().battery == 0.1, timeout=RUN_MS)
+    click(qtbot, panel.things.sounds[90])
+    qtbot.waitUntil(lambda: state().sees.get("sound", (0, 0, 0))[1] > 0.9, timeout=RUN_MS)
+    qtbot.waitUntil(lambda: "sound" not in state().sees, timeout=RUN_MS)
+    click(qtbot, panel.reset_button)
+    qtbot.waitUntil(lambda: state().sensors.get("sonar_left", 0.0) > 2.0, timeout=RUN_MS)
+
+    click(qtbot, panel.body.pushes[180])
+
+    qtbot.waitUntil(lambda: state().fallen, timeout=RUN_MS)

@@ -224,3 +224,14 @@ def test_robots_begin_beside_each_other_and_are_put_back(
     qtbot.mouseClick(panel.cards["NAO2"].back, Qt.MouseButton.LeftButton)
 
     qtbot.waitUntil(lambda: abs(y() + 0.8) < 0.05)
+
+
+def test_another_kind_of_robot_is_drawn_from_its_own_folder(
+    panel: RobotsPanel, planned: list[PlannedNode]
+) -> None:
+    planned[:] = [NAO, PlannedNode("action/nao", "P", {"robot": "P", "model": "pepper"})]
+
+    panel.refresh()
+
+    figures = {one.name: one.figure for one in panel.stage.view.room.scene().robots}
+    assert set(figures["P"].body.names) != set(figures["NAO"].body.names)

@@ -65,3 +65,17 @@ def test_a_new_language_of_the_window_keeps_what_stands_there(
     qtbot.waitUntil(lambda: karate.findChild(RobotsPanel) is not panel)
     fresh = shown(karate, qtbot)
     assert [thing.kind for thing in fresh.stage.view.room.things] == ["person"]
+
+
+def test_things_can_be_moved_while_the_program_runs_which_needs_no_new_start(
+    karate: MainWindow, qtbot: QtBot
+) -> None:
+    panel, running = shown(karate, qtbot), karate.running
+    running.runner.run()
+    qtbot.waitUntil(lambda: running.runner.state == "running", timeout=30_000)
+
+    panel.stage.place("person")
+
+    assert not running.is_stale
+    karate.files.document.editor.add_variable("times2")
+    assert running.is_stale

@@ -1,0 +1,56 @@
+"""A robot that says yes to everything and does nothing, as one does that somebody holds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nodes.action.naoqi.server import CallFailed, method
+
+SERVICES = ("ALMotion", "ALRobotPosture", "ALLeds", "ALTextToSpeech", "ALMemory")
+
+
+class HeldNao:
+    """All its services in one."""
+
+    posture = "Crouch"
+    awake = True
+
+    @method("getAngles::[f](mb)")
+    def angles(self, names: Any, sensors: bool) -> list[float]:
+        return [0.0] * len(names)
+
+    @method("angleInterpolationWithSpeed::v(mmf)")
+    def go(self, names: Any, angles: Any, speed: float) -> None:
+        return
+
+    @method("robotIsWakeUp::b()")
+    def is_awake(self) -> bool:
+        return self.awake
+
+    @method("getRobotPosition::[f](b)")
+    def place(self, sensors: bool) -> list[float]:
+        return [0.0, 0.0, 0.0]
+
+    @method("moveTo::b(fff)")
+    def move_to(self, x: float, y: float, theta: float) -> bool:
+        return True
+
+    @method("goToPosture::b(sf)")
+    def posture_go(self, name: str, speed: float) -> bool:
+        return True
+
+    @method("getPosture::s()")
+    def where(self) -> str:
+        return "Unknown"
+
+    @method("fadeRGB::v(sif)")
+    def fade(self, name: str, colour: int, seconds: float) -> None:
+        raise CallFailed("These lights are broken.")
+
+    @method("say::v(s)")
+    def say(self, text: str) -> None:
+        return
+
+    @method("getListData::m(m)")
+    def values(self, keys: list[str]) -> list[Any]:
+        return [80.0 if "RKneePitch/Temperature" in key else None for key in keys]

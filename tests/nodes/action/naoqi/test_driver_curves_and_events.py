@@ -1,0 +1,97 @@
+"""How movements become NAOqi's curves, and NAOqi's events human states."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from driver_stage import ANIMATIONS, BODY
+
+from nodes.action.naobody.actions import ACTIONS, Stop
+from nodes.action.naobody.body_actions import StopMoving
+from nodes.action.naobody.curves import track_angles
+from nodes.action.naobody.keyframes import Keyframes, Track
+from nodes.action.naobody.motor_actions import SetAngles
+from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.sense_actions import Listen
+from nodes.action.naoqi.driver.bezier import bezier_call
+from nodes.action.naoqi.driver.calls import Calls
+from nodes.action.naoqi.driver.noticing import Noticing
+from nodes.action.naoqi.driver.real import RealRobot
+from nodes.action.naoqi.driver.repertoire import TASKS
+
+
+def test_there_is_a_task_for_every_action_of_the_language() -> None:
+    by_the_actor = {Stop, StopMoving, SetAngles, Listen}  # ears have a place of their own
+
+    assert set(ACTIONS.values()) - set(TASKS) == by_the_actor
+
+
+@pytest.mark.parametrize("name", ANIMATIONS.names())
+def test_every_animation_becomes_a_curve_that_naoqi_plays_as_we_do(name: str) -> None:
+    keyframes = ANIMATIONS.get(name).keyframes
+    pose = BODY.posture_angles("Stand")
+
+    call = bezier_call(BODY, pose, keyframes)
+
+    for joint, times, keys in zip(call.names, call.times, call.keys, strict=True):
+        column = BODY.index[joint]
+        handles = tuple((*key[1][1:], *key[2][1:]) for key in keys)
+        told = Track(tuple(times), tuple(key[0] for key in keys), handles)
+        at = np.linspace(0.02, times[-1], 60)
+        fastest = float(BODY.max_speed[column])
+        angles = track_angles(told, float(pose[column]), at, fastest)
+        assert np.all(angles >= BODY.min[column] - 1e-6)
+        assert np.all(angles <= BODY.max[column] + 1e-6)
+        assert np.max(np.abs(np.diff(angles)) / np.diff(at)) <= fastest * 1.06
+
+
+def test_angles_that_joints_cannot_have_are_clamped_and_told() -> None:
+    pose = BODY.posture_angles("Stand")
+    keyframes = Keyframes({"LElbowRoll": Track((2.0,), (3.0,))})
+
+    call = bezier_call(BODY, pose, keyframes)
+
+    assert call.keys[0][0][0] == pytest.approx(BODY.max[BODY.index["LElbowRoll"]])
+    assert "kept within the limits of LElbowRoll" in call.notes
+
+
+def bare_robot() -> RealRobot:
+    return RealRobot(VirtualRobot("NAO", BODY, ANIMATIONS), Calls("NAO", {}))
+
+
+@pytest.mark.parametrize("value", [None, [], [1], "x", [[0, 0], "x"], [[0], [[[1]]]], {}, 3.5])
+@pytest.mark.parametrize(
+    "event",
+    ["FaceDetected", "LandmarkDetected", "redBallDetected", "WordRecognized", "FrontTactilTouched",
+     "ALSoundLocalization/SoundLocated", "something else"],
+)  # fmt: skip
+def test_events_that_are_not_understood_are_not_noticed(event: str, value: Any) -> None:
+    noticing = Noticing(bare_robot())
+
+    states = noticing.hear(event, value)
+
+    assert states == [] or event == "FrontTactilTouched"
+
+
+def test_a_word_that_is_not_sure_is_not_heard() -> None:
+    noticing = Noticing(bare_robot())
+
+    unsure = noticing.hear("WordRecognized", ["yes", 0.2])
+    sure = noticing.hear("WordRecognized", ["<...> yes <...>", 0.6])
+
+    assert (unsure, sure) == ([], ["heard_yes"])
+
+
+def test_one_sensor_with_several_places_is_touched_until_all_are_let_go() -> None:
+    noticing = Noticing(bare_robot())
+
+    states = [
+        noticing.hear("HandLeftBackTouched", 1.0),
+        noticing.hear("HandLeftLeftTouched", 1.0),
+        noticing.hear("HandLeftBackTouched", 0.0),
+    ]
+
+    assert states == [["touched_hand_left", "touched_hand"], [], []]
+    assert noticing.touched["hand_left"] == 1.0

@@ -1,0 +1,102 @@
+"""Done is what the robot has really done; and robots that ask who we are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from driver_held_nao import SERVICES, HeldNao
+from driver_stage import DriverStage
+from naoqi_lamp import CERTIFICATE, KEY
+
+from nep_core.messages import RobotState
+from nodes.action.naoqi.logins import FOLDER_VARIABLE, SavedLogin, save_login
+from nodes.action.naoqi.probe import probe
+from nodes.action.naoqi.server import Login, Server, TlsFiles
+
+
+@pytest.fixture(autouse=True)
+def no_saved_login(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
+
+
+@pytest.fixture
+def held() -> Iterator[DriverStage]:
+    server = Server({name: HeldNao() for name in SERVICES}, port=0)
+    stage = DriverStage(f"127.0.0.1:{server.start()}")
+    stage.until(lambda: stage.driver.state() is not None)
+    yield stage
+    stage.close()
+    server.stop()
+
+
+def test_done_is_said_only_when_the_robot_has_done_it(held: DriverStage) -> None:
+    head = held.do("look", yaw_deg=40)
+    posture = held.do("do", posture="posture_stand")
+    walk = held.do("walk", forward_m=0.5)
+    lights = held.do("leds", group="FaceLeds", colour="#ff0000")
+
+    assert [head.state, posture.state, walk.state, lights.state] == ["failed"] * 4
+    assert "HeadYaw did not get where it was sent" in head.description
+    assert "did not get into the posture Stand" in posture.description
+    assert "got only 0.00 m of 0.50 m" in walk.description
+    assert "These lights are broken." in lights.description
+
+
+def test_a_hot_motor_is_warned_of(held: DriverStage) -> None:
+    held.until(lambda: held.event == "warning")
+
+    assert "RKneePitch has 80 °C" in held.driver.connection.description
+    assert "rest" in held.driver.connection.description
+
+
+def test_the_state_of_a_robot_that_was_never_met_is_not_known() -> None:
+    stage = DriverStage("127.0.0.1:1")
+
+    state: RobotState | None = stage.driver.state()
+
+    assert state is None
+    stage.close()
+
+
+@pytest.fixture
+def encrypted() -> Iterator[str]:
+    """A robot that speaks only TLS and asks for a password; its address."""
+    files = TlsFiles(CERTIFICATE, KEY)
+    services = {name: HeldNao() for name in SERVICES}
+    server = Server(services, port=0, login=Login("nao", "secret"), tls_files=files)
+    yield f"127.0.0.1:{server.start()}"
+    server.stop()
+
+
+def test_a_robot_with_tls_and_login_is_met_and_its_certificate_is_remembered(
+    encrypted: str,
+) -> None:
+    *_, last = probe(encrypted, Login("nao", "secret"))
+    assert last.about is not None and len(last.about.fingerprint) == 95
+
+    save_login(encrypted, SavedLogin("nao", "secret", last.about.fingerprint))
+    stage = DriverStage(encrypted)
+    stage.until(lambda: stage.driver.state() is not None)
+
+    assert stage.do("say", text="Hello").state == "done"
+    stage.close()
+
+
+def test_another_robot_at_a_trusted_address_is_told(encrypted: str) -> None:
+    save_login(encrypted, SavedLogin("nao", "secret", "00:11"))
+    stage = DriverStage(encrypted)
+
+    stage.until(lambda: stage.event == "connection_failed")
+
+    assert "not the robot that was trusted before" in stage.driver.connection.description
+    stage.close()
+
+
+def test_a_robot_with_tls_says_that_it_asks_for_a_login(encrypted: str) -> None:
+    stage = DriverStage(encrypted)
+
+    stage.until(lambda: stage.event == "connection_failed")
+
+    assert "password" in stage.driver.connection.description
+    stage.close()
