@@ -48,7 +48,10 @@ def keep_animation(editor: Editor, animation: OwnAnimation, name: str = "") -> s
     """Keep an animation, under its name or a new one; gives the name. Raises EditRefused."""
     name = name or new_name(editor, animation.title)
     if (reason := why_not_animation(name, animation)) is not None:
-        raise EditRefused(f"This motion cannot be kept: {reason}")
+        raise EditRefused(
+            f"This motion cannot be kept: {reason}",
+            checklist=("Give it a name and at least one pose, then keep it again.",),
+        )
     editor.apply(keep(name, animation), "keep a motion")
     return name
 
@@ -106,7 +109,10 @@ def new_name(editor: Editor, title: str) -> str:
 def _known(editor: Editor, name: str) -> OwnAnimation:
     animation = own_animations(editor.project).get(name)
     if animation is None:
-        raise EditRefused(f"This project has no motion “{name}”.")
+        raise EditRefused(
+            f"This project has no motion “{name}”.",
+            checklist=("Open the list of motions, and choose one of those.",),
+        )
     return animation
 
 

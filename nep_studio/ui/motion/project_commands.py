@@ -136,12 +136,13 @@ class ProjectCommands:
     def save(self) -> bool:
         """Keep the motion in the project; whether that went well."""
         if self.kept.editor is None:
-            self._tell(tr("No project is open"), tr("Open a project first, then keep the motion."))
+            self._tell(tr("No project is open"), "", tr("Open a project, then keep the motion."))
             return False
         try:
             name = self.kept.save(self.desk.motion, self.desk.name, self._use)
         except EditRefused as refused:
-            self._tell(tr("The motion could not be kept"), tr(str(refused)))
+            step = tr("Give it a name and at least one pose, then keep it again.")
+            self._tell(tr("The motion could not be kept"), tr(str(refused)), step)
             return False
         self._use = None
         self.desk.saved(name)
@@ -164,7 +165,7 @@ class ProjectCommands:
             Answer(tr("Throw away"), then),
             Answer(tr("Cancel"), lambda: None),
         )
-        QuestionDialog(Message("warning", title, answers=answers), self.window).open()
+        self.ask(Message("warning", title, answers=answers))
 
     def ask_delete(self) -> None:
         """Ask whether to take the motion out of the project; say what plays it."""
@@ -177,7 +178,7 @@ class ProjectCommands:
             Answer(tr("Delete"), lambda: self.delete(name)),
             Answer(tr("Cancel"), lambda: None, "primary"),
         )
-        QuestionDialog(Message("warning", title, words, answers=answers), self.window).open()
+        self.ask(Message("warning", title, words, answers=answers))
 
     def delete(self, name: str) -> None:
         """Take a motion out of the project; it stays here, to be kept again."""
@@ -224,8 +225,13 @@ class ProjectCommands:
         checklist = tuple(map(tr, problem.checklist))
         title, sentence = tr(problem.title), tr(problem.sentence)
         message = Message("error", title, sentence, checklist, problem.details, (ok,))
-        QuestionDialog(message, self.window).open()
+        self.ask(message)
 
-    def _tell(self, title: str, sentence: str) -> None:
+    def _tell(self, title: str, sentence: str, step: str) -> None:
         ok = Answer(tr("OK"), lambda: None, "primary")
-        QuestionDialog(Message("warning", title, sentence, answers=(ok,)), self.window).open()
+        message = Message("warning", title, sentence, checklist=(step,), answers=(ok,))
+        self.ask(message)
+
+    def ask(self, message: Message) -> None:
+        """Ask, or tell what has to be read, over this window."""
+        QuestionDialog(message, self.window).open()

@@ -36,7 +36,8 @@ class VirtualRobot:
     ``stance``: how it stands on the floor. ``fallen``: it lies there because it lost its balance.
     ``things``: what is around it; ``noticed``: what of that it sees, and where; ``bumped``: the
     bumpers with which it ran into something; ``battery``: 0 to 1. ``model``: which robot it is,
-    as RobotState has it.
+    as RobotState has it. ``passed``: the key poses that it has reached since its posture, on the
+    way ``towards`` another one.
     """
 
     name: str

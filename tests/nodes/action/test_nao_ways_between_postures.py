@@ -63,6 +63,41 @@ def rests(stance: Stance) -> bool:
     return bool(turn[2] @ stance.turn[2] > 0.999)
 
 
+@pytest.mark.parametrize("after_s", [1.0, 2.7, 3.9, 5.1, 6.3, 7.5])
+@pytest.mark.parametrize(
+    ("start", "goal"),
+    [("Stand", "LyingBelly"), ("LyingBelly", "Stand"), ("LyingBack", "Stand"), ("Stand", "Sit")],
+)
+def test_it_gets_up_from_wherever_it_was_stopped(start: str, goal: str, after_s: float) -> None:
+    stage = Stage(start)
+    stage.ask("1", "do", posture=ask_for(goal))
+    stage.pass_time(after_s)
+    stage.results += stage.actor.stop()
+    stage.finish()
+
+    result = stage.do("do", posture="posture_stand")
+
+    assert result.state == "done" and not stage.robot.fallen
+    assert stage.robot.angles == pytest.approx(BODY.posture_angles("Stand"), abs=1e-3)
+    assert stage.robot.stance.turn[2, 2] > 0.99
+    assert (stage.relative_speeds <= 1.001).all()
+
+
+def test_a_way_that_was_stopped_is_gone_back_over_its_key_poses() -> None:
+    stage = Stage("Crouch")
+    stage.ask("1", "do", posture="posture_lying_belly")
+    stage.pass_time(3.0)
+    stage.results += stage.actor.stop()
+    stage.finish()
+    passed = len(stage.robot.passed)
+
+    stage.do("do", posture="posture_crouch")
+
+    assert passed >= 2
+    assert stage.robot.passed == () and stage.robot.posture == "Crouch"
+    assert stage.robot.angles == pytest.approx(BODY.posture_angles("Crouch"), abs=1e-3)
+
+
 def test_a_robot_that_has_got_up_is_where_its_feet_are() -> None:
     stage = Stage("LyingBelly")
 

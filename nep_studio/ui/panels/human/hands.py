@@ -207,9 +207,13 @@ class Hands(QObject):
         if happening.kind in TOLD_BY_HAND:
             source = SOURCE if happening.robot in (ALL_ROBOTS, "") else happening.robot
             return self._tell(_state_of(happening), source, happening)
-        name = happening.robot if happening.robot != ALL_ROBOTS else self.robot
-        words = tr("{robot} is not on this screen, so that this has to happen to itself.")
-        self.refused.emit(words.replace("{robot}", name or tr("The robot")))
+        named = happening.robot if happening.robot != ALL_ROBOTS else self.robot
+        self.refused.emit(
+            tr(
+                "{robot} is not on this screen, so that this has to happen to the robot itself.",
+                robot=named or tr("The robot"),
+            )
+        )
         return False
 
     def _tell(self, state: str, source: str, happening: Happening) -> bool:

@@ -102,6 +102,7 @@ class RobotStage(QWidget):
             view.robot_chosen.connect(self.chosen)
             view.thing_chosen.connect(self.choose)
             view.thing_moved.connect(self._on_thing_moved)
+            view.camera_changed.connect(self._on_camera_changed)
             keys.changed.connect(self.floor.change)
             keys.removed.connect(self.remove)
             keys.left.connect(lambda: self.choose(""))
@@ -205,6 +206,9 @@ class RobotStage(QWidget):
             self._view.show_things(things)
             if is_first:
                 self._look_past(self._view)
+
+    def _on_camera_changed(self) -> None:
+        self.tools.show_follow(self.view.follows)
 
     def _on_follow_switched(self, is_on: bool) -> None:
         self.view.follows = is_on

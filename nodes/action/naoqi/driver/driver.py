@@ -182,7 +182,7 @@ class NaoqiDriver:
             warning = told.low_battery(known.name, self._robot.battery)
         elif heat >= told.HOTTEST_C:
             warning = told.too_hot(known.name, joint, heat)
-        elif known.released >= set(SINGLE_PARTS) and not self._running:
+        elif known.released >= set(self._robot.parts) and not self._running:
             warning = told.asleep(known.name)
         if warning is None:
             words = f"{known.name} at {place} is connected."

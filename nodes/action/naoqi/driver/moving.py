@@ -17,7 +17,6 @@ from nodes.action.naobody.postures import posture_name
 from nodes.action.naoqi.driver.bezier import bezier_call
 from nodes.action.naoqi.driver.calls import Task
 from nodes.action.naoqi.driver.real import RealRobot
-from nodes.action.naoqi.driver.watched import CHAINS
 
 POSTURE_S = 60.0
 WAKING_S = 25.0
@@ -85,7 +84,7 @@ def rest(robot: RealRobot) -> Task:
     awake = yield from robot.call("ALMotion", "robotIsWakeUp")
     if awake:
         raise ActionFailed(f"{robot.name} did not go to rest. Look whether something holds it.")
-    robot.known.released = frozenset(CHAINS)
+    robot.known.released = frozenset(robot.parts)
     robot.known.posture = RESTING
     yield from robot.measure(robot.names(MOVING))
     return ""
@@ -185,8 +184,10 @@ def play_keyframes(robot: RealRobot, keyframes: Keyframes) -> Task:
 
 def lock(robot: RealRobot, part: str, *, on: bool) -> Task:
     """Switch the motors of a part on or off, softly."""
-    parts = single_parts(part)
-    names = [CHAINS[one] for one in parts]
+    parts = {one: them for one, them in robot.parts.items() if one in single_parts(part)}
+    names = [name for them in parts.values() for name in them]
+    if not names:
+        raise ActionFailed(f"{robot.name} has no such part of the body.")
     yield from robot.take_over()
     value = 1.0 if on else 0.0
     yield from robot.call(
@@ -210,7 +211,7 @@ def set_stiffness(robot: RealRobot, action: m.SetStiffness) -> Task:
     )
     parts = {part_of(robot.known.body, name) for name in names}
     for part in parts:
-        stiff = yield from robot.call("ALMotion", "getStiffnesses", CHAINS[part])
+        stiff = yield from robot.call("ALMotion", "getStiffnesses", robot.parts[part])
         _set_released(robot, part, loose=not any(float(value) > 0.0 for value in stiff))
     return ""
 
@@ -256,9 +257,9 @@ def _look_at_posture(robot: RealRobot) -> Task:
     return ""
 
 
-def _check_motors(robot: RealRobot, parts: tuple[str, ...], *, on: bool) -> Task:
-    for part in parts:
-        stiff = yield from robot.call("ALMotion", "getStiffnesses", CHAINS[part])
+def _check_motors(robot: RealRobot, parts: dict[str, list[str]], *, on: bool) -> Task:
+    for part, joints in parts.items():
+        stiff = yield from robot.call("ALMotion", "getStiffnesses", joints)
         is_loose = not any(float(value) > 0.0 for value in stiff)
         if is_loose is on:
             state = "locked" if on else "released"

@@ -15,6 +15,7 @@ from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.parts import PLAIN_NAMES, parts_of_limbs
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naoqi.driver.calls import Calling, Calls
+from nodes.action.naoqi.driver.watched import parts_of
 
 NEAR_RAD = 0.14
 """So far (8 degrees) a joint may be from where it was sent: motors give way a little."""
@@ -46,6 +47,11 @@ class RealRobot:
     def name(self) -> str:
         """The robot's name."""
         return self.known.name
+
+    @property
+    def parts(self) -> dict[str, list[str]]:
+        """The joints of each part of the body that can be locked and released."""
+        return parts_of(self.known.body)
 
     def call(
         self, service: str, method: str, *args: Any, limit_s: float = 3.0, uses: object = ()

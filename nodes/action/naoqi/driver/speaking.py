@@ -7,6 +7,7 @@ from nodes.action.naobody import actions as a
 from nodes.action.naobody import sense_actions as s
 from nodes.action.naobody.animations import NO_GESTURE, Animation
 from nodes.action.naobody.keyframes import Keyframes
+from nodes.action.naobody.speaking import spoken
 from nodes.action.naobody.speech import speaking_time_s
 from nodes.action.naobody.tasks import at_once, changed, fitted
 from nodes.action.naoqi.driver.calls import Task
@@ -22,8 +23,9 @@ def say(robot: RealRobot, action: a.Say) -> Task:
     """Speak, moving as the gesture says meanwhile."""
     tasks = [speak(robot, action)]
     seconds = speaking_time_s(action.text) * 100.0 / action.speed
-    if action.gesture != NO_GESTURE and seconds > 0.0:
-        animation = robot.known.animations.get(action.gesture, "gesture")
+    gesture = next((part.gesture for part in spoken(robot.known, action)), NO_GESTURE)
+    if gesture != NO_GESTURE and seconds > 0.0:
+        animation = robot.known.animations.get(gesture, "gesture")
         keyframes = fitted(robot.known, animation.keyframes, seconds)
         tasks.append(play(robot, animation, keyframes))
     return (yield from beside(tasks))

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, TypeGuard
 
 from nodes.action.naobody.body import Body
+from nodes.action.naobody.parts import SINGLE_PARTS, part_of
 
 DEVICE = "Device/SubDeviceList/{name}/Value"
 
@@ -40,22 +41,6 @@ TOUCH_EVENTS: dict[str, tuple[str, ...]] = {
 """Our touch sensors, each with the events of NAOqi that tell of it: 1 touched, 0 let go."""
 CLICKED_EVENT = "ALChestButton/SimpleClickOccurred"
 """On many robots the only event of the chest button: when it was let go after a short press."""
-
-STIFF_JOINT = {
-    "head": "HeadYaw",
-    "left_arm": "LShoulderPitch",
-    "right_arm": "RShoulderPitch",
-    "left_leg": "LKneePitch",
-    "right_leg": "RKneePitch",
-}
-"""One joint of each part of the body, which tells whether its motors are on."""
-CHAINS = {
-    "head": "Head",
-    "left_arm": "LArm",
-    "right_arm": "RArm",
-    "left_leg": "LLeg",
-    "right_leg": "RLeg",
-}
 
 LANGUAGES = {
     "en": "English",
@@ -92,7 +77,7 @@ def quick_keys(body: Body) -> list[str]:
 
 def slow_keys(body: Body) -> list[str]:
     """What changes slowly."""
-    hardness = [_key(f"{name}/Hardness/Actuator") for name in STIFF_JOINT.values()]
+    hardness = [_key(f"{name}/Hardness/Actuator") for name in body.names]
     heat = [_key(f"{name}/Temperature/Sensor") for name in body.names]
     currents = [_key(f"{name}/ElectricCurrent/Sensor") for name in body.names]
     return [*hardness, *heat, *currents, _key(BATTERY_KEY)]
@@ -117,10 +102,21 @@ def sensors(body: Body, values: dict[str, Any]) -> dict[str, float]:
     return found
 
 
-def loose_parts(values: dict[str, Any]) -> dict[str, bool]:
+def parts_of(body: Body) -> dict[str, list[str]]:
+    """The joints of each part of the body that there is."""
+    parts = {part: [n for n in body.names if part_of(body, n) == part] for part in SINGLE_PARTS}
+    return {part: joints for part, joints in parts.items() if joints}
+
+
+def loose_parts(body: Body, values: dict[str, Any]) -> dict[str, bool]:
     """Whether the motors of each part of the body are off, as far as that was told."""
-    told = {part: values.get(_key(f"{j}/Hardness/Actuator")) for part, j in STIFF_JOINT.items()}
-    return {part: float(value) <= 0.0 for part, value in told.items() if _is_number(value)}
+    loose = {}
+    for part, joints in parts_of(body).items():
+        told = [values.get(_key(f"{name}/Hardness/Actuator")) for name in joints]
+        firm = [value for value in told if _is_number(value)]
+        if firm:
+            loose[part] = max(firm) <= 0.0
+    return loose
 
 
 def battery(values: dict[str, Any]) -> float | None:

@@ -126,7 +126,7 @@ class Watching:
         told = dict(zip(self._slow, values, strict=False))
         body, known = self._robot.known.body, self._robot.known
         self._robot.sensors |= watched.sensors(body, told)
-        loose = watched.loose_parts(told)
+        loose = watched.loose_parts(body, told)
         known.released = frozenset({part for part, is_loose in loose.items() if is_loose}) | (
             known.released - set(loose)
         )

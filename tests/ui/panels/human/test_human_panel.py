@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_core import messages as m
 from nep_studio.blocks.edits import SetField
+from nep_studio.happenings import Happening
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.panels.human.panel import HumanPanel
@@ -202,6 +203,23 @@ def test_a_gesture_comes_from_the_watch_or_is_told_by_hand_with_its_certainty(
     qtbot.waitUntil(lambda: bool(told()), timeout=RUN_MS)
     assert (told()[0].human_state, told()[0].certainty) == ("gesture_karate", 0.6)
     assert panel.told.text() == "Told by hand: Make the gesture karate"
+
+
+def test_what_a_robot_elsewhere_would_notice_is_told_by_hand_but_not_what_it_measures(
+    human: Human, run: Run, qtbot: QtBot
+) -> None:
+    panel = human(rule("robot_events.heard"))
+    heard = run()
+
+    is_told = panel.hands.begin(Happening("touch", "head", "the head", "Anna"))
+    is_measured = panel.hands.begin(Happening("sensor", "battery", "battery", "Anna", 5.0))
+
+    def told() -> list[tuple[str, str]]:
+        return [(one.human_state, one.source) for one in heard if isinstance(one, m.HumanBehavior)]
+
+    qtbot.waitUntil(lambda: told() == [("touched_head", "Anna")], timeout=RUN_MS)
+    assert is_told and not is_measured
+    assert panel.told.text().startswith("Anna is not on this screen")
 
 
 def test_a_person_comes_closer_in_the_scene_and_goes(

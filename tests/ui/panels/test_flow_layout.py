@@ -1,0 +1,65 @@
+"""Widgets flow into rows, from the side on which reading begins; columns share the width."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QPushButton, QWidget
+from pytestqt.qtbot import QtBot
+
+from nep_studio.ui.panels.flow import FlowLayout
+from nep_studio.ui.panels.human.columns import COLUMN_LINES, Columns
+
+
+@pytest.fixture
+def row(qtbot: QtBot) -> QWidget:
+    made = QWidget()
+    qtbot.addWidget(made)
+    flow = FlowLayout(made, 4)
+    for number in range(6):
+        button = QPushButton(f"Button {number}")
+        button.setFixedSize(100, 30)
+        flow.addWidget(button)
+    return made
+
+
+@pytest.mark.parametrize(("width", "rows"), [(640, 1), (320, 2), (210, 3), (50, 6)])
+def test_a_row_that_is_full_is_followed_by_the_next(row: QWidget, width: int, rows: int) -> None:
+    assert row.layout().heightForWidth(width) == rows * 30 + (rows - 1) * 4
+
+
+def test_where_people_read_from_right_to_left_the_first_is_on_the_right(row: QWidget) -> None:
+    row.setLayoutDirection(Qt.LayoutDirection.RightToLeft)
+    row.resize(320, 100)
+    row.show()
+
+    first = row.findChildren(QPushButton)[0]
+    assert first.geometry().right() == row.width() - 1
+
+
+def test_a_hidden_widget_takes_no_room(row: QWidget) -> None:
+    row.show()
+    for button in row.findChildren(QPushButton)[1:]:
+        button.hide()
+
+    assert row.layout().heightForWidth(210) == 30
+
+
+def test_columns_are_as_many_as_fit_and_keep_the_order(qtbot: QtBot) -> None:
+    widgets = [QWidget() for _ in range(6)]
+    for widget in widgets:
+        widget.setFixedHeight(100)
+    columns = Columns(widgets)
+    qtbot.addWidget(columns)
+    line = columns.fontMetrics().height()
+    columns.show()
+
+    columns.resize(line * COLUMN_LINES * 3, 400)
+
+    assert columns.count == 3
+    qtbot.waitUntil(
+        lambda: len({widget.mapTo(columns, widget.pos()).x() for widget in widgets}) > 1
+    )
+    places = [widgets[number].parentWidget().x() for number in range(6)]
+    assert places == sorted(places)
+    assert len(set(places)) == 3
