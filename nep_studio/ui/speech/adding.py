@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import msgspec
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core import messages as m
 from nep_studio.settings import Settings
@@ -17,6 +18,9 @@ from .voice import find_voice
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
+
+
+LATER_MS = 60
 
 
 class Sound(QObject):
@@ -34,6 +38,7 @@ class Sound(QObject):
         super().__init__(parent)
         self._runner, self._settings = runner, settings
         self._tap: Tap | None = None
+        self._run = 0
         self.voices = RobotVoices(make_voice, self)
         runner.connected.connect(self._follow)
         runner.disconnected.connect(self._on_disconnected)
@@ -65,14 +70,19 @@ class Sound(QObject):
             self.voices.forget()
 
     def _on_states(self, batch: list[Heard]) -> None:
+        """Requests, which tell how something is to be said, come another way, and may be later."""
+        QTimer.singleShot(LATER_MS, self, partial(self._hear_states, batch, self._run))
+
+    def _hear_states(self, batch: list[Heard], run: int) -> None:
         real = {
             str(node.parameters.get("robot", node.name))
             for node in list(self._runner.local.planned.values())
             if node.parameters.get("driver") == "naoqi"
         }  # they have a voice of their own
-        for heard in batch:
-            if heard.message.robot not in real:
-                self.voices.hear_state(heard.message)
+        if run == self._run and self._tap is not None:
+            for heard in batch:
+                if heard.message.robot not in real:
+                    self.voices.hear_state(heard.message)
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
         if self._tap is not None:
@@ -81,6 +91,7 @@ class Sound(QObject):
 
     def _on_state_changed(self, state: str) -> None:
         if state == "stopping":
+            self._run += 1
             self.voices.hush()
 
     def _on_disconnected(self) -> None:

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject
 
 from nep_core import messages as m
 
-from .utterance import Utterance, utterance_of
+from .utterance import Utterance, spoken_as, utterance_of
 from .voice import Voice
 
 MakeVoice = Callable[[QObject], Voice | None]
@@ -25,14 +25,19 @@ class RobotVoices(QObject):
         self._make_voice = make_voice
         self._mouths: dict[str, _Mouth] = {}
         self._saying: dict[str, str] = {}
-        self._speeches: dict[str, None] = {}
+        self._speeches: dict[str, m.ActionRequest] = {}
 
     def hear_state(self, state: m.RobotState) -> None:
         """Say what a robot has begun to say."""
         before = self._saying.get(state.robot, "")
         self._saying[state.robot] = state.saying
         if state.saying and state.saying != before:
-            self._mouth(state.robot).say(utterance_of(state))
+            self._mouth(state.robot).say(spoken_as(utterance_of(state), self._asked(state)))
+
+    def _asked(self, state: m.RobotState) -> m.ActionRequest | None:
+        """The last request to say what a robot says now, which may tell how."""
+        asked = [one for one in self._speeches.values() if one.args.get("text") == state.saying]
+        return asked[-1] if asked else None
 
     def hear(self, message: msgspec.Struct) -> None:
         """Be silent when a robot was stopped, or what it says was."""
@@ -67,7 +72,7 @@ class RobotVoices(QObject):
             for robot in [name for name in request.robots if name != "all"] or [""]:
                 self.hush(robot)
         elif request.action in SPEECHES:
-            self._speeches[request.id] = None
+            self._speeches[request.id] = request
             if len(self._speeches) > MOST_SPEECHES:
                 del self._speeches[next(iter(self._speeches))]
 

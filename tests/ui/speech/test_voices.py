@@ -166,6 +166,20 @@ def test_a_robot_speaks_as_it_is_set_and_robots_sound_different() -> None:
     assert utterance_of(state("Hi", volume=float("nan"))).volume == 1.0
 
 
+def test_how_a_text_was_asked_to_be_said_is_how_it_is_spoken(
+    voices: RobotVoices, ears: Ears, qtbot: QtBot
+) -> None:
+    args = {"text": "Bonjour", "language": "fr", "pitch": 150.0, "speed": 200.0}
+    voices.hear(m.ActionRequest(id="1", robots=["NAO"], action="say", args=args))
+
+    voices.hear_state(state("Bonjour", language="en"))
+
+    qtbot.waitUntil(lambda: bool(ears.told()))
+    [(_, words, _)] = ears.told()
+    assert words[:2] == ["-v", "fr"]
+    assert (words[words.index("-p") + 1], words[words.index("-s") + 1]) == ("75", "330")
+
+
 def test_what_a_robot_says_is_spoken_once_however_often_it_is_told(
     voices: RobotVoices, ears: Ears, qtbot: QtBot
 ) -> None:

@@ -18,6 +18,7 @@ from nep_studio.ui.words import tr
 
 from .floor import Floor
 from .plans import RobotPlan
+from .sight import Sight
 from .stage_keys import StageKeys
 from .stage_tools import StageTools
 from .starts import ORIGIN, Base
@@ -50,6 +51,7 @@ class RobotStage(QWidget):
         self._keys: StageKeys | None = None
         self._chosen_id = ""
         self._held: Thing | None = None
+        self._sight: Sight | None = None
         self._shown: dict[str, tuple[RobotState | None, Base]] = {}
         self.tools = StageTools(look)
         self.thing_bar = ThingBar(look)
@@ -97,7 +99,8 @@ class RobotStage(QWidget):
             view = self._view = RobotView(self._look, self._touch_names)
             view.setMinimumHeight(self.fontMetrics().height() * 8)
             self._box.insertWidget(1, view, 1)
-            keys = self._keys = StageKeys(view)
+            self._sight, keys = Sight(view), StageKeys(view)
+            self._keys = keys
             view.touched.connect(self.touched)
             view.robot_chosen.connect(self.chosen)
             view.thing_chosen.connect(self.choose)
@@ -124,6 +127,8 @@ class RobotStage(QWidget):
             self._shown[plan.name] = shown
             is_ours = not plan.is_real
             self.view.show_robot(plan.name, state, plan.folder, can_touch=is_ours, start=start)
+            if self._sight is not None:
+                self._sight.look_soon()
 
     def keep_robots(self, names: list[str]) -> None:
         """Show only these robots."""

@@ -17,7 +17,7 @@ from nodes.action.naoqi.client import NaoqiError, NoConnection, Pending, RemoteO
 Calling = Generator[None, None, Any]
 Task = Generator[None, None, str]
 
-ANSWER_S = 3.0
+ANSWER_S = 2.5
 """What a robot does at once it has answered by then."""
 STOPPED_S = 0.5
 """By then a robot has stopped."""

@@ -124,6 +124,7 @@ class NaoqiDriver:
         x, y, theta = (float(value) for value in known.base)
         return RobotState(
             robot=known.name,
+            model=known.model,
             joints=dict(zip(known.body.names, known.angles.round(5).tolist(), strict=True)),
             base=(x, y, theta),
             torso=self._robot.torso or known.stance.pose,

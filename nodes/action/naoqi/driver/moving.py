@@ -29,7 +29,7 @@ RESTING = "Rest"
 """Our word for what NAOqi calls to rest: crouched, with its motors off."""
 
 
-def take_posture(robot: RealRobot, word: str) -> Task:
+def take_posture(robot: RealRobot, word: str, speed: float = POSTURE_SPEED) -> Task:
     """Take a posture with all motors on, and look that it is there."""
     name = posture_name(robot.known.body, word)
     if name == RESTING:
@@ -37,7 +37,7 @@ def take_posture(robot: RealRobot, word: str) -> Task:
     yield from robot.take_over()
     if robot.known.released:
         yield from wake_up(robot)
-    return (yield from to_posture(robot, name))
+    return (yield from to_posture(robot, name, speed))
 
 
 def to_posture(robot: RealRobot, name: str, speed: float = POSTURE_SPEED) -> Task:
@@ -247,7 +247,7 @@ def return_to_posture(robot: RealRobot, joints: Collection[str]) -> Task:
 
 def posture_task(robot: RealRobot, action: a.Do) -> Task:
     """Take a posture."""
-    return take_posture(robot, action.posture)
+    return take_posture(robot, action.posture, min(POSTURE_SPEED * action.pace, 1.0))
 
 
 def _look_at_posture(robot: RealRobot) -> Task:

@@ -14,7 +14,7 @@ from nodes.action.naobody.body import Angles
 from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.parts import PLAIN_NAMES, parts_of_limbs
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naoqi.driver.calls import Calling, Calls
+from nodes.action.naoqi.driver.calls import ANSWER_S, Calling, Calls
 from nodes.action.naoqi.driver.watched import parts_of
 
 NEAR_RAD = 0.14
@@ -54,7 +54,7 @@ class RealRobot:
         return parts_of(self.known.body)
 
     def call(
-        self, service: str, method: str, *args: Any, limit_s: float = 3.0, uses: object = ()
+        self, service: str, method: str, *args: Any, limit_s: float = ANSWER_S, uses: object = ()
     ) -> Calling:
         """Call a service and wait for its answer (see Calls)."""
         return self.calls.call(service, method, *args, limit_s=limit_s, uses=uses)

@@ -6,11 +6,12 @@ from nep_core.errors import ActionFailed
 from nodes.action.naobody import actions as a
 from nodes.action.naobody import sense_actions as s
 from nodes.action.naobody.animations import NO_GESTURE, Animation
+from nodes.action.naobody.body_language import Spoken
 from nodes.action.naobody.keyframes import Keyframes
 from nodes.action.naobody.speaking import spoken
 from nodes.action.naobody.speech import speaking_time_s
 from nodes.action.naobody.tasks import at_once, changed, fitted
-from nodes.action.naoqi.driver.calls import Task
+from nodes.action.naoqi.driver.calls import Task, waited
 from nodes.action.naoqi.driver.moving import play_keyframes, return_to_posture, take_posture
 from nodes.action.naoqi.driver.real import RealRobot
 from nodes.action.naoqi.driver.watched import LANGUAGES, language_code
@@ -21,13 +22,10 @@ VOLUME_OFF = 2.0
 
 def say(robot: RealRobot, action: a.Say) -> Task:
     """Speak, moving as the gesture says meanwhile."""
+    parts = spoken(robot.known, action)
     tasks = [speak(robot, action)]
-    seconds = speaking_time_s(action.text) * 100.0 / action.speed
-    gesture = next((part.gesture for part in spoken(robot.known, action)), NO_GESTURE)
-    if gesture != NO_GESTURE and seconds > 0.0:
-        animation = robot.known.animations.get(gesture, "gesture")
-        keyframes = fitted(robot.known, animation.keyframes, seconds)
-        tasks.append(play(robot, animation, keyframes))
+    if any(part.gesture != NO_GESTURE for part in parts):
+        tasks.append(_gestures(robot, parts, action.speed / 100.0))
     return (yield from beside(tasks))
 
 
@@ -107,6 +105,18 @@ def _act(robot: RealRobot, keyframes: Keyframes) -> Task:
     notes = yield from play_keyframes(robot, keyframes)
     yield from return_to_posture(robot, list(keyframes.tracks))
     return notes
+
+
+def _gestures(robot: RealRobot, parts: list[Spoken], speed: float) -> Task:
+    """Make the gesture of each part of what is said, in about the time that it takes."""
+    for part in parts:
+        seconds = speaking_time_s(part.text) / speed
+        if part.gesture == NO_GESTURE or seconds <= 0.0:
+            yield from waited(seconds)
+            continue
+        animation = robot.known.animations.get(part.gesture, "gesture")
+        yield from play(robot, animation, fitted(robot.known, animation.keyframes, seconds))
+    return ""
 
 
 def _voice(action: a.Say) -> str:

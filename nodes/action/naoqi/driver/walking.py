@@ -6,7 +6,7 @@ import math
 
 from nep_core.errors import ActionFailed
 from nodes.action.naobody import body_actions as b
-from nodes.action.naobody.gaze import arm_for, head_angles, in_torso, place_of, pointing
+from nodes.action.naobody.gaze import arm_for, head_angles, in_torso, pointing
 from nodes.action.naobody.limbs import MOVING
 from nodes.action.naobody.tasks import DOES_NOT_STAND
 from nodes.action.naoqi.driver.calls import Calling, Task
@@ -18,6 +18,7 @@ LONGEST_TURN_RAD = 2.6
 """NAOqi takes the short way round: it must not be asked for more than half a turn."""
 OFF_M, OFF_PART = 0.08, 0.25
 LOOKING_SPEED, POINTING_SPEED = 0.3, 0.3
+NOUNS = {"face": "a face", "ball": "the red ball", "mark": "a mark", "sound": "a sound"}
 TARGETS: dict[str, tuple[str, object]] = {
     "face": ("Face", 0.15),
     "ball": ("RedBall", 0.06),
@@ -79,7 +80,9 @@ def look_at(robot: RealRobot, place: tuple[float, float, float], frame: str) -> 
 
 def look_at_seen(robot: RealRobot, thing: str) -> Task:
     """Turn the head to something that the robot notices."""
-    return (yield from look_at(robot, place_of(robot.known, thing), "world"))
+    if thing not in robot.known.sees:
+        raise ActionFailed(f"{robot.name} does not notice {NOUNS.get(thing, thing)} now.")
+    return (yield from look_at(robot, robot.known.sees[thing], "world"))
 
 
 def point_at(robot: RealRobot, action: b.PointAt) -> Task:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from nodes.action.naoqi.server import CallFailed, method
+from nodes.action.naoqi.server import CallFailed, Promise, method
 
 SERVICES = ("ALMotion", "ALRobotPosture", "ALLeds", "ALTextToSpeech", "ALMemory")
 
@@ -14,6 +14,9 @@ class HeldNao:
 
     posture = "Crouch"
     awake = True
+
+    def __init__(self) -> None:
+        self.stopped: list[str] = []
 
     @method("getAngles::[f](mb)")
     def angles(self, names: Any, sensors: bool) -> list[float]:
@@ -46,6 +49,22 @@ class HeldNao:
     @method("fadeRGB::v(sif)")
     def fade(self, name: str, colour: int, seconds: float) -> None:
         raise CallFailed("These lights are broken.")
+
+    @method("setIntensity::v(sf)")
+    def shine(self, name: str, level: float) -> Any:
+        return Promise().future  # which nobody keeps
+
+    @method("stopAll::v()")
+    def be_silent(self) -> None:
+        self.stopped.append("stopAll")
+
+    @method("killAll::v()")
+    def kill_all(self) -> None:
+        self.stopped.append("killAll")
+
+    @method("stopMove::v()")
+    def stop_move(self) -> None:
+        self.stopped.append("stopMove")
 
     @method("say::v(s)")
     def say(self, text: str) -> None:

@@ -15,6 +15,7 @@ from nep_core.messages import ActionRequest, ActionResult, RobotState, SenseRequ
 from nodes.action.naobody.actor import FINAL, Actor
 from nodes.action.naobody.animations import load_animations
 from nodes.action.naobody.body import load_body
+from nodes.action.naobody.models import robot_folder
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naoqi.driver.driver import NaoqiDriver
 from nodes.resources import resource_folder
@@ -29,8 +30,10 @@ PATIENCE_S = 40.0
 class ServedNao:
     """The robot at the other end: what it is told to sense, and how it really is."""
 
-    def __init__(self, port: int = 0, speed: float = 20.0, password: str = "") -> None:
-        command = [sys.executable, str(SERVER), str(port), str(speed), password]
+    def __init__(
+        self, port: int = 0, speed: float = 20.0, password: str = "", model: str = "nao"
+    ) -> None:
+        command = [sys.executable, str(SERVER), str(port), str(speed), password, model]
         self.process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
@@ -65,8 +68,11 @@ class ServedNao:
 class DriverStage:
     """An actor with our driver; ``told`` are results as text such as "1 started"."""
 
-    def __init__(self, address: str) -> None:
-        self.driver = NaoqiDriver(VirtualRobot("NAO", BODY, ANIMATIONS), address)
+    def __init__(self, address: str, model: str = "nao") -> None:
+        folder = robot_folder(model)
+        body = load_body(folder)
+        animations = load_animations(folder / "animations", body)
+        self.driver = NaoqiDriver(VirtualRobot("NAO", body, animations), address)
         self.actor = Actor("NAO", self.driver)
         self.results: list[ActionResult] = []
         self.noticed: list[str] = []

@@ -1,7 +1,7 @@
 """A virtual NAO served over NAOqi in a process of its own, for tests of the driver.
 
-Run it: ``python nao_in_a_process.py PORT SPEED [PASSWORD]``. It prints its port when it listens,
-then answers each line of its input: ``sense {...}`` takes a SenseRequest, ``state`` prints the
+Run it: ``python nao_in_a_process.py PORT SPEED PASSWORD MODEL``. It prints its port when it
+listens, then answers each line of its input: ``sense {...}`` takes a SenseRequest, ``state`` prints the
 robot's own state as JSON.
 """
 
@@ -19,19 +19,19 @@ from nep_core.messages import SenseRequest
 from nodes.action.naobody.actor import Actor
 from nodes.action.naobody.animations import load_animations
 from nodes.action.naobody.body import load_body
+from nodes.action.naobody.models import robot_folder
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.virtual import VirtualDriver
 from nodes.action.naoqi.client import Login
 from nodes.action.naoqi.server import Server
 from nodes.action.naoqi.services.all import Services
 from nodes.action.naoqi.serving import ServedRobot
-from nodes.resources import resource_folder
 
 TICK_S = 0.005
 
 
-def main(port: int, speed: float, password: str) -> None:
-    folder = resource_folder() / "robots" / "nao"
+def main(port: int, speed: float, password: str, model: str) -> None:
+    folder = robot_folder(model)
     body = load_body(folder)
     robot = VirtualRobot("NAO", body, load_animations(folder / "animations", body))
     driver = VirtualDriver(robot)
@@ -66,4 +66,4 @@ def _answer(line: str, served: ServedRobot, services: Services) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), float(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else "")
+    main(int(sys.argv[1]), float(sys.argv[2]), *sys.argv[3:])

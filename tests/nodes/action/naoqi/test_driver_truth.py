@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 from driver_held_nao import SERVICES, HeldNao
-from driver_stage import DriverStage
+from driver_stage import DriverStage, ServedNao
 from naoqi_lamp import CERTIFICATE, KEY
 
 from nep_core.messages import RobotState
@@ -21,8 +21,13 @@ def no_saved_login(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def held() -> Iterator[DriverStage]:
-    server = Server({name: HeldNao() for name in SERVICES}, port=0)
+def nao() -> HeldNao:
+    return HeldNao()
+
+
+@pytest.fixture
+def held(nao: HeldNao) -> Iterator[DriverStage]:
+    server = Server({name: nao for name in SERVICES}, port=0)
     stage = DriverStage(f"127.0.0.1:{server.start()}")
     stage.until(lambda: stage.driver.state() is not None)
     yield stage
@@ -43,6 +48,28 @@ def test_done_is_said_only_when_the_robot_has_done_it(held: DriverStage) -> None
     assert "These lights are broken." in lights.description
 
 
+def test_a_call_that_never_ends_is_given_up_with_a_sentence(held: DriverStage) -> None:
+    held.ask("dim", "intensity", group="EarLeds", percent=10)
+
+    passed_s = held.until(lambda: "dim failed" in held.told)
+
+    assert passed_s < 3.0
+    assert "did not end in time what it was asked" in held.end_of("dim").description
+
+
+def test_stop_reaches_motion_posture_and_speech_while_a_call_hangs(
+    held: DriverStage, nao: HeldNao
+) -> None:
+    held.ask("dim", "intensity", group="EarLeds", percent=10)
+
+    held.ask("stop", "stop")
+    passed_s = held.until(lambda: {"stopAll", "killAll"} <= set(nao.stopped))
+
+    assert passed_s < 0.2
+    assert nao.stopped.count("stopMove") == 2  # of motion, and of posture
+    assert held.told[-2:] == ["dim cancelled", "stop done"]
+
+
 def test_a_hot_motor_is_warned_of(held: DriverStage) -> None:
     held.until(lambda: held.event == "warning")
 
@@ -57,6 +84,30 @@ def test_the_state_of_a_robot_that_was_never_met_is_not_known() -> None:
 
     assert state is None
     stage.close()
+
+
+def test_another_model_is_driven_by_the_same_code() -> None:
+    pepper = ServedNao(model="pepper")
+    stage = DriverStage(pepper.address, "pepper")
+    try:
+        stage.meet()
+        ends = [
+            stage.do("say", text="Hello, I am on wheels"),
+            stage.do("play", animation="wave"),
+            stage.do("walk", forward_m=0.3, turn_deg=90),
+            stage.do("look", yaw_deg=30),
+            stage.do("stiffness", part="body", on=True),
+            stage.do("rest"),
+            stage.do("wake_up"),
+        ]
+        state = pepper.state()
+    finally:
+        stage.close()
+        pepper.close()
+
+    assert [end.state for end in ends] == ["done"] * len(ends), ends
+    assert state.base == pytest.approx((0.3, 0.0, 1.5708), abs=0.02)
+    assert stage.driver.state() is None  # given up
 
 
 @pytest.fixture
