@@ -31,6 +31,7 @@ WITHOUT_IN = {
     "nep_studio/blocks/definition_files.py": FOR_AUTHORS,
     "nep_studio/blocks/profile.py": FOR_AUTHORS,
     "nodes/action/naobody/": OF_A_ROBOT,
+    "nodes/action/naoqi/": OF_A_ROBOT,
 }
 """Where messages need no checklist, and why."""
 

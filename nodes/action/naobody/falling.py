@@ -11,6 +11,8 @@ from nodes.action.naobody.tasks import Task, lean, play_motion, resting_down
 
 PROTECTING_SPEED = 0.5
 LONGEST_FALL_S = 3.0
+LYING_DOWN = -0.25
+"""How much of the way down is along the torso of one that lies: nearly nothing."""
 SUNK_POSTURE = "Crouch"
 
 
@@ -66,11 +68,20 @@ def fall(robot: VirtualRobot) -> Task:
     goal = robot.body.posture_angles(posture)
     columns = range(len(robot.body.names))
     motion = move(robot.body, robot.angles, goal, columns, speed=PROTECTING_SPEED)
-    yield from play_motion(robot, motion)
-    yield from _come_to_rest(robot)
+    for _ in play_motion(robot, motion):
+        if _lies(robot):
+            break
+        yield
+    if not _lies(robot):
+        yield from _come_to_rest(robot)
     robot.be_in(posture)
     yield from lean(robot, goal, np.asarray(resting_down(robot, posture)))
     return ""
+
+
+def _lies(robot: VirtualRobot) -> bool:
+    """Whether the torso is down: from then on the floor holds it, and it does not roll over."""
+    return bool(robot.stance.down[2] > LYING_DOWN)
 
 
 def _come_to_rest(robot: VirtualRobot) -> Task:

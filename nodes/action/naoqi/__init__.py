@@ -1,1 +1,1 @@
-"""NAOqi, the system that runs on a NAO: its protocol, a robot that speaks it, and how to drive one."""
+"""NAOqi, the system of a NAO: its protocol, a robot that speaks it, and how to drive one."""

@@ -1,4 +1,4 @@
-"""Keeps robots in sight that fall, lie down or are put elsewhere, as long as nobody looks closer."""
+"""Keeps robots in sight that fall or are put elsewhere, as long as nobody looks closer."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ class Sight(QObject):
             self._seen_by = self._looking()
         elif view.follows and self._seen_by == self._looking():
             view.fit()
+            self._seen_by = self._looking()
 
     def _looking(self) -> Looking:
         camera = self._view.camera

@@ -41,6 +41,7 @@ class NaoqiDriver:
         self._hearing = Hearing(self._robot)
         self._running: dict[str, _Running] = {}
         self._noticed: list[str] = []
+        self._has_met_before = False
 
     @property
     def connection(self) -> Connection:
@@ -157,6 +158,9 @@ class NaoqiDriver:
         self._noticing = Noticing(self._robot)
         self._watching = Watching(self._robot)
         self._hearing = Hearing(self._robot, self._hearing.expected)
+        if self._has_met_before:  # what went on while nobody could stop it ends now
+            self.halt()
+        self._has_met_before = True
         known.saying, known.listening = "", ()
         known.sees.clear()
 

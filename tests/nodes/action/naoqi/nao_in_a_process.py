@@ -1,8 +1,8 @@
 """A virtual NAO served over NAOqi in a process of its own, for tests of the driver.
 
 Run it: ``python nao_in_a_process.py PORT SPEED PASSWORD MODEL``. It prints its port when it
-listens, then answers each line of its input: ``sense {...}`` takes a SenseRequest, ``state`` prints the
-robot's own state as JSON.
+listens, then answers each line of its input: ``sense {...}`` takes a SenseRequest, ``state`` prints
+the robot's own state as JSON.
 """
 
 from __future__ import annotations

@@ -176,6 +176,33 @@ def test_robots_are_told_what_stands_there_when_they_come_and_when_it_changes(
     qtbot.waitUntil(lambda: heard[-1].things == [])
 
 
+def test_a_robot_that_leaves_the_picture_by_itself_is_seen_again(
+    stage: RobotStage, panel: RobotsPanel
+) -> None:
+    stage.view.fit()
+    stage._sight.look()
+    before = stage.view.camera
+
+    hear(panel, state(robot="NAO", base=(6.0, 3.0, 0.0)))
+    stage.view.follows = True
+    stage.view.room.step(1e12)
+    stage._sight.look()
+
+    assert stage._sight._is_all_seen()
+    assert stage.view.camera != before
+
+
+def test_who_looks_closer_goes_on_doing_so(stage: RobotStage) -> None:
+    stage.view.fit()
+    stage._sight.look()
+    stage.view.zoom(4.0)
+    camera = stage.view.camera
+
+    stage._sight.look()
+
+    assert stage.view.camera == camera
+
+
 def test_sound_is_switched_in_the_tools(stage: RobotStage, qtbot: QtBot) -> None:
     qtbot.mouseClick(stage.tools.sound, Qt.MouseButton.LeftButton)
 
