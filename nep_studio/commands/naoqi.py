@@ -47,6 +47,8 @@ DEFAULT = ",\nand needs nothing at all at this port: it is the one where they lo
 def main(arguments: list[str]) -> int:
     """Offer a robot until Ctrl-C; 0, or 1 when it could not be offered."""
     options = _parser().parse_args(arguments)
+    if options.robot is None:  # a name of its own: the project that runs beside it has a NAO
+        options.robot = f"NAO-{options.port}"
     logging.basicConfig(level=logging.ERROR, format="%(message)s")
     interrupt_once()
     if options.login:
@@ -161,7 +163,7 @@ def _parser() -> argparse.ArgumentParser:
         help="where to listen (default: %(default)s)",
     )
     parser.add_argument(
-        "--robot", default="NAO", metavar="NAME", help="the robot's name (default: %(default)s)"
+        "--robot", metavar="NAME", help="the robot's name (default: NAO and its port)"
     )
     parser.add_argument(
         "--model",

@@ -99,6 +99,11 @@ class Area(QTabWidget):
         self._fit_titles()
         self.setVisible(any(self.isTabVisible(i) for i in range(self.count())))
 
+    def show_first(self) -> None:
+        """Let the first of the panels that are shown be on top."""
+        shown = [index for index in range(self.count()) if self.isTabVisible(index)]
+        self.setCurrentIndex(shown[0] if shown else 0)
+
 
 class Panels(QObject):
     """All panels of one window, around ``middle``."""
@@ -139,7 +144,7 @@ class Panels(QObject):
         self.all.append(panel)
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
         place.show_panel(widget, action.isChecked())
-        place.setCurrentIndex(0)
+        place.show_first()
         action.toggled.connect(lambda is_on: self._on_toggled(panel, is_on))
         self._dress(panel)
         return panel

@@ -73,7 +73,7 @@ def test_it_says_where_the_robot_is_and_switches_it_off_at_ctrl_c(
     network: PeerNetwork, free_port: int
 ) -> None:
     with terminal("--port", free_port, "--speed", 10) as shell:
-        told = shell.wait_for("Ctrl-C switches NAO off.")
+        told = shell.wait_for(f"Ctrl-C switches NAO-{free_port} off.")
         session = Session(("127.0.0.1", free_port))
         session.connect()
         name = session.service("ALSystem").call("robotName")
@@ -83,9 +83,9 @@ def test_it_says_where_the_robot_is_and_switches_it_off_at_ctrl_c(
 
     assert f"tcp://127.0.0.1:{free_port}" in told
     assert f"--qi-url=tcp://127.0.0.1:{free_port}" in told
-    assert name == "NAO"
+    assert name == f"NAO-{free_port}"
     assert (code, errors) == (0, "")
-    assert output.endswith("NAO is off.\n")
+    assert output.endswith(f"NAO-{free_port} is off.\n")
     with pytest.raises(NoConnection):
         Session(("127.0.0.1", free_port)).connect()
 
@@ -109,7 +109,7 @@ def test_a_program_made_for_a_real_nao_moves_the_robot_that_the_network_sees(
         program.kill()
         program.communicate()
 
-    assert walked.robot == "NAO"
+    assert walked.robot == f"NAO-{free_port}"
 
 
 def test_a_port_that_is_taken_is_told_with_what_to_do(network: PeerNetwork) -> None:

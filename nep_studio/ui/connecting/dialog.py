@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -96,7 +96,7 @@ class ConnectDialog(QDialog):
         box.addWidget(area, 1)
         box.addLayout(self._foot())
         room = room_around(self.parentWidget()).size()
-        self.resize(min(line * 32, room.width()), min(line * 40, round(room.height() * 0.9)))
+        self.resize(min(line * 32, room.width()), min(line * 44, round(room.height() * 0.9)))
 
     def _form(self) -> QFormLayout:
         form = QFormLayout()
@@ -209,7 +209,8 @@ class ConnectDialog(QDialog):
     def _on_ended(self, _problem: str) -> None:
         self.test.stop()
         self._update()
-        self._area.ensureWidgetVisible(self._about_card if self._tested[0] else self.steps)
+        outcome = self._about_card if self._tested[0] else self.steps
+        QTimer.singleShot(0, self, lambda: self._area.ensureWidgetVisible(outcome))
         if self.use_button.isEnabled():
             self.use_button.setFocus()
             self.use_button.setDefault(True)

@@ -55,7 +55,6 @@ class FoundList(QWidget):
         self.told.setProperty("role", "hint")
         self.progress.setRange(0, 0)
         self.progress.setTextVisible(False)
-        self.progress.setMaximumHeight(max(4, line // 3))
         self.progress.setAccessibleName(tr("Looking for robots…"))
         foot = QHBoxLayout()
         foot.addWidget(self.told, 1)

@@ -19,7 +19,7 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.plan import Choices, PlannedNode, plan
 from nep_studio.session import Ending, Watching
-from nep_studio.ui.messages import Answer
+from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
 from .breakpoints import Breakpoints
@@ -58,6 +58,8 @@ class RunControl(QObject):
         """The real robots that the one on the screen stands in for."""
         self._document: Document | None = None
         self._preparation: Preparation | None = None
+        self._told_of_end: Message | None = None
+        """What went wrong with the last run; it is over when the next one begins."""
         self._is_waiting = False
         self._was_stopped = False
         self._has_begun = False
@@ -205,6 +207,9 @@ class RunControl(QObject):
         self._was_stopped = self._has_begun = self.is_stale = False
         window.workbench.show_run_problem(None)
         window.messages.clear_passing()
+        if self._told_of_end is not None:
+            window.messages.withdraw(self._told_of_end)
+            self._told_of_end = None
         self.stage.begin(code)
         watching = Watching(self.breakpoints.lines(code), self.line_s)
         self.runner.start(Request(code, tuple(nodes), watching))
@@ -272,6 +277,7 @@ class RunControl(QObject):
         if not self._has_begun and self._has_real_robots():
             answers.insert(0, Answer(tr("Use the robot on the screen"), self.use_simulator))
         messages.tell_problem(problem, *answers)
+        self._told_of_end = messages.history[-1].message
 
     def _mark(self, block: str, ending: Ending) -> None:
         """Show the sentence at the block that failed."""

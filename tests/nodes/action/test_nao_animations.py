@@ -9,8 +9,9 @@ from nao_capsules import ALLOWED_M, balance_m, depths
 from nao_skeleton import NAO, point
 from nao_stage import ANIMATIONS, BODY, Stage
 
-from nodes.action.naobody.animations import Animation, load_animation
+from nodes.action.naobody.animations import NO_GESTURE, Animation, load_animation
 from nodes.action.naobody.body import Angles
+from nodes.action.naobody.body_language import CONTEXTUAL, RANDOM
 from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import TICK_S, keyframe_motion
 
@@ -58,7 +59,8 @@ def test_all_that_the_robot_profile_offers_is_there_and_all_that_is_there_is_off
 
     assert set(choices["animations"]) == set(ANIMATIONS.names("animation"))
     assert set(choices["animals"]) == set(ANIMATIONS.names("animal"))
-    assert set(choices["say_gestures"]) - {"no_gesture"} == set(ANIMATIONS.names("gesture"))
+    told = {NO_GESTURE, CONTEXTUAL, RANDOM}
+    assert set(choices["say_gestures"]) - told == set(ANIMATIONS.names("gesture"))
 
 
 def test_there_are_many_animations() -> None:

@@ -19,8 +19,9 @@ from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Subscriber
 from nep_core.robot import Robot
 from nodes.action.naobody.actor import FINAL, Actor
-from nodes.action.naobody.animations import load_animations
+from nodes.action.naobody.animations import NO_GESTURE, load_animations
 from nodes.action.naobody.body import Body, load_body
+from nodes.action.naobody.body_language import CONTEXTUAL, RANDOM
 from nodes.action.naobody.models import model_of, robot_folder
 from nodes.action.naobody.motion import keyframe_motion
 from nodes.action.naobody.pose import VirtualRobot
@@ -86,7 +87,8 @@ def test_pepper_offers_what_it_has() -> None:
 
     assert set(choices["animations"]) == set(ANIMATIONS.names("animation"))
     assert set(choices["animals"]) == set(ANIMATIONS.names("animal"))
-    assert set(choices["say_gestures"]) - {"no_gesture"} == set(ANIMATIONS.names("gesture"))
+    told = {NO_GESTURE, CONTEXTUAL, RANDOM}
+    assert set(choices["say_gestures"]) - told == set(ANIMATIONS.names("gesture"))
 
 
 def test_pepper_rolls_to_where_it_should_without_steps() -> None:

@@ -91,13 +91,10 @@ class NaoqiDriver:
 
     def step(self, now_s: float) -> list[Ended]:
         """Take in what has come from the robot; return what has ended."""
-        was_ready = self._link.state == "ready"
         if reached := self._link.step():
             self._arrive(reached)
-        if was_ready and self._link.state != "ready":
-            return self._fail_all()
         if self._link.state != "ready":
-            return []
+            return self._fail_all()  # also what has waited for its limbs, and begins only now
         self._watching.step(is_moving=self.moving)
         if self._watching.is_frozen:
             self._link.freeze()

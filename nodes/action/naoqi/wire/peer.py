@@ -8,6 +8,7 @@ thread, which also calls whoever waits for events and results.
 from __future__ import annotations
 
 import contextlib
+import functools
 import itertools
 import logging
 import threading
@@ -240,7 +241,7 @@ class Peer:
     ) -> None:
         """End a call; whoever is to be told is told by the second thread."""
         for on_done in pending.settle_quietly(value, failure) or ():
-            self.turns.add(lambda told=on_done: told(pending))  # type: ignore[misc]
+            self.turns.add(functools.partial(on_done, pending), is_owed=True)
 
     def _take_cancel(self, frame: Frame) -> None:
         with contextlib.suppress(BadFrame):

@@ -21,14 +21,17 @@ class Turns:
     def __init__(self, name: str, most: int = 1) -> None:
         self._name = name
         self._most = most
-        self._jobs: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
+        self._jobs: queue.SimpleQueue[tuple[Job, bool] | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._threads: list[threading.Thread] = []
         self._busy = 0
         self._is_closed = False
 
-    def add(self, job: Job) -> None:
-        """Do this as soon as a thread is free; with one thread, in the order of adding."""
+    def add(self, job: Job, *, is_owed: bool = False) -> None:
+        """Do this as soon as a thread is free; with one thread, in the order of adding.
+
+        ``is_owed``: even if ``close`` comes before its turn, since somebody waits for it.
+        """
         with self._lock:
             if self._is_closed:
                 return
@@ -38,10 +41,10 @@ class Turns:
                 thread = threading.Thread(target=self._work, name=name, daemon=True)
                 self._threads.append(thread)
                 thread.start()
-        self._jobs.put(job)
+        self._jobs.put((job, is_owed))
 
     def close(self) -> None:
-        """Do no more jobs; the one under way goes on."""
+        """Do no more jobs but what is owed; the one under way goes on."""
         with self._lock:
             self._is_closed = True
             for _ in self._threads:
@@ -52,9 +55,10 @@ class Turns:
         return threading.current_thread() in self._threads
 
     def _work(self) -> None:
-        while (job := self._jobs.get()) is not None:
+        while (next_one := self._jobs.get()) is not None:
+            job, is_owed = next_one
             try:
-                if not self._is_closed:
+                if is_owed or not self._is_closed:
                     job()
             except Exception:
                 log.exception("a call that %s made failed", self._name)
