@@ -41,6 +41,10 @@ TABLES: dict[AnimationKind, tuple[str, ...]] = {
 """The tables of choices in which each kind is offered: everything can be played."""
 
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+_DEVICES = frozenset(
+    ("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10)))
+)
+"""No file can be called so on Windows, and each animation becomes a file of its name."""
 
 
 class JointKeys(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -84,7 +88,7 @@ def keep(name: str, animation: OwnAnimation | None) -> SetExtra:
 
 def why_not_animation(name: str, value: object) -> str | None:
     """Why this cannot be an animation of a project, as a sentence, or None when it can."""
-    if not _NAME.fullmatch(name):
+    if not _NAME.fullmatch(name) or name in _DEVICES:
         return "its name may have small letters, digits and _ in it, and begins with a letter."
     try:
         animation = msgspec.convert(value, OwnAnimation)
@@ -129,9 +133,9 @@ def free_name(title: str, taken: Container[str]) -> str:
     bare = unicodedata.normalize("NFKD", title.casefold().replace("ß", "ss"))
     letters = "".join(c for c in bare if not unicodedata.combining(c))
     name = re.sub(r"[^a-z0-9]+", "_", letters).strip("_")[:32].strip("_")
-    name = name if name[:1].isalpha() else f"motion_{name}".rstrip("_")
+    name = name if name[:1].isalpha() else f"motion_{name}"[:32].rstrip("_")
     number, found = 2, name
-    while found in taken:
+    while found in taken or found in _DEVICES:
         found, number = f"{name}_{number}", number + 1
     return found
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QObject, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QVBoxLayout, QWidget
 
@@ -40,6 +40,7 @@ class Area(QTabWidget):
     def __init__(self, name: AreaName, look: Look) -> None:
         super().__init__()
         self._look = look
+        self._is_wide = name == "bottom"
         self._titles: dict[QWidget, str] = {}
         self.setDocumentMode(True)
         self.setUsesScrollButtons(True)
@@ -51,7 +52,7 @@ class Area(QTabWidget):
         self.close_button.clicked.connect(lambda: self.close_asked.emit(self.currentWidget()))
         if name != "left":
             self.setCornerWidget(self.close_button, Qt.Corner.TopRightCorner)
-        self.currentChanged.connect(self._fit_titles)
+        self.currentChanged.connect(self._on_current_changed)
         self.hide()
 
     def add_panel(self, widget: QWidget, title: str) -> None:
@@ -61,6 +62,16 @@ class Area(QTabWidget):
         self.setTabToolTip(index, title)
         self.tabBar().setAccessibleTabName(index, title)
         self._fit_titles()
+
+    def minimumSizeHint(self) -> QSize:
+        """At the bottom room for the panel on top: wide ones below must not widen the window."""
+        panel, tabs = self.currentWidget(), self.tabBar().minimumSizeHint()
+        if panel is None or not self._is_wide:
+            return super().minimumSizeHint()
+        least = panel.minimumSizeHint().expandedTo(panel.minimumSize())
+        across = max(least.width(), tabs.width() + self.close_button.sizeHint().width())
+        above = tabs.height() if self.tabBar().isVisibleTo(self) else 0
+        return QSize(across, above + least.height())
 
     def tabs_width(self) -> int:
         """How wide it must be to show its tabs, one of them with its title."""
@@ -84,6 +95,10 @@ class Area(QTabWidget):
         metrics, title = self.fontMetrics(), self._titles[widget]
         more = metrics.horizontalAdvance(title) - metrics.horizontalAdvance(bar.tabText(index))
         return bar.tabRect(index).width() + more + (0 if bar.tabText(index) else metrics.height())
+
+    def _on_current_changed(self) -> None:
+        self._fit_titles()
+        self.updateGeometry()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the titles the room that there is."""

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.actions_icons import icon_room
 from nep_studio.ui.messages import KIND_ICONS, Answer, Message
 from nep_studio.ui.theme import Theme, icon, icon_pixmap
 from nep_studio.ui.words import tr
@@ -154,6 +155,7 @@ class MessageCard(QFrame):
 def _cross(theme: Theme) -> QToolButton:
     button = QToolButton()
     button.setIcon(icon("x", theme))
+    button.setIconSize(icon_room(button.fontMetrics().height()))
     button.setToolTip(tr("Close"))
     button.setAccessibleName(tr("Close this message"))
     return button

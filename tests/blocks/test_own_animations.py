@@ -182,6 +182,17 @@ def test_every_title_gives_a_name_that_can_be_kept(title: str, taken: set[str]) 
     assert why_not_animation(name, HOP) is None
 
 
+@pytest.mark.parametrize("title", ["1" * 40, "Con", "COM1", "9"])
+def test_ten_motions_of_one_title_all_get_a_name_that_can_be_kept(title: str) -> None:
+    taken: set[str] = set()
+
+    for _ in range(10):
+        taken.add(free_name(title, taken))
+
+    assert len(taken) == 10
+    assert [why_not_animation(name, HOP) for name in taken] == [None] * 10
+
+
 def test_a_copied_block_takes_its_animation_along_to_another_project(language: Language) -> None:
     editor, block = playing(language, "big_hop")
     other = build(language, PLAYS)

@@ -46,6 +46,9 @@ NOT_SHOWN = (
     # Training, which is started in a terminal.
     "nodes/perceptual/recognition/passages.py",
     "nodes/perceptual/recognition/training.py",
+    # What the robot on the screen answers to programs of others, in the language of NAOqi.
+    "nodes/action/naoqi/server/directory.py",
+    "nodes/action/naoqi/wire/bound.py",
 )
 STILL_SAID = {"This place takes {noun}, not a value that is typed."}
 """What of these a person can meet."""

@@ -19,11 +19,14 @@ class _Job(QObject):
 
     ended = Signal(str)
     """The problem, in the words of the system; "" when there was none."""
+    _came = Signal(object, object)
+    """News of the thread: whether they are not wanted any more, and what tells them."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._cancelled = threading.Event()
         self._thread: threading.Thread | None = None
+        self._came.connect(self._on_came)
 
     @property
     def is_running(self) -> bool:
@@ -50,15 +53,18 @@ class _Job(QObject):
         except Exception as error:  # the dialog must not wait for ever
             log.exception("looking for robots")
             problem = str(error)
-        if not cancelled.is_set():
-            self._tell(lambda: self.ended.emit(problem))
+        self._tell(cancelled, lambda: self.ended.emit(problem))
 
-    @staticmethod
-    def _tell(tell: Callable[[], None]) -> None:
+    def _tell(self, cancelled: threading.Event, tell: Callable[[], None]) -> None:
         try:
-            tell()
+            self._came.emit(cancelled, tell)
         except RuntimeError:  # the dialog is gone
             return
+
+    def _on_came(self, cancelled: threading.Event, tell: Callable[[], None]) -> None:
+        """Tell news in the window's thread, unless they were given up on their way."""
+        if not cancelled.is_set():
+            tell()
 
 
 class RobotSearch(_Job):
@@ -74,8 +80,7 @@ class RobotSearch(_Job):
             from nodes.action.naoqi.discovery import FoundRobot, find_robots
 
             def tell(robot: FoundRobot) -> None:
-                if not cancelled.is_set():
-                    self._tell(lambda: self.found.emit(robot.name, robot.address))
+                self._tell(cancelled, lambda: self.found.emit(robot.name, robot.address))
 
             find_robots(tell, cancelled, seconds=seconds, interfaces=interfaces)
 
@@ -96,7 +101,7 @@ class RobotTest(_Job):
             from nodes.action.naoqi.probe import Check, probe
 
             def tell(check: Check) -> None:
-                self._tell(lambda: self.checked.emit(check))
+                self._tell(cancelled, lambda: self.checked.emit(check))
 
             login = Login(user, password) if password else None
             for check in probe(address, login, robot):

@@ -90,7 +90,7 @@ def slots_html(language: Language, definition: Definition, told: BlockText) -> s
     rows = [_slot_row(language, definition, told, slot) for slot in definition.slots.values()]
     if not rows:
         return ""
-    heads = "".join(f"<th>{escape(words)}</th>" for words in (tr("Place"), tr("What goes in")))
+    heads = "".join(f"<th>{escape(words)}</th>" for words in (tr("Name"), tr("What goes in")))
     return (
         f"<h2>{escape(tr('Its places'))}</h2>"
         f'<table class="table" width="100%" cellspacing="0"><tr>{heads}</tr>{"".join(rows)}</table>'

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QMenu
 from nep_core import messages as m
 from nep_studio.ui.motion import editing
 from nep_studio.ui.motion.desk import FIRST_POSE_S
+from nep_studio.ui.motion.menu_titles import add_title
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ class RobotPoses(QObject):
         """Put into a menu what can be done with the robots that run, or how to start one."""
         menu.clear()
         for name in sorted(self.states):
-            menu.addSection(name)
+            add_title(menu, name)
             menu.addAction(tr("Take its pose"), partial(self.take, name))
             play = menu.addAction(tr("Let it play the motion"), partial(self.play, name))
             play.setEnabled(bool(self._desk.motion.joints))
@@ -59,7 +60,7 @@ class RobotPoses(QObject):
             self._add_parts(menu, tr("Hold it again"), name, language, is_on=True)
         waiting = [node for node in self._planned() if node.name not in self.states]
         if waiting:
-            menu.addSection(tr("Not started"))
+            add_title(menu, tr("Not started"))
         for node in waiting:
             words = tr("Start {robot}", robot=node.name)
             menu.addAction(words, partial(self._runner.start_node, node))

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QLineEdit, QWidget
 
 from nep_core.errors import ActionFailed
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.own_animations import AnimationKind
 from nep_studio.ui.motion.desk import MotionDesk
 from nep_studio.ui.words import tr
 from nodes.action.naobody.body import Body
@@ -29,11 +30,7 @@ class Header(QWidget):
             self.start.addItem(words, name)
         self.kind = QComboBox()
         self.kind.setAccessibleName(tr("Used to"))
-        for kind, words in (
-            ("animation", tr("be played")),
-            ("animal", tr("imitate an animal")),
-            ("gesture", tr("speak with gestures")),
-        ):
+        for kind, words in kind_words().items():
             self.kind.addItem(words, kind)
         self._lay_out()
         self.title.textEdited.connect(self._on_title_edited)
@@ -70,6 +67,15 @@ class Header(QWidget):
 
     def _on_kind_chosen(self) -> None:
         self.desk.change(tr("choose what it is for"), kind=self.kind.currentData())
+
+
+def kind_words() -> dict[AnimationKind, str]:
+    """What motions of each kind are used to do."""
+    return {
+        "animation": tr("be played"),
+        "animal": tr("imitate an animal"),
+        "gesture": tr("speak with gestures"),
+    }
 
 
 def posture_words(language: Language, body: Body) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from nep_studio.blocks.operations.animations import (
     rename_animation,
 )
 from nep_studio.blocks.own_animations import (
+    AnimationKind,
     JointKeys,
     OwnAnimation,
     own_animations,
@@ -29,7 +31,11 @@ if TYPE_CHECKING:
     from nep_studio.ui.documents_files import Files
 
 DIGITS = 5
-TABLES = ("animations", "animals", "say_gestures")
+TABLES: Mapping[AnimationKind, str] = {
+    "animation": "animations",
+    "animal": "animals",
+    "gesture": "say_gestures",
+}
 
 
 class KeptMotions:
@@ -47,22 +53,22 @@ class KeptMotions:
         """The motions that the project keeps, by name."""
         return own_animations(self.editor.project) if self.editor is not None else {}
 
-    def shipped(self) -> dict[str, str]:
-        """The titles of the motions that come with the robot, by name."""
+    def shipped(self, kind: AnimationKind) -> dict[str, str]:
+        """The titles of the motions of a kind that come with the robot, by name."""
         if self.editor is None:
             return {}
-        own, tables = self.own(), self.editor.language.choices
-        found = {name: words for t in TABLES for name, words in tables.get(t, {}).items()}
+        own, table = self.own(), self.editor.language.choices.get(TABLES[kind], {})
         return {
             name: words
-            for name, words in sorted(found.items(), key=lambda item: item[1].casefold())
+            for name, words in sorted(table.items(), key=lambda item: item[1].casefold())
             if name not in own and (self._folder / f"{name}.toml").is_file()
         }
 
     def load(self, name: str) -> OwnAnimation:
         """A motion that comes with the robot; raises NodeStartError."""
         animation = as_own(load_animation(self._folder / f"{name}.toml", self._body))
-        return replace(animation, title=self.shipped().get(name, animation.title))
+        titles = [self.shipped(kind).get(name) for kind in TABLES]
+        return replace(animation, title=next(filter(None, titles), animation.title))
 
     def save(self, motion: OwnAnimation, name: str, use: Use | None = None) -> str:
         """Keep a motion in the project; gives its name. Raises EditRefused.

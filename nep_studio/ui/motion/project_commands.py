@@ -17,6 +17,8 @@ from nep_studio.blocks.own_animations import OwnAnimation, free_name
 from nep_studio.problems import problem_of
 from nep_studio.ui.messages import Answer, Message, Messages, announce
 from nep_studio.ui.messages_question import QuestionDialog
+from nep_studio.ui.motion.header import kind_words
+from nep_studio.ui.motion.menu_titles import add_title
 from nep_studio.ui.panels.log.saving import save_text
 from nep_studio.ui.words import count_words, tr
 
@@ -100,14 +102,18 @@ class ProjectCommands:
         menu = QMenu(self.window)
         menu.aboutToHide.connect(menu.deleteLater)
         own = self.kept.own()
-        menu.addSection(tr("In this project"))
+        add_title(menu, tr("In this project"))
         for name, motion in own.items():
             menu.addAction(motion.title, self._opener(name))
         if not own:
             menu.addAction(tr("None yet")).setEnabled(False)
-        menu.addSection(tr("That come with the robot, as a start"))
-        for name, words in self.kept.shipped().items():
-            menu.addAction(words, self._opener(name))
+        add_title(menu, tr("That come with the robot, as a start"))
+        for kind, use in kind_words().items():
+            inner = menu.addMenu(use)
+            inner.setStyleSheet("QMenu { menu-scrollable: 1; }")  # never as large as the screen
+            for name, words in self.kept.shipped(kind).items():
+                inner.addAction(words, self._opener(name))
+            inner.setEnabled(not inner.isEmpty())
         return menu
 
     def open(self, name: str) -> None:

@@ -121,8 +121,9 @@ class Placed:
         return reached
 
     def corners(self) -> Array:
-        """Points (6 * parts, 3) that no part goes far beyond, to fit a camera."""
+        """Points (14 * parts, 3) that no part goes far beyond, to fit a camera."""
         ways = [AHEAD, -AHEAD, ASIDE, -ASIDE, UP, -UP]
+        ways += [x + y + z for x in (AHEAD, -AHEAD) for y in (ASIDE, -ASIDE) for z in (UP, -UP)]
         return np.concatenate([self.farthest(way) for way in ways])
 
     @staticmethod

@@ -76,7 +76,7 @@ def _say(program: str, said: Utterance) -> Command:
 
 def _powershell(program: str, said: Utterance) -> Command:
     """The voice of Windows reads SSML, which says the language, pitch and speed."""
-    language = said.language.replace("_", "-")
+    language = escape(said.language.replace("_", "-"), {'"': "&quot;"})
     pitch, rate = f"{_percent(said.pitch):+d}%", f"{_percent(said.speed):+d}%"
     ssml = (
         f'<speak version="1.0" xmlns="http://www.w3.org/2001/10/synthesis" xml:lang="{language}">'

@@ -128,8 +128,8 @@ def test_a_drag_step_is_quick() -> None:
     angles, spent = STAND, []
 
     for place in places:
-        begun = time.perf_counter()
+        begun = time.thread_time()
         angles = REACH.reached(angles, Goal("L_wrist", ENDS["L_wrist"], place))
-        spent.append(time.perf_counter() - begun)
+        spent.append(time.thread_time() - begun)
 
     assert sorted(spent)[len(spent) // 2] < 0.006  # half a millisecond on a quiet computer

@@ -48,7 +48,7 @@ def test_no_joint_ever_leaves_its_limits_or_its_speed(
 
     result = stage.do("move_joint", joint=joint, degrees=degrees, relative=relative)
 
-    assert result.state == "failed" if stage.robot.fallen else "done"
+    assert result.state == ("failed" if stage.robot.fallen else "done")
     assert np.allclose(stage.robot.angles, BODY.clamped(stage.robot.angles)[0])
     assert (stage.relative_speeds <= (0.51 if stage.robot.fallen else 0.31)).all()
 

@@ -102,6 +102,24 @@ def test_an_error_marks_its_block_and_is_told_with_what_to_do(
     assert any("zero" in card.message.sentence for card in window.message_area.cards)
 
 
+def test_what_went_wrong_is_told_no_more_once_the_program_runs_again(
+    window: MainWindow, open_program, qtbot: QtBot
+) -> None:
+    divide = B("math.arithmetic", {"operation": "divide", "a": 1, "b": 0})
+    broken = B("variable.set", {"variable": "v1"}, {"value": divide})
+    open_program([B("event.started"), broken], variables=("result",))
+    press(window, qtbot, "run")
+    state_is(window, qtbot, "running")
+    state_is(window, qtbot, "idle")
+    told = window.messages.history[-1].message
+
+    press(window, qtbot, "run")
+    state_is(window, qtbot, "starting")
+
+    assert all(card.message is not told for card in window.message_area.cards)
+    state_is(window, qtbot, "idle")
+
+
 def test_closing_the_window_while_a_program_runs_leaves_nothing_behind(
     window: MainWindow, open_program, qtbot: QtBot
 ) -> None:

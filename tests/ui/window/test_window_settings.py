@@ -45,6 +45,19 @@ def test_larger_text_makes_blocks_larger_but_moves_none(karate: MainWindow) -> N
     assert canvas.view_rect_of(block).height() == pytest.approx(2 * seen.height(), rel=0.1)
 
 
+def test_another_language_leaves_the_panel_on_top_that_alone_is_shown(karate: MainWindow) -> None:
+    bottom = karate.workbench.panels.areas["bottom"]
+    for panel in karate.workbench.panels.all:
+        if panel.area is bottom:
+            panel.action.setChecked(panel.name == "HumanPanel")
+
+    karate.studio.choose_language(PSEUDO)
+
+    bottom = karate.workbench.panels.areas["bottom"]
+    assert bottom.isTabVisible(bottom.currentIndex())
+    assert type(bottom.currentWidget()).__name__ == "HumanPanel"
+
+
 def test_another_language_keeps_project_history_and_selection(
     karate: MainWindow, qtbot: QtBot
 ) -> None:

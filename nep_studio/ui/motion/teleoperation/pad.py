@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from nep_studio.ui.motion.teleoperation.drive import KEYS, sum_of
 from nep_studio.ui.theme import Look, icon
@@ -143,14 +151,17 @@ class DrivePad(QFrame):
         box.addWidget(self.hint)
 
     def _group(self, words: str, keys: dict[int, Place]) -> QVBoxLayout:
-        grid = QGridLayout()
+        group = QWidget()
+        group.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every keyboard
+        grid = QGridLayout(group)
+        grid.setContentsMargins(0, 0, 0, 0)
         for key, (row, column) in keys.items():
             grid.addWidget(self._button(key), row, column)
         box = QVBoxLayout()
         heading = QLabel(words)
         heading.setAlignment(Qt.AlignmentFlag.AlignCenter)
         box.addWidget(heading)
-        box.addLayout(grid)
+        box.addWidget(group)
         return box
 
     def _button(self, key: int) -> QPushButton:

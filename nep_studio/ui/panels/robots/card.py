@@ -145,8 +145,8 @@ class RobotCard(QFrame):
 
     def show_doings(self, doings: Sequence[str]) -> None:
         """Say what it does."""
-        said = self.facts.words("saying")
-        others = [one for one in doings if one.casefold() != said.casefold()]
+        said = self.facts.words("saying").casefold()
+        others = [one for one in doings if not said or not one.casefold().startswith(said)]
         shown = "\n".join(others[:DOINGS_SHOWN])
         self.facts.show_fact("doing", "play", shown, "success")
         self._describe()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import queue
 from collections.abc import Callable, Collection, Sequence
 from typing import NamedTuple
@@ -25,6 +26,8 @@ from nodes.action.naoqi.driver.reaching import Heard, reach
 from nodes.action.naoqi.driver.real import RealRobot
 from nodes.action.naoqi.driver.repertoire import limbs_of, task_of
 from nodes.action.naoqi.driver.watching import Watching
+
+log = logging.getLogger(__name__)
 
 
 class NaoqiDriver:
@@ -204,6 +207,9 @@ class NaoqiDriver:
             ended = Ended(command_id, "done", end.value)
         except ActionFailed as problem:
             ended = Ended(command_id, "failed", problem.sentence)
+        except (TypeError, ValueError, LookupError, ArithmeticError):
+            log.exception("what the robot answered to %s", command_id)
+            ended = Ended(command_id, "failed", told.strange_answer(self._robot.name))
         else:
             return None
         del self._running[command_id]

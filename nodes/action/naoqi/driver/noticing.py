@@ -158,6 +158,8 @@ class Noticing:
             yield state_of_word(words)
 
     def _noticed(self, kind: str, name: str, place: tuple[float, float, float]) -> Iterator[str]:
+        if not all(map(math.isfinite, place)):
+            return
         known = self._robot.known
         things = [kind, *([f"{kind}_{plain(name)}"] if plain(name) else [])]
         new = [thing for thing in things if thing not in known.sees]

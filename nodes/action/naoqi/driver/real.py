@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -21,6 +22,8 @@ NEAR_RAD = 0.14
 """So far (8 degrees) a joint may be from where it was sent: motors give way a little."""
 HANDS_NEAR = 0.35
 """The same for hands, which count 0 to 1 and are soft."""
+LARGEST_RAD = 10.0
+"""No joint of a robot turns so far."""
 SETTLING_S = 0.6
 """So long joints may still move after NAOqi says that they are there."""
 LIFE_S = 8.0
@@ -107,11 +110,19 @@ class RealRobot:
                 )
 
     def take_in(self, angles: Mapping[str, float]) -> None:
-        """Keep where joints are."""
+        """Keep where joints are; what cannot be an angle is left out."""
         index = self.known.body.index
         for name, angle in angles.items():
-            if name in index:
+            if name in index and abs(angle) <= LARGEST_RAD:  # which "not a number" is not
                 self.known.angles[index[name]] = angle
+
+    def be_at(self, place: Sequence[float]) -> tuple[float, float, float]:
+        """Keep where the robot is on the floor (x m, y m, theta rad). Raises ValueError."""
+        x, y, theta = map(float, place)
+        if not all(map(math.isfinite, (x, y, theta))):
+            raise ValueError("a place that is none")
+        self.known.base[:] = x, y, theta
+        return x, y, theta
 
     def stand_as_told(self) -> None:
         """Let the picture stand on the floor as its joints and its place say."""

@@ -111,6 +111,14 @@ def asleep(robot: str) -> tuple[str, Steps]:
     )
 
 
+def strange_answer(robot: str) -> str:
+    """The robot has answered something that nobody understands."""
+    return (
+        f"{robot} gave an answer that this program does not understand. "
+        "Try it again; if that goes on, switch the robot off and on."
+    )
+
+
 def connection(event: Event, told: tuple[str, Steps]) -> Connection:
     """Return how the link is as the node tells it: the sentence, then a box for each step."""
     sentence, steps = told

@@ -123,11 +123,11 @@ def track(robot: RealRobot, action: b.Track) -> Task:
 
 
 def _place(robot: RealRobot) -> Calling:
-    x, y, theta = yield from robot.call("ALMotion", "getRobotPosition", True)
-    robot.known.base[:] = x, y, theta
+    told = yield from robot.call("ALMotion", "getRobotPosition", True)
+    place = robot.be_at(told)
     yield from robot.measure(robot.names(MOVING))
     robot.stand_as_told()
-    return float(x), float(y), float(theta)
+    return place
 
 
 def _check_standing(robot: RealRobot) -> None:

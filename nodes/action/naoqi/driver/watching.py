@@ -5,6 +5,7 @@ Nothing waits: what was asked is taken in when the answer is there.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -136,12 +137,11 @@ class Watching:
         self._heat = watched.hottest(body, told)
 
     def _on_base(self, place: list[float]) -> None:
-        x, y, theta = (float(part) for part in place)
-        self._robot.known.base[:] = x, y, theta
+        self._robot.be_at(place)
         self._robot.stand_as_told()
 
     def _on_torso(self, place: list[float]) -> None:
-        x, y, z, roll, pitch, yaw = (float(part) for part in place)
+        x, y, z, roll, pitch, yaw = (float(part) for part in place if math.isfinite(part))
         self._robot.torso = x, y, z, roll, pitch, yaw
 
     def _on_posture(self, name: Any) -> None:

@@ -43,6 +43,7 @@ class Greeter:
         self.tell("head", self.motion.getAngles("Head", True))
         self.motion.setAngles("HeadYaw", -0.4, 0.5)
         self.motion.openHand("RHand")
+        self.tell("hand", self.motion.getAngles("RHand", True))
         self.tell("moved", self.motion.moveTo(0.06, 0.0, 0.0))
         self.tell("place", self.motion.getRobotPosition(True))
         self.memory.insertData("greeter/name", "Anna")

@@ -134,7 +134,7 @@ class CallingLamp(Lamp):
         return self.server.tell(name, "called", "key", 1.5, "message")
 
 
-def until(is_so: Callable[[], Any], seconds: float = 3.0) -> None:
+def until(is_so: Callable[[], Any], seconds: float = 20.0) -> None:
     """Wait until something is so."""
     end_s = time.monotonic() + seconds
     while not is_so():

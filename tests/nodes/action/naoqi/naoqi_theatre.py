@@ -52,6 +52,7 @@ class NaoqiTheatre:
         self._felt: list[SenseRequest] = []
         self._speed = speed
         self._is_over = threading.Event()
+        self.offered.hear([], [])  # what changes from now on is news
         self._life = threading.Thread(target=self._live, daemon=True)
         self._life.start()
         self.session = Session(("127.0.0.1", self.offered.port))

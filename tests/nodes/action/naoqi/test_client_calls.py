@@ -8,6 +8,7 @@ from naoqi_lamp import Lamp, until
 from nodes.action.naoqi.client import (
     CallCancelled,
     CallFailed,
+    ConnectionLost,
     NaoqiError,
     NoAnswer,
     NoSuchMethod,
@@ -16,6 +17,7 @@ from nodes.action.naoqi.client import (
     Session,
     WrongArguments,
 )
+from nodes.action.naoqi.server import Server
 
 
 def test_overloads_are_told_apart(lamp_remote: RemoteObject) -> None:
@@ -102,6 +104,19 @@ def test_whoever_waits_for_a_call_is_told_in_a_thread_that_may_call_again(
 
     until(lambda: answers)
     assert answers == [(True, "s again")]
+
+
+def test_whoever_waits_for_a_call_is_told_too_when_the_robot_is_gone(
+    lamp_serving: tuple[Lamp, Server], lamp_remote: RemoteObject
+) -> None:
+    ends: list[object] = []
+    for _ in range(5):
+        going = lamp_remote.begin("goToPosture", "Sit", 0.5)
+        going.when_done(lambda done: ends.append(type(done.failure)))
+
+    lamp_serving[1].stop()
+
+    until(lambda: ends == [ConnectionLost] * 5)
 
 
 def test_a_call_without_an_answer_in_time_says_so(lamp_remote: RemoteObject) -> None:

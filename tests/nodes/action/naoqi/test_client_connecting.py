@@ -22,7 +22,7 @@ def test_a_session_connects_again_after_the_robot_was_away() -> None:
     lost: list[str] = []
     with lamp_server() as (_, server):
         port = server.port
-        session = Session(("127.0.0.1", port))
+        session = Session(("127.0.0.1", port), timeout_s=20.0)
         session.on_lost = lost.append
         session.connect()
         going = session.service("Lamp").begin("goToPosture", "Sit", 0.5)

@@ -53,7 +53,7 @@ def test_a_call_that_never_ends_is_given_up_with_a_sentence(held: DriverStage) -
 
     passed_s = held.until(lambda: "dim failed" in held.told)
 
-    assert passed_s < 3.0
+    assert passed_s < 6.0
     assert "did not end in time what it was asked" in held.end_of("dim").description
 
 
@@ -65,7 +65,7 @@ def test_stop_reaches_motion_posture_and_speech_while_a_call_hangs(
     held.ask("stop", "stop")
     passed_s = held.until(lambda: {"stopAll", "killAll"} <= set(nao.stopped))
 
-    assert passed_s < 0.2
+    assert passed_s < 1.0  # 0.2 s on a quiet computer
     assert nao.stopped.count("stopMove") == 2  # of motion, and of posture
     assert held.told[-2:] == ["dim cancelled", "stop done"]
 

@@ -36,6 +36,7 @@ def test_what_is_inserted_is_there_again(theatre: NaoqiTheatre, value: object) -
 
 
 def test_removed_data_is_gone(theatre: NaoqiTheatre) -> None:
+    theatre.feel("battery", 1.0)
     theatre.call("ALMemory", "insertData", "mine", 1)
 
     theatre.call("ALMemory", "removeData", "mine")

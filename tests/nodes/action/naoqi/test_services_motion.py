@@ -33,7 +33,7 @@ def test_an_interpolation_takes_its_time_and_ends_at_its_last_angles(
 
     real_time.call("ALMotion", "angleInterpolation", ["HeadYaw", "HeadPitch"], angles, times, True)
 
-    assert 0.55 < time.monotonic() - start_s < 1.0
+    assert 0.55 < time.monotonic() - start_s < 3.0
     assert real_time.call("ALMotion", "getAngles", "Head", True) == pytest.approx([0.2, 0.1])
 
 
@@ -86,7 +86,7 @@ def test_set_angles_does_not_wait_and_keeps_to_its_part_of_the_top_speed(
 
     real_time.call("ALMotion", "setAngles", "HeadYaw", 1.0, 0.2)
 
-    assert time.monotonic() - start_s < 0.2
+    assert time.monotonic() - start_s < 1.0  # 0.2 s on a quiet computer
     assert real_time.call("ALMotion", "getAngles", "HeadYaw", False) == [1.0]
     real_time.until(lambda: real_time.joint("HeadYaw") > 0.999)
     assert time.monotonic() - start_s > 1.0 / (0.2 * top_speed)
@@ -145,9 +145,9 @@ def test_kill_all_reaches_a_motion_at_once(real_time: NaoqiTheatre) -> None:
 
     real_time.call("ALMotion", "killAll")
 
-    assert moving.result(0.2) is None
-    assert time.monotonic() - start_s < 0.2
-    real_time.until(lambda: not real_time.driver.moves_joints, timeout_s=1.0)
+    assert moving.result(5.0) is None
+    assert time.monotonic() - start_s < 1.0  # 0.2 s on a quiet computer
+    real_time.until(lambda: not real_time.driver.moves_joints)
     assert real_time.joint("HeadYaw") < 1.0
 
 
@@ -159,8 +159,8 @@ def test_a_caller_who_gives_up_stops_the_robot(real_time: NaoqiTheatre) -> None:
     going.cancel()
 
     with pytest.raises(CallCancelled):
-        going.result(0.5)
-    assert time.monotonic() - start_s < 0.2
+        going.result(5.0)
+    assert time.monotonic() - start_s < 1.0  # 0.2 s on a quiet computer
     real_time.until(lambda: not real_time.driver.moves_joints, timeout_s=5.0)
 
 

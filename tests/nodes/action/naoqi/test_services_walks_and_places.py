@@ -118,7 +118,7 @@ def test_set_position_does_not_wait(real_time: NaoqiTheatre) -> None:
 
     real_time.call("ALMotion", "setPosition", "LArm", 0, [0.18, 0.12, 0.05, 0, 0, 0], 0.5, 7)
 
-    assert time.monotonic() - start_s < 0.2
+    assert time.monotonic() - start_s < 1.0  # 0.2 s on a quiet computer
     real_time.until(
         lambda: (
             real_time.call("ALMotion", "getPosition", "LArm", 0, True)[:3]

@@ -94,4 +94,4 @@ def test_asking_for_the_angles_takes_a_moment_only(theatre: NaoqiTheatre) -> Non
         motion.call("getAngles", "Body", True)
         times_s.append(time.perf_counter() - start_s)
 
-    assert sorted(times_s)[25] < 0.01
+    assert sorted(times_s)[25] < 0.05  # some milliseconds on a quiet computer
