@@ -295,4 +295,6 @@ def add_robots_panel(window: MainWindow) -> Panel:
         starts_of(window),
     )
     window.workbench.problems_found.connect(lambda _problems: panel.refresh())
+    tools, known = panel.stage.tools, window.actions_by_name
+    tools.connecting_asked.connect(lambda: known["connect_robot"].trigger())
     return window.add_side_panel(panel, tr("Robots"), "bot", "right", is_shown=False)

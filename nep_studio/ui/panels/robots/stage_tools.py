@@ -34,12 +34,13 @@ class StageTools(QWidget):
     clear_asked = Signal()
     sound_switched = Signal(bool)
     large_switched = Signal(bool)
+    connecting_asked = Signal()
 
     def __init__(self, look: Look) -> None:
         super().__init__()
         self._look = look
         self.view, self.place = QToolButton(), QToolButton()
-        self.sound, self.large = QToolButton(), QToolButton()
+        self.sound, self.large, self.real = QToolButton(), QToolButton(), QToolButton()
         self.fit = QAction(tr("See all"), self)
         self.clear = QAction(tr("Clear the walked paths"), self)
         self.follow = QAction(tr("Follow the robot"), self, checkable=True, checked=True)
@@ -61,6 +62,7 @@ class StageTools(QWidget):
             (self.place, tr("Place"), tr("Put something before the robots")),
             (self.sound, tr("Sound"), ""),
             (self.large, tr("Large"), ""),
+            (self.real, tr("Connect a robot…"), tr("Connect a robot…")),
         )
         for button, words, tip in named:
             button.setText(words)
@@ -110,6 +112,7 @@ class StageTools(QWidget):
         self.clear.triggered.connect(self.clear_asked)
         self.sound.clicked.connect(self.sound_switched)
         self.large.clicked.connect(self.large_switched)
+        self.real.clicked.connect(self.connecting_asked)
 
     def allow_placing(self, is_allowed: bool) -> None:
         """Let things be placed, where there is a project that keeps them."""
@@ -153,6 +156,7 @@ class StageTools(QWidget):
             (self.place, "plus"),
             (self.sound, "volume-2" if self.sound.isChecked() else "volume-x"),
             (self.large, "maximize"),
+            (self.real, "plug"),
         )
         for button, name in icons:
             button.setIcon(icon(name, theme, "selection_text" if button.isChecked() else "text"))

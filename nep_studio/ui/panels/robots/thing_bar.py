@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from nep_core.messages import Thing, ThingKind
 from nep_studio.surroundings import LONGEST_NAME
 from nep_studio.ui.actions_icons import icon_room
+from nep_studio.ui.panels.flow import FlowLayout
 from nep_studio.ui.theme import Look, icon, icon_pixmap
 from nep_studio.ui.words import tr
 
@@ -39,16 +40,9 @@ class ThingBar(QWidget):
         self.right = _button(tr("Turn it to the right"), "rotate-cw")
         self.remove = _button(tr("Take it away"), "trash-2")
         self.close_button = _button(tr("Done"), "check")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.sign)
-        row.addWidget(self.kind)
-        row.addWidget(self.name, 1)
-        self._room = QWidget()
-        self._room.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        row.addWidget(self._room)
-        for button in (self.left, self.right, self.remove, self.close_button):
-            row.addWidget(button)
+        rows = FlowLayout(self, self.fontMetrics().height() // 5)  # it must not widen the panel
+        rows.addWidget(_beside(self.sign, self.kind, self.name))
+        rows.addWidget(_beside(self.left, self.right, self.remove, self.close_button))
         self.name.editingFinished.connect(self._on_named)
         self.left.clicked.connect(lambda: self.turned.emit(15))
         self.right.clicked.connect(lambda: self.turned.emit(-15))
@@ -69,7 +63,6 @@ class ThingBar(QWidget):
         self.kind.setText(kind_words(thing.kind))
         has_name = thing.kind in ("person", "mark")
         self.name.setVisible(has_name)
-        self._room.setVisible(not has_name)
         what = tr("Number of the landmark") if thing.kind == "mark" else tr("Name of the person")
         self.name.setAccessibleName(what)
         self.name.setPlaceholderText(tr("anybody") if thing.kind == "person" else tr("number"))
@@ -107,6 +100,16 @@ def kind_words(kind: ThingKind) -> str:
 def thing_words(thing: Thing) -> str:
     """A thing in a list: "Person Anna"."""
     return f"{kind_words(thing.kind)} {thing.name}".strip()
+
+
+def _beside(*widgets: QWidget) -> QWidget:
+    """Widgets that stay in one row."""
+    group = QWidget()
+    row = QHBoxLayout(group)
+    row.setContentsMargins(0, 0, 0, 0)
+    for widget in widgets:
+        row.addWidget(widget)
+    return group
 
 
 def _button(words: str, icon_name: str) -> QToolButton:
