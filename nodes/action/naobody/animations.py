@@ -8,8 +8,6 @@ and, if wanted, Bezier handles (s, rad before; s, rad after), which programs wri
 
 from __future__ import annotations
 
-import math
-from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
@@ -18,7 +16,7 @@ import msgspec
 from nep_core.errors import ActionFailed, NodeStartError
 from nodes.action.naobody.body import Body
 from nodes.action.naobody.key_poses import Pose, tracks_of
-from nodes.action.naobody.keyframes import SHORTEST_STEP_S, Handle, Keyframes, Track
+from nodes.action.naobody.keyframes import Handle, Keyframes, Track, problem_of
 from nodes.action.naobody.limbs import MOVING, Limb
 
 Kind = Literal["animation", "animal", "gesture"]
@@ -122,7 +120,7 @@ def _problem(file: _AnimationFile, tracks: dict[str, Track], body: Body) -> str:
     for name, track in tracks.items():
         if name not in body.index:
             return f"joints.{name}: the robot has no such joint"
-        if wrong := _problem_of_keys(track):
+        if wrong := problem_of(track):
             return f"joints.{name}: {wrong}"
     if not tracks:
         return "joints: there are none"
@@ -130,19 +128,6 @@ def _problem(file: _AnimationFile, tracks: dict[str, Track], body: Body) -> str:
         return f"starts_from: there is no posture {file.starts_from}"
     if Limb.LEGS in body.limbs_of(tracks) and not file.starts_from:
         return "starts_from: an animation that moves the legs needs a posture to start from"
-    return ""
-
-
-def _problem_of_keys(joint: Track) -> str:
-    if not joint.keys or len(joint.keys) != len(joint.times):
-        return f"{len(joint.times)} times for {len(joint.keys)} keys"
-    if joint.handles is not None and len(joint.handles) != len(joint.keys):
-        return f"{len(joint.handles)} handles for {len(joint.keys)} keys"
-    numbers = [*joint.times, *joint.keys, *(n for handle in joint.handles or () for n in handle)]
-    if not all(math.isfinite(number) for number in numbers):
-        return "a number is infinite or not a number"
-    if any(late - early < SHORTEST_STEP_S - 1e-9 for early, late in pairwise((0.0, *joint.times))):
-        return f"every time must be at least {SHORTEST_STEP_S} s after the one before it, or 0"
     return ""
 
 

@@ -13,7 +13,7 @@ JointAngle = Annotated[float, Meta(ge=-360.0, le=360.0)]
 Length = Annotated[float, Meta(ge=-100.0, le=100.0)]
 Share = Annotated[float, Meta(ge=-1.0, le=1.0)]
 Patience = Annotated[float, Meta(ge=0.0, le=60.0)]
-Speed = Annotated[float, Meta(gt=0.0, le=1.0)]
+Speed = Annotated[float, Meta(ge=0.001, le=1.0)]
 
 
 class Hand(msgspec.Struct, frozen=True):

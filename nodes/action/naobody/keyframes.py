@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 Handle = tuple[float, float, float, float]
 """A Bezier key's two handles: time (s) and angle (rad) before the key, time and angle after it."""
 
 SHORTEST_STEP_S = 0.01
 """Keys of a joint are at least so far apart, and the first is so late."""
+LARGEST = 1e6
+"""Times (s) and angles (rad) beyond this are as good as infinite."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,20 @@ class Track:
         """Return this track followed by another one, which has handles if this one has."""
         handles = self.handles and later.handles and self.handles + later.handles
         return Track(self.times + later.times, self.keys + later.keys, handles or None)
+
+
+def problem_of(track: Track) -> str:
+    """Return why a joint cannot follow a track, or nothing."""
+    if not track.keys or len(track.keys) != len(track.times):
+        return f"{len(track.times)} times for {len(track.keys)} keys"
+    if track.handles is not None and len(track.handles) != len(track.keys):
+        return f"{len(track.handles)} handles for {len(track.keys)} keys"
+    numbers = (*track.times, *track.keys, *(n for handle in track.handles or () for n in handle))
+    if not all(abs(number) <= LARGEST for number in numbers):
+        return "a number is infinite or not a number"
+    if any(late - early < SHORTEST_STEP_S - 1e-9 for early, late in pairwise((0.0, *track.times))):
+        return f"every time must be at least {SHORTEST_STEP_S} s after the one before it, or 0"
+    return ""
 
 
 @dataclass(frozen=True)

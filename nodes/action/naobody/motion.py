@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nep_core.errors import ActionFailed
 from nodes.action.naobody.body import Angles, Body
 from nodes.action.naobody.curves import (
     MINIMUM_JERK_PEAK,
@@ -24,6 +25,8 @@ POSTURE_SPEED = 0.25
 SHORTEST_MOVE_S = 0.4
 APPROACH_SPEED = 0.5
 BRAKING_S = 0.25
+LONGEST_S = 600.0
+"""Every tick of a movement is planned before it begins: the robot must not think for long."""
 SPEED_MARGIN = 1.02
 """Movements that are too fast are slowed this much more than a sampled curve says."""
 
@@ -73,8 +76,14 @@ def keyframe_motion(
     """Return keyframes as a movement that begins at a pose (every joint).
 
     They are made ``playable``; angles that the joints cannot have are clamped. The notes say so.
+    Raises ActionFailed when that lasts too long.
     """
     keyframes, notes = playable(body, pose, keyframes, softly=softly)
+    if keyframes.duration_s > LONGEST_S:
+        raise ActionFailed(
+            f"This movement would last {keyframes.duration_s:.0f} s. "
+            f"At most {LONGEST_S:.0f} s are possible: let it have fewer or earlier keys."
+        )
     columns = [body.index[name] for name in keyframes.tracks]
     return _allowed(body, pose, columns, _sampled(body, pose, keyframes), notes)
 

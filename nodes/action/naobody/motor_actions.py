@@ -8,7 +8,7 @@ import msgspec
 from msgspec import Meta
 
 from nodes.action.naobody.body_actions import Speed
-from nodes.action.naobody.keyframes import Track
+from nodes.action.naobody.keyframes import LARGEST, Track, problem_of
 from nodes.action.naobody.limbs import Limb
 
 Firmness = Annotated[float, Meta(ge=0.0, le=1.0)]
@@ -30,6 +30,10 @@ class SetAngles(msgspec.Struct, frozen=True):
     angles: dict[str, float]
     speed: Speed = 1.0
 
+    def __post_init__(self) -> None:
+        """Raise ValueError for what is no angle."""
+        _check_angles(self.angles)
+
 
 class Approach(msgspec.Struct, frozen=True):
     """Go where ``targets`` say, by joint; they may change meanwhile. Only the actor asks this."""
@@ -44,6 +48,10 @@ class ReachAngles(msgspec.Struct, frozen=True):
     angles: dict[str, float]
     speed: Speed = 1.0
 
+    def __post_init__(self) -> None:
+        """Raise ValueError for what is no angle."""
+        _check_angles(self.angles)
+
 
 class MoveThrough(msgspec.Struct, frozen=True):
     """Move joints through key angles at their times, as far as their speed allows it.
@@ -53,6 +61,12 @@ class MoveThrough(msgspec.Struct, frozen=True):
 
     tracks: dict[str, Track]
     relative: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for keys that no joint can follow; no keys at all are none."""
+        for name, track in self.tracks.items():
+            if (track.times or track.keys) and (problem := problem_of(track)):
+                raise ValueError(f"{name[:40]}: {problem}.")
 
 
 class SetStiffness(msgspec.Struct, frozen=True):
@@ -66,6 +80,11 @@ class Silence(msgspec.Struct, frozen=True):
     """Say nothing for some seconds; what else is to be said waits."""
 
     seconds: Annotated[float, Meta(ge=0.0, le=70.0)]
+
+
+def _check_angles(angles: dict[str, float]) -> None:
+    if not all(abs(angle) <= LARGEST for angle in angles.values()):
+        raise ValueError("an angle is infinite or not a number.")
 
 
 MOTOR_ACTIONS: dict[str, type[msgspec.Struct]] = {

@@ -9,13 +9,12 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from nep_core.errors import ActionFailed
 from nodes.action.naobody import motor_actions as m
 from nodes.action.naobody.body import Angles, Body
 from nodes.action.naobody.body_tasks import check_joint
 from nodes.action.naobody.keyframes import Keyframes, Track
 from nodes.action.naobody.limbs import Limb
-from nodes.action.naobody.motion import TICK_S, Motion, keyframe_motion, move, playable
+from nodes.action.naobody.motion import TICK_S, Motion, keyframe_motion, move
 from nodes.action.naobody.parts import SINGLE_PARTS, part_of
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.tasks import Task
@@ -23,7 +22,6 @@ from nodes.action.naobody.tasks import Task
 TO_FULL_SPEED_S = 0.15
 """In this time a joint gets from rest to its top speed."""
 NEAR_RAD = 1e-4
-LONGEST_S = 600.0
 
 
 def motor_limbs(robot: VirtualRobot, action: object) -> frozenset[Limb]:
@@ -101,12 +99,6 @@ def move_through(robot: VirtualRobot, action: m.MoveThrough) -> Task:
     if not tracks:
         return ""
     keyframes = Keyframes(tracks)
-    seconds = playable(robot.body, robot.angles, keyframes, softly=False)[0].duration_s
-    if seconds > LONGEST_S:
-        raise ActionFailed(
-            f"This movement would last {seconds:.0f} s. At most {LONGEST_S:.0f} s are possible: "
-            "let it have fewer or earlier keys."
-        )
     motion = keyframe_motion(robot.body, robot.angles, keyframes, softly=False)
     yield from _play(robot, motion)
     return "; ".join(motion.notes)

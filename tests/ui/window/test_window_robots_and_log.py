@@ -61,7 +61,8 @@ def test_a_run_is_told_line_by_line_and_its_robots_speak(
 
     two_robots.running.runner.run()
     qtbot.waitUntil(is_told, timeout=RUN_MS)
-    qtbot.waitUntil(lambda: is_told() and "Says “Hello! I am NAO. Who are you?”" in said, timeout=RUN_MS)
+    words = "Says “Hello! I am NAO. Who are you?”"
+    qtbot.waitUntil(lambda: is_told() and words in said, timeout=RUN_MS)
     two_robots.running.runner.stop()
 
     qtbot.waitUntil(lambda: two_robots.running.runner.state == "idle", timeout=RUN_MS)

@@ -285,16 +285,15 @@ class RobotsPanel(QWidget):
 
 def add_robots_panel(window: MainWindow) -> Panel:
     """Put the robots beside the canvas; they follow the Robots page."""
-    studio = window.studio
     panel = RobotsPanel(
         window.running.runner,
-        studio.language,
-        studio.look,
+        window.studio.language,
+        window.studio.look,
         floor_of(window),
         sound_of(window),
         starts_of(window),
     )
     window.workbench.problems_found.connect(lambda _problems: panel.refresh())
-    tools, known = panel.stage.tools, window.actions_by_name
-    tools.connecting_asked.connect(lambda: known["connect_robot"].trigger())
+    asked = panel.stage.tools.connecting_asked
+    asked.connect(lambda: window.actions_by_name["connect_robot"].trigger())
     return window.add_side_panel(panel, tr("Robots"), "bot", "right", is_shown=False)
