@@ -11,7 +11,7 @@ Handle = tuple[float, float, float, float]
 
 SHORTEST_STEP_S = 0.01
 """Keys of a joint are at least so far apart, and the first is so late."""
-LARGEST = 1e6
+LARGEST = 1e12
 """Times (s) and angles (rad) beyond this are as good as infinite."""
 
 

@@ -66,7 +66,7 @@ class MoveThrough(msgspec.Struct, frozen=True):
         """Raise ValueError for keys that no joint can follow; no keys at all are none."""
         for name, track in self.tracks.items():
             if (track.times or track.keys) and (problem := problem_of(track)):
-                raise ValueError(f"{name[:40]}: {problem}.")
+                raise ValueError(f"{name[:40]}: {problem}")
 
 
 class SetStiffness(msgspec.Struct, frozen=True):
@@ -84,7 +84,7 @@ class Silence(msgspec.Struct, frozen=True):
 
 def _check_angles(angles: dict[str, float]) -> None:
     if not all(abs(angle) <= LARGEST for angle in angles.values()):
-        raise ValueError("an angle is infinite or not a number.")
+        raise ValueError("an angle is infinite or not a number")
 
 
 MOTOR_ACTIONS: dict[str, type[msgspec.Struct]] = {

@@ -7,8 +7,8 @@ from nep_core.words import plain, state_of_thing, state_of_word
 from nodes.action.naobody.gaze import to_world
 from nodes.action.naobody.handling import push, put
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.sensors import TOUCH_SENSORS
 from nodes.action.naobody.surroundings import distance_word
+from nodes.action.naobody.touch import TOUCH_SENSORS
 
 THINGS = ("face", "ball", "sound", "mark")
 HANDLED = {"push": push, "place": put}

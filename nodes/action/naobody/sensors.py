@@ -13,17 +13,8 @@ from nodes.action.naobody.parts import part_of
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.stance import TOUCHING_M, Stance
 from nodes.action.naobody.surroundings import sonar_m
+from nodes.action.naobody.touch import TOUCH_SENSORS
 
-TOUCH_SENSORS = (
-    "head_front",
-    "head_middle",
-    "head_rear",
-    "hand_left",
-    "hand_right",
-    "bumper_left",
-    "bumper_right",
-    "chest_button",
-)
 GRAVITY_M_S2 = 9.81
 HOLDING_A, MOVING_A = 0.05, 0.6
 FOOT_SENSORS = {

@@ -170,6 +170,20 @@ def test_a_shipped_motion_is_a_start_and_is_kept_as_one_of_the_project(
     assert "Wave twice" in [action.text() for action in motion.project.open_menu().actions()]
 
 
+def test_the_motions_of_the_robot_are_offered_by_what_they_are_used_for(
+    motion: MotionWindow,
+) -> None:
+    menu = motion.project.open_menu()
+
+    offered = {
+        a.text(): [one.text() for one in a.menu().actions()] for a in menu.actions() if a.menu()
+    }
+
+    assert offered.keys() == {"be played", "imitate an animal", "speak with gestures"}
+    assert "elephant" in offered["imitate an animal"]
+    assert "elephant" not in offered["be played"]
+
+
 def test_another_title_renames_it_in_the_blocks_too(
     motion: MotionWindow, window: MainWindow
 ) -> None:

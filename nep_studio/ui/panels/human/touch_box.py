@@ -11,20 +11,10 @@ from nep_studio.happenings import Happening
 from nep_studio.ui.panels.flow import FlowLayout
 from nep_studio.ui.theme import Look
 from nep_studio.ui.words import tr
+from nodes.action.naobody.touch import TOUCH_SENSORS
 
 from .buttons import HappeningButton
 from .hands import Hands
-
-TOUCHED = (
-    "head_front",
-    "head_middle",
-    "head_rear",
-    "hand_left",
-    "hand_right",
-    "bumper_left",
-    "bumper_right",
-    "chest_button",
-)
 
 
 class TouchBox(QWidget):
@@ -41,7 +31,7 @@ class TouchBox(QWidget):
                 hands.end,
                 _capital(names.get(part, part)),
             )
-            for part in TOUCHED
+            for part in TOUCH_SENSORS
         ]
         flow = FlowLayout(self, self.fontMetrics().height() // 3)
         for button in self.buttons:

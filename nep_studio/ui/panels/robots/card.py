@@ -25,6 +25,7 @@ from nep_studio.ui.panels.flow import FlowLayout
 from nep_studio.ui.panels.nodes.looks import StateLook
 from nep_studio.ui.theme import Look, icon, icon_pixmap
 from nep_studio.ui.words import tr
+from nodes.action.naobody.touch import TOUCH_SENSORS
 
 from .facts import Facts, show_state
 from .fallen_bar import FallenBar
@@ -33,17 +34,6 @@ from .plans import RobotPlan
 TOUCH_MS = 500
 """How long a touch from the menu lasts."""
 DOINGS_SHOWN = 3
-SENSORS = (
-    "head_front",
-    "head_middle",
-    "head_rear",
-    "hand_left",
-    "hand_right",
-    "bumper_left",
-    "bumper_right",
-    "chest_button",
-)
-"""What can be touched."""
 
 
 class RobotCard(QFrame):
@@ -106,7 +96,7 @@ class RobotCard(QFrame):
 
     def _fill_touch_menu(self, names: Mapping[str, str]) -> None:
         menu = QMenu(self.touch)
-        for sensor in SENSORS:
+        for sensor in TOUCH_SENSORS:
             menu.addAction(names.get(sensor, sensor)).triggered.connect(
                 partial(self._touch_for_a_moment, sensor)
             )

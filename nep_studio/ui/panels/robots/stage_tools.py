@@ -40,9 +40,10 @@ class StageTools(QWidget):
         super().__init__()
         self._look = look
         self.view, self.place = QToolButton(), QToolButton()
-        self.sound, self.large, self.real = QToolButton(), QToolButton(), QToolButton()
+        self.sound, self.large = QToolButton(), QToolButton()
         self.fit = QAction(tr("See all"), self)
         self.clear = QAction(tr("Clear the walked paths"), self)
+        self.real = QAction(tr("Connect a robot…"), self)
         self.follow = QAction(tr("Follow the robot"), self, checkable=True, checked=True)
         self._things_menu = QMenu(tr("Choose"), self)
         self._lay_out()
@@ -62,7 +63,6 @@ class StageTools(QWidget):
             (self.place, tr("Place"), tr("Put something before the robots")),
             (self.sound, tr("Sound"), ""),
             (self.large, tr("Large"), ""),
-            (self.real, tr("Connect a robot…"), tr("Connect a robot…")),
         )
         for button, words, tip in named:
             button.setText(words)
@@ -103,6 +103,7 @@ class StageTools(QWidget):
             menu.addAction(action)
         menu.addSeparator()
         menu.addMenu(self._things_menu)
+        menu.addAction(self.real)
         self.place.setMenu(menu)
         self._placing.triggered.connect(lambda action: self.place_asked.emit(action.data()))
 
@@ -112,7 +113,7 @@ class StageTools(QWidget):
         self.clear.triggered.connect(self.clear_asked)
         self.sound.clicked.connect(self.sound_switched)
         self.large.clicked.connect(self.large_switched)
-        self.real.clicked.connect(self.connecting_asked)
+        self.real.triggered.connect(self.connecting_asked)
 
     def allow_placing(self, is_allowed: bool) -> None:
         """Let things be placed, where there is a project that keeps them."""
@@ -156,12 +157,12 @@ class StageTools(QWidget):
             (self.place, "plus"),
             (self.sound, "volume-2" if self.sound.isChecked() else "volume-x"),
             (self.large, "maximize"),
-            (self.real, "plug"),
         )
         for button, name in icons:
             button.setIcon(icon(name, theme, "selection_text" if button.isChecked() else "text"))
             button.setIconSize(icon_room(line))
         self.fit.setIcon(icon("crosshair", theme))
         self.clear.setIcon(icon("brush", theme))
+        self.real.setIcon(icon("plug", theme))
         for action in self._placing.actions():
             action.setIcon(icon(ICONS[action.data()], theme))

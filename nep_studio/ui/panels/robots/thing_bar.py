@@ -41,8 +41,10 @@ class ThingBar(QWidget):
         self.remove = _button(tr("Take it away"), "trash-2")
         self.close_button = _button(tr("Done"), "check")
         rows = FlowLayout(self, self.fontMetrics().height() // 5)  # it must not widen the panel
-        rows.addWidget(_beside(self.sign, self.kind, self.name))
-        rows.addWidget(_beside(self.left, self.right, self.remove, self.close_button))
+        self._what = _beside(self.sign, self.kind, self.name)
+        self._hands = _beside(self.left, self.right, self.remove, self.close_button)
+        rows.addWidget(self._what)
+        rows.addWidget(self._hands)
         self.name.editingFinished.connect(self._on_named)
         self.left.clicked.connect(lambda: self.turned.emit(15))
         self.right.clicked.connect(lambda: self.turned.emit(-15))
@@ -82,6 +84,7 @@ class ThingBar(QWidget):
         for button in (self.left, self.right, self.remove, self.close_button):
             button.setIcon(icon(str(button.property("icon_name")), theme))
             button.setIconSize(icon_room(line))
+        self._what.setMinimumHeight(self._hands.sizeHint().height())
         if self.thing is not None:
             name, ratio = ICONS[self.thing.kind], self.devicePixelRatioF()
             self.sign.setPixmap(icon_pixmap(name, theme.colour("muted"), line, ratio))

@@ -74,9 +74,9 @@ class ALBehaviorManager(Module):
 
     @method("stopBehavior::v(s)")
     def stop_behavior(self, path: str) -> None:
-        """Stop a behavior."""
-        name = self._running.get(path)
-        self._robot.stop(lambda command: getattr(command.action, "animation", None) == name)
+        """Stop a behavior, if it is played."""
+        if name := self._running.get(path):
+            self._robot.stop(lambda command: getattr(command.action, "animation", None) == name)
 
     @method("stopAllBehaviors::v()")
     def stop_all_behaviors(self) -> None:

@@ -81,7 +81,8 @@ class NaoqiTheatre:
         """Let the network ask the robot to act, beside the NAOqi programs."""
         request = ActionRequest(id=id, robots=["NAO"], action=action, args=args)
         with self.offered.lock:
-            self.results += self.actor.request(request)
+            told = self.actor.request(request)
+        self.results += self.offered.hear(told, [])
 
     def until(self, condition: Callable[[], bool], timeout_s: float = WAIT_S) -> None:
         """Wait for something; fails when it does not come."""

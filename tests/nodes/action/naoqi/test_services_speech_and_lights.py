@@ -166,6 +166,16 @@ def test_a_behavior_runs_until_it_is_stopped(real_time: NaoqiTheatre) -> None:
     real_time.until(lambda: (started, stopped) == ([HEY], [HEY]))
 
 
+def test_to_stop_a_behavior_that_is_not_played_stops_nothing_else(real_time: NaoqiTheatre) -> None:
+    saying = real_time.service("ALTextToSpeech").begin("say", "word " * 50)
+    real_time.until(lambda: bool(real_time.state().saying))
+
+    real_time.call("ALBehaviorManager", "stopBehavior", HEY)
+
+    assert not saying.done
+    assert real_time.state().saying
+
+
 @pytest.mark.parametrize(
     ("arguments", "colour"),
     [

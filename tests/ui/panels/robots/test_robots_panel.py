@@ -9,10 +9,10 @@ from pytestqt.qtbot import QtBot
 
 from nep_core import messages as m
 from nep_studio.plan import PlannedNode
-from nep_studio.ui.panels.robots.card import SENSORS
 from nep_studio.ui.panels.robots.panel import RobotsPanel
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme import Look
+from nodes.action.naobody.touch import TOUCH_SENSORS
 from tests.ui.panels.robots.conftest import NAO, hear, state
 
 NODE_START_MS = 30_000
@@ -96,7 +96,7 @@ def test_every_sensor_of_the_card_is_one_that_the_view_knows(panel: RobotsPanel)
     hear(panel, state())
     view = panel.stage.view
 
-    assert set(view.room.scene().robots[0].figure.sensors) == set(SENSORS)
+    assert set(view.room.scene().robots[0].figure.sensors) == set(TOUCH_SENSORS)
 
 
 def test_a_fall_is_told_and_a_button_helps_it_up(
