@@ -31,6 +31,7 @@ class _RobotHere:
         self.name, self.figure = name, figure
         self.motion = Motion(state, now_s)
         self.is_pale = self.can_touch = False
+        self.last: RobotState | None = None
         self.path: list[FloorPlace] = []
         self._seen: SceneRobot | None = None
 
@@ -98,11 +99,14 @@ class Room:
         start: Base = ORIGIN,
     ) -> tuple[bool, bool]:
         """Take in a robot's state; whether the robot is new, and whether anything is seen of it."""
-        told = state or _standing(name, figure, start)
         here = self._robots.get(name)
         is_new = here is None or here.figure is not figure
+        last = here.last if here is not None and not is_new else None
+        told = state or last or _standing(name, figure, start)
         if here is None or is_new:
             here = self._robots[name] = _RobotHere(name, figure, told, now_s)
+        if state is not None:
+            here.last = msgspec.structs.replace(state, saying="", leds={})
         was = (here.is_pale, here.can_touch)
         here.is_pale, here.can_touch = state is None, can_touch and state is not None
         is_seen = here.motion.go(told, now_s) or is_new or was != (here.is_pale, here.can_touch)

@@ -98,7 +98,7 @@ class RoomPicture(QWidget):
         can_touch: bool = True,
         start: Base = ORIGIN,
     ) -> None:
-        """Show a robot as it is now; None: nothing is known of it, so it stands there pale."""
+        """Show a robot as it is now; None: nothing is known, so it is pale where it was last."""
         figure = load_figure(folder or folder_of(state))
         is_new, is_seen = self.room.show_robot(
             name, figure, state, time.monotonic(), can_touch, start

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -142,6 +143,19 @@ def test_a_robot_of_which_nothing_is_known_is_paler(view: RobotView, state: Stat
     unknown = pixels(view.grab_picture(SIZE))
 
     assert unknown.std() < known.std() * 0.7
+
+
+def test_a_robot_that_is_gone_is_shown_where_it_was_last(
+    view: RobotView, state: StateMaker
+) -> None:
+    view.show_robot("nao", state(base=(0.4, 0.2, 1.0), saying="Ouch"))
+    view.show_robot("nao", None)
+    view.room.step(math.inf)
+
+    (robot,) = view.room.scene().robots
+
+    assert robot.state.base == (0.4, 0.2, 1.0)
+    assert robot.state.saying == ""
 
 
 @pytest.mark.parametrize("kind", list(KIND_SIZES))
