@@ -80,6 +80,12 @@ PARTS = {
         "the face {name}",
         "the mark {name}",
     ],
+    "nodes/action/naobody/obstacles.py": ["a person", "a ball", "a wall"],
+    "nodes/action/naoqi/driver/moving.py": ["locked", "released"],
+    "nodes/action/naoqi/client/entrance.py": [
+        "does not accept this user and password",
+        "wants a user and a password",
+    ],
     "nodes/action/naobody/parts.py": [
         "head",
         "left arm",
