@@ -1,70 +1,95 @@
-"""Looks for robots and tests the way to one, in threads of their own, with news as signals."""
+"""Looks for robots and tests the way to one, in threads of their own; news come as signals."""
 
 from __future__ import annotations
 
 import logging
 import threading
 from collections.abc import Callable, Sequence
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, NamedTuple, cast
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
+
+if TYPE_CHECKING:
+    from nodes.action.naoqi.discovery import FoundRobot
 
 log = logging.getLogger(__name__)
+
+LOOK_MS = 30
+"""How often the window looks for news."""
+
+
+class _Ended(NamedTuple):
+    problem: str
+
+
+News = SimpleQueue[object]
+Work = Callable[[threading.Event, News], None]
 
 
 class _Job(QObject):
     """One thing at a time in a thread; a new one, or ``stop``, lets the old one end unheard.
 
-    The libraries are loaded in the thread: the window must not wait for them.
+    The libraries are loaded in the thread: the window must not wait for them. The thread puts its
+    news where the window takes them; it never touches the dialog, which may be gone by then.
     """
 
     ended = Signal(str)
     """The problem, in the words of the system; "" when there was none."""
-    _came = Signal(object, object)
-    """News of the thread: whether they are not wanted any more, and what tells them."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._cancelled = threading.Event()
+        self._news: News = SimpleQueue()
         self._thread: threading.Thread | None = None
-        self._came.connect(self._on_came)
+        self._next_look = QTimer(self, interval=LOOK_MS)
+        self._next_look.timeout.connect(self._take_news)
 
     @property
     def is_running(self) -> bool:
         """Whether it works."""
-        return self._thread is not None and self._thread.is_alive()
+        return self._next_look.isActive()
 
     def stop(self) -> None:
         """Let it end; nothing is told of it any more."""
         self._cancelled.set()
-        self._thread = None
+        self._news = SimpleQueue()
+        self._next_look.stop()
 
-    def _start(self, work: Callable[[threading.Event], None]) -> None:
+    def _start(self, work: Work) -> None:
         self.stop()
-        self._cancelled = cancelled = threading.Event()
-        self._thread = threading.Thread(target=self._run, args=(work, cancelled), daemon=True)
+        self._cancelled = threading.Event()
+        told = (work, self._cancelled, self._news)
+        self._thread = threading.Thread(target=_work, args=told, daemon=True)
         self._thread.start()
+        self._next_look.start()
 
-    def _run(self, work: Callable[[threading.Event], None], cancelled: threading.Event) -> None:
-        problem = ""
-        try:
-            work(cancelled)
-        except OSError as error:
-            problem = str(error)
-        except Exception as error:  # the dialog must not wait for ever
-            log.exception("looking for robots")
-            problem = str(error)
-        self._tell(cancelled, lambda: self.ended.emit(problem))
+    def _take_news(self) -> None:
+        news = self._news
+        while news is self._news and not news.empty():
+            self._tell(news.get())
 
-    def _tell(self, cancelled: threading.Event, tell: Callable[[], None]) -> None:
-        try:
-            self._came.emit(cancelled, tell)
-        except RuntimeError:  # the dialog is gone
-            return
+    def _tell(self, what: object) -> None:
+        if isinstance(what, _Ended):
+            self.stop()
+            self.ended.emit(what.problem)
+        else:
+            self._told(what)
 
-    def _on_came(self, cancelled: threading.Event, tell: Callable[[], None]) -> None:
-        """Tell news in the window's thread, unless they were given up on their way."""
-        if not cancelled.is_set():
-            tell()
+    def _told(self, what: object) -> None:
+        raise NotImplementedError
+
+
+def _work(work: Work, cancelled: threading.Event, news: News) -> None:
+    problem = ""
+    try:
+        work(cancelled, news)
+    except OSError as error:
+        problem = str(error)
+    except Exception as error:  # the dialog must not wait for ever
+        log.exception("looking for robots")
+        problem = str(error)
+    news.put(_Ended(problem))
 
 
 class RobotSearch(_Job):
@@ -76,15 +101,16 @@ class RobotSearch(_Job):
     def start(self, seconds: float, interfaces: Sequence[str] = ()) -> None:
         """Listen for some seconds; ``interfaces`` as in ``find_robots``."""
 
-        def work(cancelled: threading.Event) -> None:
-            from nodes.action.naoqi.discovery import FoundRobot, find_robots
+        def work(cancelled: threading.Event, news: News) -> None:
+            from nodes.action.naoqi.discovery import find_robots
 
-            def tell(robot: FoundRobot) -> None:
-                self._tell(cancelled, lambda: self.found.emit(robot.name, robot.address))
-
-            find_robots(tell, cancelled, seconds=seconds, interfaces=interfaces)
+            find_robots(news.put, cancelled, seconds=seconds, interfaces=interfaces)
 
         self._start(work)
+
+    def _told(self, what: object) -> None:
+        robot = cast("FoundRobot", what)
+        self.found.emit(robot.name, robot.address)
 
 
 class RobotTest(_Job):
@@ -96,17 +122,17 @@ class RobotTest(_Job):
     def start(self, address: str, user: str, password: str, robot: str) -> None:
         """Try every step; the login is used when there is a password."""
 
-        def work(cancelled: threading.Event) -> None:
+        def work(cancelled: threading.Event, news: News) -> None:
             from nodes.action.naoqi.client import Login
-            from nodes.action.naoqi.probe import Check, probe
-
-            def tell(check: Check) -> None:
-                self._tell(cancelled, lambda: self.checked.emit(check))
+            from nodes.action.naoqi.probe import probe
 
             login = Login(user, password) if password else None
             for check in probe(address, login, robot):
                 if cancelled.is_set():
                     return
-                tell(check)
+                news.put(check)
 
         self._start(work)
+
+    def _told(self, what: object) -> None:
+        self.checked.emit(what)
