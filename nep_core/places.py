@@ -11,6 +11,8 @@ import platformdirs
 
 NODES_VARIABLE = "NEP_NODES"
 """More folders with nodes, before the shipped one, separated as in PATH."""
+ROBOT_FILES_VARIABLE = "NEP_ROBOT_FILES"
+"""Where the files of robots on the screen are, instead of in the folder of this user's data."""
 
 
 def node_folders() -> tuple[Path, ...]:
@@ -35,3 +37,14 @@ def cache_folder() -> Path:
         return Path(platformdirs.user_cache_dir("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home
         return Path(tempfile.gettempdir()) / "nep-studio"
+
+
+def robot_folder(robot: str) -> Path:
+    """Where a robot on the screen keeps its files; ``robot``: its name, as one of a folder."""
+    if told := os.environ.get(ROBOT_FILES_VARIABLE):
+        return Path(told) / robot
+    try:
+        data = Path(platformdirs.user_data_dir("nep-studio", appauthor=False))
+    except RuntimeError:  # a user without a home
+        data = Path(tempfile.gettempdir()) / "nep-studio"
+    return data / "robots" / robot

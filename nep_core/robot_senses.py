@@ -103,23 +103,23 @@ class RobotSenses(RobotRequests):
         return self._state().posture
 
     def learn_face(self, name: str) -> None:
-        """Learn the face of the person in front of it; needs a real robot."""
+        """Learn the face of the person in front of it, under a name."""
         self._perform("learn_face", name=name)
 
     def forget_face(self, name: str) -> None:
-        """Forget a face; needs a real robot."""
+        """Forget a face: who has it is a plain face until it is learnt again."""
         self._perform("forget_face", name=name)
 
     def take_picture(self, file: str, camera: str = "top") -> None:
-        """Take a picture with the "top" or "bottom" camera; needs a real robot."""
+        """Take a picture with the "top" or "bottom" camera, into a file on the robot."""
         self._perform("take_picture", file=file, camera=camera)
 
     def record_video(self, file: str, seconds: float, camera: str = "top") -> None:
-        """Record a video for some seconds; needs a real robot."""
+        """Record a video for some seconds, into a file on the robot."""
         self._perform("record_video", file=file, seconds=seconds, camera=camera)
 
     def play_sound(self, file: str) -> None:
-        """Play a sound file that is on the robot; needs a real robot."""
+        """Play a sound file of the robot, for the one on the screen of this computer."""
         self._perform("play_sound", file=file)
 
 

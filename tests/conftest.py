@@ -20,6 +20,7 @@ from nep_core.default_network import set_default_network
 from nep_core.endpoints import MASTER_VARIABLE
 from nep_core.master import Master
 from nep_core.p2p import PeerNetwork
+from nep_core.places import ROBOT_FILES_VARIABLE
 
 PROJECT = Path(__file__).resolve().parent.parent
 
@@ -44,6 +45,14 @@ def shared_data() -> Path:
     if not folder.is_dir():
         pytest.skip("the real recordings (../shared/data) are not here")
     return folder
+
+
+@pytest.fixture(scope="session", autouse=True)
+def robots_keep_files_elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Robots of tests leave no pictures in the folders of who runs them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(ROBOT_FILES_VARIABLE, str(tmp_path_factory.mktemp("robots")))
+        yield
 
 
 @pytest.fixture

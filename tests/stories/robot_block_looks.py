@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import math
 
+from tests.stories.robot_block_pictures import BALL, shows_the_ball
 from tests.stories.robot_block_seen import (
     LONG,
     Look,
     joint,
     light,
-    needs,
     rule,
     sense,
     setting,
+    sound_file,
     value_is,
     value_near,
     went,
@@ -24,8 +25,11 @@ from tests.stories.robot_block_seen import (
 from tests.stories.robot_theatre import B
 
 FACE = sense("face", name="Anna", place=(0.8, 0.2, 0.5))
+STRANGER = sense("face", place=(0.8, 0.2, 0.5))
 MARK = sense("mark", name="64", place=(1.0, 0.0, 0.4))
 RED = B("robot.leds", {"group": "AllLeds", "colour": "#ff0000"})
+LEARN_BEN = B("robot_camera.learn_face", {"name": "Ben"})
+SOUND = sound_file()
 SEE_YAW = math.degrees(math.atan2(0.2, 0.8))
 
 LOOKS: dict[str, Look] = {
@@ -55,11 +59,42 @@ LOOKS: dict[str, Look] = {
         lambda seen: not seen.after.moving and seen.moved("LHipPitch") > 0.05,
         first=(B("robot_moves.start_walking"), B("control.wait", {"seconds": 0.5})),
     ),
-    "robot_camera.learn_face": needs("a camera"),
-    "robot_camera.forget_face": needs("a camera"),
-    "robot_camera.take_picture": needs("a camera"),
-    "robot_camera.record_video": needs("a camera"),
-    "robot_camera.play_sound": needs("files"),
+    "robot_camera.learn_face": Look(
+        "whose face it sees, once it has learnt somebody's",
+        lambda seen: "face_ben" not in seen.before.sees and "face_ben" in seen.after.sees,
+        {"name": "Ben"},
+        senses=(STRANGER,),
+    ),
+    "robot_camera.forget_face": Look(
+        "whose face it sees: nobody's whom it knows, after it knew the name",
+        lambda seen: (
+            any("face_ben" in state.sees for state in seen.states)
+            and "face" in seen.after.sees
+            and "face_ben" not in seen.after.sees
+        ),
+        {"name": "Ben"},
+        first=(LEARN_BEN, B("control.wait", {"seconds": 0.3})),
+        senses=(STRANGER,),
+    ),
+    "robot_camera.take_picture": Look(
+        "the file: a picture of the red ball before it",
+        shows_the_ball("pictures", "picture"),
+        things=(BALL,),
+    ),
+    "robot_camera.record_video": Look(
+        "the file: a video of the red ball before it",
+        shows_the_ball("videos", "video"),
+        {"seconds": 1},
+        things=(BALL,),
+    ),
+    "robot_camera.play_sound": Look(
+        "the file that it plays, and that it ends",
+        lambda seen: (
+            any(state.settings["playing"] == SOUND for state in seen.states)
+            and not seen.after.settings["playing"]
+        ),
+        {"file": SOUND},
+    ),
     "robot_events.touched": rule("its head is touched", sense("head_middle")),
     "robot_events.heard": rule("the word is said", sense("word", name="hello")),
     "robot_events.sees": rule("a face comes", FACE),

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+import tempfile
+import wave
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
-from nep_core.messages import RobotState
+from nep_core.messages import RobotState, Thing
 from tests.stories.robot_theatre import B
 
+SOUND_S = 5
 NEAR_RAD, NEAR_M = 0.06, 0.04
 LONG = "This is what I have been asked to say to you"
 Sense = tuple[str, float, dict[str, Any]]
@@ -59,6 +63,8 @@ class Look:
     senses: tuple[Sense, ...] = ()
     state: str = ""
     """What the person does, for rules that wait for that."""
+    things: tuple[Thing, ...] = ()
+    """What stands around, where it is before the robot."""
 
 
 def joint(name: str, degrees: float) -> Callable[[Seen], bool]:
@@ -93,14 +99,20 @@ def value_is(value: object) -> Callable[[Seen], bool]:
     return lambda seen: seen.value == value
 
 
-def needs(what: str) -> Look:
-    words = f"says that it needs a robot with {what}, and why"
-    return Look(words, lambda seen: "A real NAO can" in seen.refused)
-
-
 def rule(what: str, *senses: Sense, state: str = "", **fields: Any) -> Look:
     words = f"the rule runs when {what}"
     return Look(words, lambda seen: LONG in seen.said, fields, senses=senses, state=state)
+
+
+def sound_file() -> str:
+    """Some seconds of silence, in a file of their own: as long as robots that live fast need."""
+    path = Path(tempfile.gettempdir()) / "robot_blocks_sound.wav"
+    with wave.open(str(path), "wb") as sound:
+        sound.setnchannels(1)
+        sound.setsampwidth(2)
+        sound.setframerate(8000)
+        sound.writeframes(bytes(SOUND_S * 16000))
+    return str(path)
 
 
 def sense(what: str, value: float = 1.0, **more: Any) -> Sense:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
+
+import pytest
 
 from nep_core import tasks
 from nep_core.errors import NepError
@@ -15,17 +18,22 @@ from nep_core.messages import (
     HUMAN_BEHAVIOR,
     ROBOT_STATE,
     SENSE_REQUEST,
+    SURROUNDINGS,
     HumanBehavior,
     RobotState,
     SenseRequest,
+    Surroundings,
+    Thing,
 )
 from nep_core.p2p import PeerNetwork
+from nep_core.places import ROBOT_FILES_VARIABLE
 from nep_core.pubsub import Publisher, Subscriber
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.studio_language import studio_language
 from tests.node_running import NodeRunner
 from tests.stories.robot_block_looks import ANSWERED, LOOKS
+from tests.stories.robot_block_pictures import before
 from tests.stories.robot_block_seen import LONG, Look, Seen, Sense
 from tests.stories.robot_theatre import B, build
 
@@ -45,6 +53,7 @@ CALM = (
 """Brings the robot back to how it was at the start."""
 NOTHING: tuple[Sense, ...] = (
     ("face", 0.0, {"name": "Anna"}),
+    ("face", 0.0, {}),
     ("mark", 0.0, {"name": "64"}),
     ("head_front", 0.0, {}),
     ("head_middle", 0.0, {}),
@@ -78,6 +87,7 @@ class BlockStage(NodeRunner):
         self._is_answering = False
         self._senses = Publisher(SENSE_REQUEST, network=outside)
         self._person = Publisher(HUMAN_BEHAVIOR, network=outside)
+        self._around = Publisher(SURROUNDINGS, network=outside)
         Subscriber(ROBOT_STATE, RobotState, network=outside, callback=self._on_state)
         if driver == "virtual":
             self.start_node("action/nao", "NAO", robot="NAO", speed=SPEED)
@@ -97,6 +107,7 @@ class BlockStage(NodeRunner):
         self._calm_down()
         for one in look.senses if definition.shape != "hat" else ():
             self._sense(one)
+        self._put(look.things)
         self._settle()
         seen = Seen(self.states_of[self.body][-1], self.states_of[self.body])
         self._is_answering = block in ANSWERED
@@ -109,6 +120,7 @@ class BlockStage(NodeRunner):
         self._is_answering = False
         with contextlib.suppress(TimeoutError):  # who looks says that it is not so
             self._wait(lambda: look.holds(seen))
+        self._put(())
         return seen
 
     def _keeping(self, block: str, look: Look) -> B:
@@ -165,6 +177,11 @@ class BlockStage(NodeRunner):
         what, value, more = one
         self._senses.send(SenseRequest(robot=self.body, sense=what, value=value, **more))
 
+    def _put(self, things: tuple[Thing, ...]) -> None:
+        """Let things stand before the robot, instead of those that stood there."""
+        robot = self.states_of[self.body][-1]
+        self._around.send(Surroundings(things=[before(robot, thing) for thing in things]))
+
     def _on_state(self, state: RobotState) -> None:
         self.states_of[state.robot].append(state)
         if state.robot == self.body and state.listening and self._is_answering:
@@ -183,8 +200,10 @@ def block_stage(
     network: PeerNetwork, outside: PeerNetwork, driver: str, free_port: int
 ) -> Iterator[BlockStage]:
     """A stage that is closed at the end."""
-    stage = BlockStage(network, outside, driver, free_port)
-    try:
-        yield stage
-    finally:
-        stage.close()
+    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+        patch.setenv(ROBOT_FILES_VARIABLE, folder)
+        stage = BlockStage(network, outside, driver, free_port)
+        try:
+            yield stage
+        finally:
+            stage.close()

@@ -13,6 +13,7 @@ from nep_studio.settings import Settings
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard, Tap
 
+from .robot_sounds import RobotSounds
 from .robot_voices import MakeVoice, RobotVoices
 from .voice import find_voice
 
@@ -40,6 +41,7 @@ class Sound(QObject):
         self._tap: Tap | None = None
         self._run = 0
         self.voices = RobotVoices(make_voice, self)
+        self.sounds = RobotSounds(self)
         runner.connected.connect(self._follow)
         runner.disconnected.connect(self._on_disconnected)
         runner.state_changed.connect(self._on_state_changed)
@@ -67,7 +69,7 @@ class Sound(QObject):
         elif not is_wanted and self._tap is not None:
             self._tap.close()
             self._tap = None
-            self.voices.forget()
+            self._forget()
 
     def _on_states(self, batch: list[Heard]) -> None:
         """Requests, which tell how something is to be said, come another way, and may be later."""
@@ -83,6 +85,7 @@ class Sound(QObject):
             for heard in batch:
                 if heard.message.robot not in real:
                     self.voices.hear_state(heard.message)
+                    self.sounds.hear_state(heard.message)
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
         if self._tap is not None:
@@ -93,10 +96,15 @@ class Sound(QObject):
         if state == "stopping":
             self._run += 1
             self.voices.hush()
+            self.sounds.hush()
 
     def _on_disconnected(self) -> None:
-        self.voices.forget()
+        self._forget()
         self._follow()
+
+    def _forget(self) -> None:
+        self.voices.forget()
+        self.sounds.forget()
 
 
 def sound_of(window: MainWindow) -> Sound:

@@ -11,6 +11,7 @@ from nodes.action.naobody import leds
 from nodes.action.naobody.animations import Animations
 from nodes.action.naobody.body import Angles, Body, KeyPose
 from nodes.action.naobody.body_language import GestureWords
+from nodes.action.naobody.faces import Faces
 from nodes.action.naobody.skeleton import Skeleton
 from nodes.action.naobody.stance import Stance
 
@@ -20,6 +21,7 @@ AT_START: dict[str, bool | float | str] = {
     "awareness": False,
     "breathing": False,
     "tracking": "",
+    "playing": "",
 }
 """How a robot is set when it starts."""
 
@@ -37,7 +39,7 @@ class VirtualRobot:
     ``things``: what is around it; ``noticed``: what of that it sees, and where; ``bumped``: the
     bumpers with which it ran into something; ``battery``: 0 to 1. ``model``: which robot it is,
     as RobotState has it. ``passed``: the key poses that it has reached since its posture, on the
-    way ``towards`` another one.
+    way ``towards`` another one. ``faces``: whom it knows by name.
     """
 
     name: str
@@ -62,6 +64,7 @@ class VirtualRobot:
     passed: tuple[KeyPose, ...] = ()
     towards: str = ""
     model: str = ""
+    faces: Faces = field(default_factory=Faces)
     stance: Stance = field(init=False)
     settings: dict[str, bool | float | str] = field(default_factory=lambda: dict(AT_START))
 

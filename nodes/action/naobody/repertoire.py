@@ -7,7 +7,18 @@ import math
 from nep_core.errors import ActionFailed
 from nodes.action.naobody import actions as a
 from nodes.action.naobody import body_actions as b
-from nodes.action.naobody import body_tasks, gaze, leds, light_tasks, speaking, tasks, walking
+from nodes.action.naobody import (
+    body_tasks,
+    camera_tasks,
+    face_tasks,
+    gaze,
+    leds,
+    light_tasks,
+    sound_tasks,
+    speaking,
+    tasks,
+    walking,
+)
 from nodes.action.naobody import sense_actions as s
 from nodes.action.naobody.limbs import MOVING, Limb
 from nodes.action.naobody.motor_tasks import at_pace, motor_limbs, motor_task
@@ -69,8 +80,10 @@ def _other_limbs(robot: VirtualRobot, action: a.Action) -> frozenset[Limb]:
             return frozenset({Limb.LEDS})
         case s.Listen():
             return frozenset({Limb.EARS})
-    if reason := s.NEEDS_REAL_ROBOT.get(type(action)):
-        raise ActionFailed(reason.format(name=robot.name))
+        case s.PlaySound():
+            return frozenset({Limb.VOICE})
+        case s.LearnFace() | s.ForgetFace() | s.TakePicture() | s.RecordVideo():
+            return frozenset()
     return motor_limbs(robot, action)
 
 
@@ -165,6 +178,16 @@ def _body_or_setting_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
             return change_setting(robot, "language", action.language)
         case s.Listen():
             return listen(robot, action.words, action.seconds)
+        case s.LearnFace():
+            return face_tasks.learn_face(robot, action.name)
+        case s.ForgetFace():
+            return face_tasks.forget_face(robot, action.name)
+        case s.PlaySound():
+            return sound_tasks.play_sound(robot, action)
+        case s.TakePicture():
+            return camera_tasks.take_picture(robot, action)
+        case s.RecordVideo():
+            return camera_tasks.record_video(robot, action)
     raise ActionFailed(f"The virtual {robot.name} cannot do this.")
 
 

@@ -85,9 +85,14 @@ class RecordVideo(msgspec.Struct, frozen=True):
 
 
 class PlaySound(msgspec.Struct, frozen=True):
-    """Play a sound file that is on the robot."""
+    """Play a sound file of the robot; the one on the screen has those of this computer.
+
+    It begins at ``start_s``; ``again``: it is played again and again until it is stopped.
+    """
 
     file: Name
+    start_s: Seconds = 0.0
+    again: bool = False
 
 
 SENSE_ACTIONS: dict[str, type[msgspec.Struct]] = {
@@ -104,12 +109,3 @@ SENSE_ACTIONS: dict[str, type[msgspec.Struct]] = {
     "record_video": RecordVideo,
     "play_sound": PlaySound,
 }
-
-NEEDS_REAL_ROBOT: dict[type[msgspec.Struct], str] = {
-    LearnFace: "The virtual {name} cannot learn a face: it has no camera. A real NAO can.",
-    ForgetFace: "The virtual {name} cannot forget a face: it has learnt none. A real NAO can.",
-    TakePicture: "The virtual {name} cannot take a picture: it has no camera. A real NAO can.",
-    RecordVideo: "The virtual {name} cannot record a video: it has no camera. A real NAO can.",
-    PlaySound: "The virtual {name} cannot play a sound: it has no files. A real NAO can.",
-}
-"""What the robot on the screen cannot do, and why."""

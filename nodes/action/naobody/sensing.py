@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nep_core.messages import SenseRequest
 from nep_core.words import plain, state_of_thing, state_of_word
+from nodes.action.naobody.faces import TOLD
 from nodes.action.naobody.gaze import to_world
 from nodes.action.naobody.handling import push, put
 from nodes.action.naobody.pose import VirtualRobot
@@ -35,6 +36,8 @@ def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
 
 def _see(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     name = plain(request.name)
+    if request.sense == "face":
+        name = robot.faces.name_of(TOLD + name, name)
     things = [request.sense, *([f"{request.sense}_{name}"] if name else [])]
     new = [thing for thing in things if thing not in robot.sees]
     if request.value <= 0.0:

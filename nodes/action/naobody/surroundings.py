@@ -88,14 +88,28 @@ def visible(robot: VirtualRobot) -> dict[str, Place]:
         return {}
     eye = _eye(robot)
     seen: dict[str, Place] = {}
-    for thing in sorted(robot.things, key=lambda thing: math.dist(thing.place, eye)):
-        if thing.kind not in SENSES or not _is_seen(robot, thing):
-            continue
-        sense, name, place = SENSES[thing.kind], plain(thing.name), _target(thing, eye)
+    for thing in seen_things(robot):
+        sense, name, place = SENSES[thing.kind], _name(robot, thing), looked_at(thing, eye)
         seen.setdefault(sense, place)
         if name:
             seen.setdefault(f"{sense}_{name}", place)
     return seen
+
+
+def seen_things(robot: VirtualRobot) -> list[Thing]:
+    """Return the people, balls and marks that the robot sees, the nearest first."""
+    if not robot.body.cameras:
+        return []
+    eye = _eye(robot)
+    things = sorted(robot.things, key=lambda thing: math.dist(thing.place, eye))
+    return [thing for thing in things if thing.kind in SENSES and _is_seen(robot, thing)]
+
+
+def _name(robot: VirtualRobot, thing: Thing) -> str:
+    """By what name the robot knows a thing; people by what it has learnt and forgotten."""
+    return (
+        robot.faces.name_of(thing.id, thing.name) if thing.kind == "person" else plain(thing.name)
+    )
 
 
 def sonar_m(robot: VirtualRobot, sonar: str) -> float:
@@ -118,7 +132,7 @@ def sonar_m(robot: VirtualRobot, sonar: str) -> float:
     return round(max(SONAR_NEAREST_M, nearest_m), 3)
 
 
-def _target(thing: Thing, eye: Points) -> Place:
+def looked_at(thing: Thing, eye: Points) -> Place:
     """Return what of a thing is looked at: the eyes of a person, who bends down, or its middle."""
     x, y, z = thing.place
     if thing.kind != "person":
@@ -130,7 +144,7 @@ def _target(thing: Thing, eye: Points) -> Place:
 
 def _is_seen(robot: VirtualRobot, thing: Thing) -> bool:
     eye = _eye(robot)
-    target = np.array(_target(thing, eye))
+    target = np.array(looked_at(thing, eye))
     if float(np.linalg.norm(target - eye)) > SIGHT_M[thing.kind]:
         return False
     if thing.kind != "ball" and _turned_away(thing, eye) > TURNED_AWAY_RAD:

@@ -176,23 +176,3 @@ def test_the_eyes_play_with_colours_and_are_as_before(action: str) -> None:
 
     assert len(colours) >= 3
     assert state(stage).leds["LeftFaceLeds"] == 0xFFFFFF
-
-
-@pytest.mark.parametrize(
-    ("action", "args"),
-    [
-        ("learn_face", {"name": "Anna"}),
-        ("forget_face", {"name": "Anna"}),
-        ("take_picture", {"file": "me"}),
-        ("record_video", {"file": "me", "seconds": 3}),
-        ("play_sound", {"file": "hello.wav"}),
-    ],
-)
-def test_what_needs_a_real_robot_fails_with_the_reason(
-    action: str, args: dict[str, object]
-) -> None:
-    result = Stage().do(action, **args)
-
-    assert result.state == "failed"
-    assert result.description.startswith("The virtual NAO cannot ")
-    assert result.description.endswith("A real NAO can.")

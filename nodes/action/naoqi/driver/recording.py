@@ -75,7 +75,11 @@ def record_video(robot: RealRobot, action: s.RecordVideo) -> Task:
 def play_sound(robot: RealRobot, action: s.PlaySound) -> Task:
     """Play a sound file that is on the robot, to its end."""
     file = HOME / action.file  # a path that begins with / stays as it is
-    yield from robot.call("ALAudioPlayer", "playFile", str(file), limit_s=LONGEST_SOUND_S)
+    robot.known.settings["playing"] = str(file)
+    try:
+        yield from robot.call("ALAudioPlayer", "playFile", str(file), limit_s=LONGEST_SOUND_S)
+    finally:
+        robot.known.settings["playing"] = ""
     return ""
 
 

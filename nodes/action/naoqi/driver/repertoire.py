@@ -17,11 +17,8 @@ from nodes.action.naoqi.driver.calls import Task, waited
 from nodes.action.naoqi.driver.real import RealRobot
 
 LIMBS: dict[type[a.Action], frozenset[Limb]] = {
-    s.LearnFace: frozenset(),
-    s.ForgetFace: frozenset(),
     s.TakePicture: frozenset(),
     s.RecordVideo: frozenset(),
-    s.PlaySound: frozenset({Limb.VOICE}),
 }
 """What the virtual robot cannot do needs these; all else needs what it needs there."""
 ANY_MOTORS = (

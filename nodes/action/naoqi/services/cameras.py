@@ -1,15 +1,21 @@
-"""ALPhotoCapture and ALVideoRecorder: the robot on the screen has no camera, and says so."""
+"""ALPhotoCapture and ALVideoRecorder: into files of the computer that the robot is on."""
 
 from __future__ import annotations
 
+import contextlib
 from typing import Any
 
+from nep_core.messages import ActionResult
+from nodes.action.naobody.camera_tasks import picture_path, video_path
+from nodes.action.naobody.picture_files import frames_in
 from nodes.action.naoqi.server import CallFailed, method
-from nodes.action.naoqi.services.arguments import number
+from nodes.action.naoqi.services.arguments import number, within
 from nodes.action.naoqi.services.module import Module, kept
+from nodes.action.naoqi.serving import ServedRobot
 
 CAMERAS = ("top", "bottom")
 RECORDING_S = 3600.0
+MOST_PICTURES = 20
 
 
 class _Camera(Module):
@@ -24,7 +30,7 @@ class _Camera(Module):
 
 
 class ALPhotoCapture(_Camera):
-    """Takes pictures into files of the robot."""
+    """Takes pictures; all are PNG files in the folder of the robot, whatever folder is asked."""
 
     set_format, picture_format = kept("setPictureFormat::v(s)", "getPictureFormat::s()", "jpg")
     set_interval, interval = kept("setCaptureInterval::v(i)", "getCaptureInterval::i()", 200)
@@ -33,8 +39,8 @@ class ALPhotoCapture(_Camera):
     @method("takePicture::m(ss)")
     def take_picture(self, folder: str, name: str) -> Any:
         """Take a picture; get the names of its files."""
-        file = f"{folder.rstrip('/')}/{name}.{self.picture_format()}"
-        return self._do("take_picture", [file], file=file, camera=self._name())
+        file = str(picture_path(self._robot.name, name))
+        return self._do("take_picture", [file], file=name, camera=self._name())
 
     @method("takePicture::m(ssb)")
     def take_picture_over(self, folder: str, name: str, overwrite: bool) -> Any:
@@ -44,9 +50,12 @@ class ALPhotoCapture(_Camera):
     @method("takePictures::m(iss)")
     def take_pictures(self, count: int, folder: str, name: str) -> Any:
         """Take several pictures; get the names of their files."""
-        if number(count) < 1:
-            raise CallFailed("At least one picture can be taken.")
-        return self.take_picture(folder, name)
+        within(count, 1, MOST_PICTURES, "The number of pictures")
+        names = [f"{name}_{i}" for i in range(int(number(count)))]
+        files = [str(picture_path(self._robot.name, one)) for one in names]
+        for one in names[:-1]:
+            self._robot.ask("take_picture", file=one, camera=self._name())
+        return self._do("take_picture", files, file=names[-1], camera=self._name())
 
     @method("takePictures::m(issb)")
     def take_pictures_over(self, count: int, folder: str, name: str, overwrite: bool) -> Any:
@@ -55,16 +64,26 @@ class ALPhotoCapture(_Camera):
 
 
 class ALVideoRecorder(_Camera):
-    """Records videos into files of the robot."""
+    """Records videos; all are animated PNG files in the folder of the robot."""
 
     set_format, video_format = kept("setVideoFormat::v(s)", "getVideoFormat::s()", "MJPG")
     set_rate, rate = kept("setFrameRate::v(f)", "getFrameRate::i()", 10)
 
+    def __init__(self, robot: ServedRobot) -> None:
+        super().__init__(robot)
+        self._asked = self._name_asked = self._failed = ""
+
     @method("startRecording::v(ss)")
     def start_recording(self, folder: str, name: str) -> Any:
         """Begin a video."""
-        file = f"{folder.rstrip('/')}/{name}.avi"
-        self._set("record_video", file=file, seconds=RECORDING_S, camera=self._name())
+        if self.is_recording():
+            raise CallFailed("There is a video already that has to be stopped.")
+        with contextlib.suppress(OSError):  # then the recording says why
+            video_path(self._robot.name, name).unlink(missing_ok=True)
+        self._failed, self._name_asked = "", name
+        self._asked = self._robot.ask(
+            "record_video", self._on_end, file=name, seconds=RECORDING_S, camera=self._name()
+        )
 
     @method("startRecording::v(ssb)")
     def start_recording_over(self, folder: str, name: str, overwrite: bool) -> Any:
@@ -73,10 +92,23 @@ class ALVideoRecorder(_Camera):
 
     @method("stopRecording::m()")
     def stop_recording(self) -> Any:
-        """End the video. Raises CallFailed when there is none."""
-        raise CallFailed("There is no video to stop.")
+        """End the video; get how many pictures it has, and its file. Raises CallFailed."""
+        if not self._asked:
+            raise CallFailed("There is no video to stop.")
+        asked, self._asked = self._asked, ""
+        self._robot.stop_one(asked)
+        path = video_path(self._robot.name, self._name_asked)
+        try:
+            return [frames_in(path), str(path)]
+        except OSError as error:
+            raise CallFailed(self._failed or "There is no video to stop.") from error
 
     @method("isRecording::b()")
     def is_recording(self) -> bool:
         """Return whether a video is recorded."""
-        return False
+        with self._robot.lock:
+            return any(command.id == self._asked for command in self._robot.commands())
+
+    def _on_end(self, result: ActionResult) -> None:
+        if result.state == "failed":
+            self._failed = result.description

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from nodes.action.naobody.face_tasks import forget_all_faces
 from nodes.action.naobody.surroundings import SONAR_RANGE_M
 from nodes.action.naoqi.server import CallFailed, method
 from nodes.action.naoqi.services.extractor import Extractor, PausableExtractor
@@ -36,13 +37,16 @@ class ALFaceDetection(PausableExtractor):
 
     @method("clearDatabase::b()")
     def clear_database(self) -> bool:
-        """Forget all faces: it has learnt none."""
+        """Forget all faces that it has learnt."""
+        with self._robot.lock:
+            forget_all_faces(self._robot.robot)
         return True
 
     @method("getLearnedFacesList::m()")
     def learned_faces(self) -> list[str]:
         """Return the names of the faces that it has learnt."""
-        return []
+        with self._robot.lock:
+            return list(self._robot.robot.faces.learnt.values())
 
 
 class ALLandMarkDetection(PausableExtractor):

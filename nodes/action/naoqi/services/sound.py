@@ -12,7 +12,7 @@ NO_MICROPHONE = "The robot on the screen has no microphones. A real NAO has."
 
 
 class ALAudioPlayer(Module):
-    """Plays sound files; the robot on the screen has none, and says so."""
+    """Plays sound files: those of the computer that the robot on the screen is on."""
 
     set_master, master = kept("setMasterVolume::v(f)", "getMasterVolume::f()", 1.0)
 
@@ -31,22 +31,26 @@ class ALAudioPlayer(Module):
     @method("playFileInLoop::v(s)")
     def play_file_in_loop(self, path: str) -> Any:
         """Play a file again and again."""
-        return self.play_file(path)
+        return self._do("play_sound", file=path, again=True)
 
     @method("playFileInLoop::v(sff)")
     def play_file_in_loop_with(self, path: str, volume: float, pan: float) -> Any:
         """Play a file again and again, so loud, more on the left or on the right."""
-        return self.play_file_with(path, volume, pan)
+        within(volume, 0.0, 1.0, "The volume")
+        within(pan, -1.0, 1.0, "The balance")
+        return self.play_file_in_loop(path)
 
     @method("playFileFromPosition::v(sf)")
     def play_file_from(self, path: str, position: float) -> Any:
         """Play a file from so many seconds on."""
-        return self.play_file(path)
+        return self._do("play_sound", file=path, start_s=within(position, 0, 3600, "The start"))
 
     @method("playFileFromPosition::v(sfff)")
     def play_file_from_with(self, path: str, position: float, volume: float, pan: float) -> Any:
         """Play a file from so many seconds on, so loud, more on the left or on the right."""
-        return self.play_file_with(path, volume, pan)
+        within(volume, 0.0, 1.0, "The volume")
+        within(pan, -1.0, 1.0, "The balance")
+        return self.play_file_from(path, position)
 
     @method("stopAll::v()")
     def stop_all(self) -> None:

@@ -30,7 +30,8 @@ What is true of it:
   posture, battery and speech: the studio's person, or `/sense_request`, sets them off.
 - Animations are ours: NAOqi's paths and tags find the one that fits best
   (`resources/robots/nao/naoqi_animations.toml`).
-- It has no camera, no microphone and no files: services that need these say so.
+- Pictures and videos show what stands around it, as PNG files of this computer, and calls tell
+  their real paths. It has no microphone: services that need one say so.
 - `moveToward` changes its speeds every few steps only; `moveTo` walks at the pace that it has.
 
 The signatures are those of a NAO V6 (NAOqi 2.8); for services marked * those of NAOqi 2.1. Every

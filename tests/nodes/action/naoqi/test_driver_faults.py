@@ -254,10 +254,10 @@ def test_an_action_that_the_robot_cannot_do_says_the_reason(stages, robots) -> N
     stage = stages(robots().address)
     stage.meet()
 
-    refused = stage.do("take_picture", file="me")
+    refused = stage.do("learn_face", name="Anna")
     unknown = stage.do("move_joint", joint="Tail", degrees=3)
 
-    assert refused.state == "failed" and "camera" in refused.description
+    assert refused.state == "failed" and "sees nobody" in refused.description
     assert unknown.state == "failed" and 'no joint "Tail"' in unknown.description
 
 

@@ -244,7 +244,7 @@ def test_awareness_and_life_set_the_robot(theatre: NaoqiTheatre) -> None:
         ("ALSonar", "unsubscribe", ["me"], "“me” has not subscribed"),
         ("ALBasicAwareness", "setEngagementMode", ["Shy"], "there is no “Shy”"),
         ("ALAutonomousLife", "setState", ["wild"], "no state “wild”"),
-        ("ALFaceDetection", "learnFace", ["Anna"], "it has no camera"),
+        ("ALFaceDetection", "learnFace", ["Anna"], "sees nobody"),
     ],
 )
 def test_what_is_wrong_is_told_in_words(

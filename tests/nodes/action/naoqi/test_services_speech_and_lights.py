@@ -235,9 +235,9 @@ def test_a_group_of_ones_own_is_lit_as_one(theatre: NaoqiTheatre) -> None:
         ("ALTextToSpeech", "setParameter", ["echo", 1.0], "no parameter “echo”"),
         ("ALTextToSpeech", "sayToFile", ["Hi", "a.wav"], "has no files"),
         ("ALAnimatedSpeech", "setBodyLanguageModeFromStr", ["wild"], "no mode “wild”"),
-        ("ALAudioPlayer", "playFile", ["a.wav"], "cannot play a sound"),
-        ("ALPhotoCapture", "takePicture", ["pictures", "a"], "it has no camera"),
-        ("ALVideoRecorder", "startRecording", ["pictures", "a"], "it has no camera"),
+        ("ALAudioPlayer", "playFile", ["/not/there.wav"], "finds no sound file"),
+        ("ALPhotoCapture", "takePictures", [0, "pictures", "a"], "from 1 to 20, not 0"),
+        ("ALVideoRecorder", "stopRecording", [], "no video to stop"),
         ("ALSystem", "shutdown", [], "switched off by stopping its node"),
     ],
 )
