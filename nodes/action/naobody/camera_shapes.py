@@ -35,7 +35,9 @@ def places(eye: Points, rays: Pixels, ways: Pixels) -> Pixels:
 def ball(eye: Points, rays: Pixels, centre: Points, radius: float) -> Hit:
     """Return where rays from an eye meet a ball."""
     start = eye - centre
-    ways = _first_way((rays**2).sum(-1), rays @ start, float(start @ start) - radius**2)
+    ways = _first_way(
+        (rays**2).sum(-1), (rays @ start).astype(np.float32), float(start @ start) - radius**2
+    )
     return Hit(ways, places(start, rays, ways) / np.float32(radius))
 
 
@@ -44,7 +46,7 @@ def post(eye: Points, rays: Pixels, foot: Points, height: float, radius: float) 
     start = eye - foot
     flat, flat_rays = start[:2], rays[..., :2]
     nearness = float(flat @ flat) - radius**2
-    ways = _first_way((flat_rays**2).sum(-1), flat_rays @ flat, nearness)
+    ways = _first_way((flat_rays**2).sum(-1), (flat_rays @ flat).astype(np.float32), nearness)
     met = places(start, rays, ways)
     is_met = (met[..., 2] >= 0.0) & (met[..., 2] <= height)
     met[..., 2] = 0.0

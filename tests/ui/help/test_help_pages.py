@@ -169,6 +169,7 @@ def titles_of(error: type) -> set[str]:
 
 
 def test_every_message_has_its_place_among_what_can_go_wrong(book):
+    import nodes.action.naoqi.wire.errors
     import nodes.cognitive.failures  # noqa: F401  they define more errors
 
     titles = {t for kind in (NepError, BlocksError) for t in titles_of(kind)}

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from nep_studio.ui.screens import room_around
 from nep_studio.ui.words import tr
 
 SHARE = 0.8
@@ -25,7 +26,7 @@ class LargeWindow(QWidget):
         box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
         box.addWidget(held)
         held.show()
-        self.resize(parent.screen().availableSize() * SHARE)
+        self.resize(room_around(parent).size() * SHARE)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Fill the screen, or leave it."""
