@@ -19,7 +19,9 @@ ROOT = Path(dev.__file__).parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 LONGEST_FILE_LINES = 300
 MADE_BY_MACHINES = {"build", "dist", "__pycache__"}
-MACHINE_PATH = re.compile(r"(?<![\w.~-])/(?:tmp|root|work|home/\w+|Users/\w+)/|\b[A-Z]:\\Users\\")
+MACHINE_PATH = re.compile(
+    r"(?<![\w.~-])/(?:tmp|root|work|home/(?!nao/)\w+|Users/\w+)/|\b[A-Z]:\\Users\\"
+)  # /home/nao is where every NAO keeps its files
 
 
 def project_files(root: Path, pattern: str = "*") -> Iterator[Path]:

@@ -63,7 +63,7 @@ def rests(stance: Stance) -> bool:
     return bool(turn[2] @ stance.turn[2] > 0.999)
 
 
-@pytest.mark.parametrize("after_s", [1.0, 2.7, 3.9, 5.1, 6.3, 7.5])
+@pytest.mark.parametrize("after_s", [1.0, 3.9, 6.3])
 @pytest.mark.parametrize(
     ("start", "goal"),
     [("Stand", "LyingBelly"), ("LyingBelly", "Stand"), ("LyingBack", "Stand"), ("Stand", "Sit")],
