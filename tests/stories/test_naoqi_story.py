@@ -9,13 +9,21 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QApplication
 
 from nep_core.messages import ROBOT_STATE, RobotState
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Subscriber
+from nep_studio.ui.robot_view.camera import Camera
+from nep_studio.ui.robot_view.room_picture import RoomPicture
+from nep_studio.ui.theme import Look
 from nodes.action.naoqi.client import Login, LoginRefused, NoConnection, Session
 from tests.node_running import until
 
@@ -92,7 +100,7 @@ def test_it_says_where_the_robot_is_and_switches_it_off_at_ctrl_c(
 
 @pytest.mark.skipif(importlib.util.find_spec("qi") is None, reason="qi is not there")
 def test_a_program_made_for_a_real_nao_moves_the_robot_that_the_network_sees(
-    network: PeerNetwork, free_port: int
+    network: PeerNetwork, free_port: int, qapp: QApplication
 ) -> None:
     states = Subscriber(ROBOT_STATE, RobotState, network=network)
     with terminal("--port", free_port, "--speed", 4) as shell:
@@ -103,13 +111,30 @@ def test_a_program_made_for_a_real_nao_moves_the_robot_that_the_network_sees(
             text=True,
         )
 
-        until(states, lambda state: state.leds["LeftFaceLeds"] == 0xFF00FF)
-        until(states, lambda state: state.saying == "a robot")
+        before = until(states, lambda state: state.robot)[-1]
+        lit = until(states, lambda state: state.leds["LeftFaceLeds"] == 0xFF00FF)[-1]
+        waving = until(states, lambda state: state.saying == "a robot")[-1]
         walked = until(states, lambda state: state.base[0] > 0.04)[-1]
         program.kill()
         program.communicate()
 
     assert walked.robot == f"NAO-{free_port}"
+    seen = [picture(qapp, state) for state in (before, lit, waving, walked)]
+    for earlier, later in pairwise(seen):
+        assert (np.abs(earlier - later).max(axis=2) > 30).mean() > 0.004
+    red, green, blue = (seen[1] - seen[0]).transpose(2, 0, 1)
+    assert ((red > 40) & (green < 0) & (blue > 0)).sum() > 20  # its eyes, in magenta
+
+
+def picture(qapp: QApplication, state: RobotState) -> NDArray[np.int_]:
+    """What the panel Robots paints of a state: red, green and blue of all pixels."""
+    room = RoomPicture(Look(qapp, "light"), drawing="painter")
+    room.show_robot(state.robot, state)
+    room.look_through(Camera(target=(0.0, 0.0, 0.3)))
+    image = room.grab_picture(QSize(320, 320))
+    bits = np.frombuffer(image.constBits(), np.uint8).reshape(320, 320, 4)
+    room.deleteLater()
+    return bits[:, :, 2::-1].astype(int)
 
 
 def test_a_port_that_is_taken_is_told_with_what_to_do(network: PeerNetwork) -> None:

@@ -25,6 +25,11 @@ class _Ended(NamedTuple):
 
 News = SimpleQueue[object]
 Work = Callable[[threading.Event, News], None]
+Tell = Callable[[object], None]
+
+
+def _tell_nobody(what: object) -> None:
+    """Nothing has begun yet."""
 
 
 class _Job(QObject):
@@ -41,6 +46,7 @@ class _Job(QObject):
         super().__init__(parent)
         self._cancelled = threading.Event()
         self._news: News = SimpleQueue()
+        self._tell_news: Tell = _tell_nobody
         self._thread: threading.Thread | None = None
         self._next_look = QTimer(self, interval=LOOK_MS)
         self._next_look.timeout.connect(self._take_news)
@@ -56,8 +62,10 @@ class _Job(QObject):
         self._news = SimpleQueue()
         self._next_look.stop()
 
-    def _start(self, work: Work) -> None:
+    def _start(self, work: Work, tell: Tell) -> None:
+        """Work in a thread; ``tell`` is called here for each of its news."""
         self.stop()
+        self._tell_news = tell
         self._cancelled = threading.Event()
         told = (work, self._cancelled, self._news)
         self._thread = threading.Thread(target=_work, args=told, daemon=True)
@@ -67,17 +75,12 @@ class _Job(QObject):
     def _take_news(self) -> None:
         news = self._news
         while news is self._news and not news.empty():
-            self._tell(news.get())
-
-    def _tell(self, what: object) -> None:
-        if isinstance(what, _Ended):
-            self.stop()
-            self.ended.emit(what.problem)
-        else:
-            self._told(what)
-
-    def _told(self, what: object) -> None:
-        raise NotImplementedError
+            what = news.get()
+            if isinstance(what, _Ended):
+                self.stop()
+                self.ended.emit(what.problem)
+            else:
+                self._tell_news(what)
 
 
 def _work(work: Work, cancelled: threading.Event, news: News) -> None:
@@ -106,9 +109,9 @@ class RobotSearch(_Job):
 
             find_robots(news.put, cancelled, seconds=seconds, interfaces=interfaces)
 
-        self._start(work)
+        self._start(work, self._tell_found)
 
-    def _told(self, what: object) -> None:
+    def _tell_found(self, what: object) -> None:
         robot = cast("FoundRobot", what)
         self.found.emit(robot.name, robot.address)
 
@@ -132,7 +135,4 @@ class RobotTest(_Job):
                     return
                 news.put(check)
 
-        self._start(work)
-
-    def _told(self, what: object) -> None:
-        self.checked.emit(what)
+        self._start(work, self.checked.emit)

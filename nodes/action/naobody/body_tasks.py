@@ -15,7 +15,8 @@ from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import move
 from nodes.action.naobody.parts import SINGLE_PARTS, part_of, single_parts
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task, play_motion, take_posture
+from nodes.action.naobody.running import Task
+from nodes.action.naobody.tasks import play_motion, take_posture
 from nodes.action.naobody.walking import walk
 
 HAND_SPEED = 0.4

@@ -14,7 +14,7 @@ from nodes.action.naobody.camera_view import picture
 from nodes.action.naobody.motion import TICK_S
 from nodes.action.naobody.picture_files import ENDING, VideoFile, safe_name, write_picture
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task
+from nodes.action.naobody.running import Task
 
 FRAME_S = 0.2
 RESTING = 2.0

@@ -7,8 +7,8 @@ import math
 from nep_core.errors import ActionFailed
 from nep_core.words import plain
 from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.surroundings import seen_things
-from nodes.action.naobody.tasks import Task
 
 FACE = "face_"
 LOOKING_TICKS = 20

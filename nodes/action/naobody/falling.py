@@ -7,7 +7,8 @@ import numpy as np
 from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import TICK_S, move
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task, lean, play_motion, resting_down
+from nodes.action.naobody.running import Task
+from nodes.action.naobody.tasks import lean, play_motion, resting_down
 
 PROTECTING_SPEED = 0.5
 LONGEST_FALL_S = 3.0

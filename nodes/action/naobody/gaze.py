@@ -10,7 +10,8 @@ from nep_core.errors import ActionFailed
 from nodes.action.naobody.body import Angles, Body
 from nodes.action.naobody.motion import move
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task, look, play_motion
+from nodes.action.naobody.running import Task
+from nodes.action.naobody.tasks import look, play_motion
 
 Place = tuple[float, float, float]
 

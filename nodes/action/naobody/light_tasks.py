@@ -8,7 +8,7 @@ from collections.abc import Callable
 from nodes.action.naobody import leds
 from nodes.action.naobody.motion import TICK_S
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task
+from nodes.action.naobody.running import Task
 
 EYES = ("LeftFaceLeds", "RightFaceLeds")
 CHANGE_S = 0.2

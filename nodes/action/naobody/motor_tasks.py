@@ -17,7 +17,7 @@ from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.motion import TICK_S, Motion, keyframe_motion, move
 from nodes.action.naobody.parts import SINGLE_PARTS, part_of
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task
+from nodes.action.naobody.running import Task
 
 TO_FULL_SPEED_S = 0.15
 """In this time a joint gets from rest to its top speed."""

@@ -25,6 +25,7 @@ from nodes.action.naobody.motor_tasks import at_pace, motor_limbs, motor_task
 from nodes.action.naobody.parts import PLAIN_NAMES, parts_of_limbs, single_parts
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.postures import posture_name
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.setting_tasks import change_setting, listen
 
 ARM_OF = {"left": Limb.LEFT_ARM, "right": Limb.RIGHT_ARM}
@@ -87,7 +88,7 @@ def _other_limbs(robot: VirtualRobot, action: a.Action) -> frozenset[Limb]:
     return motor_limbs(robot, action)
 
 
-def task_of(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+def task_of(robot: VirtualRobot, action: a.Action) -> Task:
     """Return the task that does an action; parts of the body that it moves must be locked."""
     parts = parts_of_limbs(limbs_of(robot, action))
     if isinstance(action, LOCKS_BY_ITSELF):
@@ -97,7 +98,7 @@ def task_of(robot: VirtualRobot, action: a.Action) -> tasks.Task:
     return _locked(robot, parts, _task(robot, action))
 
 
-def _locked(robot: VirtualRobot, parts: frozenset[str], task: tasks.Task) -> tasks.Task:
+def _locked(robot: VirtualRobot, parts: frozenset[str], task: Task) -> Task:
     if loose := sorted(parts & robot.released):
         part = PLAIN_NAMES[loose[0]]
         raise ActionFailed(
@@ -107,7 +108,7 @@ def _locked(robot: VirtualRobot, parts: frozenset[str], task: tasks.Task) -> tas
     return (yield from task)
 
 
-def _task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+def _task(robot: VirtualRobot, action: a.Action) -> Task:
     match action:
         case a.Say():
             return speaking.say(robot, action)
@@ -130,7 +131,7 @@ def _task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
     return _light_or_gaze_task(robot, action)
 
 
-def _light_or_gaze_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+def _light_or_gaze_task(robot: VirtualRobot, action: a.Action) -> Task:
     match action:
         case b.LookAt():
             return gaze.look_at(robot, (action.x_m, action.y_m, action.z_m), action.frame)
@@ -156,7 +157,7 @@ def _light_or_gaze_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
     return _body_or_setting_task(robot, action)
 
 
-def _body_or_setting_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
+def _body_or_setting_task(robot: VirtualRobot, action: a.Action) -> Task:
     match action:
         case b.Hand():
             return body_tasks.move_hands(robot, action.side, is_open=action.open)
@@ -191,7 +192,7 @@ def _body_or_setting_task(robot: VirtualRobot, action: a.Action) -> tasks.Task:
     raise ActionFailed(f"The virtual {robot.name} cannot do this.")
 
 
-def _posture(robot: VirtualRobot, word: str) -> tasks.Task:
+def _posture(robot: VirtualRobot, word: str) -> Task:
     """Take a posture with all joints locked: what is released cannot hold one."""
     robot.released = frozenset()
     robot.stiffness = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nodes.action.naobody.motion import TICK_S
 from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.tasks import Task
+from nodes.action.naobody.running import Task
 
 
 def change_setting(robot: VirtualRobot, name: str, value: bool | float | str) -> Task:

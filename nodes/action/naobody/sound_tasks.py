@@ -8,9 +8,9 @@ from pathlib import Path
 from nep_core.errors import ActionFailed
 from nodes.action.naobody.motion import TICK_S
 from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.sense_actions import PlaySound
 from nodes.action.naobody.sound_files import KINDS, found, length_s
-from nodes.action.naobody.tasks import Task
 
 PLAYING = "playing"
 """The setting that says which file is played, "" for none."""

@@ -7,8 +7,9 @@ from nodes.action.naobody.animations import NO_GESTURE
 from nodes.action.naobody.body_language import BODY_LANGUAGES, Spoken, spoken_parts
 from nodes.action.naobody.limbs import Limb
 from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.speech import speaking_time_s
-from nodes.action.naobody.tasks import Task, at_once, fitted, play, speak
+from nodes.action.naobody.tasks import at_once, fitted, play, speak
 
 
 def say(robot: VirtualRobot, action: Say) -> Task:

@@ -7,7 +7,7 @@ Closing it leaves the robot as it is. It raises ActionFailed when the robot cann
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Generator
+from collections.abc import Collection
 
 import numpy as np
 
@@ -28,10 +28,9 @@ from nodes.action.naobody.motion import (
 )
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.postures import posture_path
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.speech import speaking_time_s
 from nodes.action.naobody.stance import Leaning, between, leaning_s
-
-Task = Generator[None, None, str]
 
 LOOKING_SPEED = 0.3
 RETURN_SPEED = 0.5

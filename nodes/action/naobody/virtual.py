@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
-from nep_core.errors import ActionFailed
 from nep_core.messages import RobotState, SenseRequest, Thing
 from nodes.action.naobody.actions import Action
 from nodes.action.naobody.driver import Connection, Ended
@@ -26,11 +24,11 @@ from nodes.action.naobody.motion import TICK_S
 from nodes.action.naobody.parts import SINGLE_PARTS
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.repertoire import limbs_of, task_of
+from nodes.action.naobody.running import Running, Task, advance
 from nodes.action.naobody.sagging import Sagging
 from nodes.action.naobody.sensing import sense
 from nodes.action.naobody.sensors import measured, turning_rad_s
 from nodes.action.naobody.surroundings import Notice
-from nodes.action.naobody.tasks import Task
 from nodes.action.naobody.walking import come_to_rest
 
 LOOKING_S = 0.1
@@ -53,9 +51,9 @@ class VirtualDriver:
         self.robot = robot
         self.connection = Connection("disconnected", "")
         self._clock_s = now_s
-        self._running: dict[str, _Running] = {}
-        self._held_up: dict[str, _Running] = {}  # until limbs that brake have come to rest
-        self._braking: list[_Running] = []
+        self._running: dict[str, Running] = {}
+        self._held_up: dict[str, Running] = {}  # until limbs that brake have come to rest
+        self._braking: list[Running] = []
         self._joint_speed = np.zeros(len(robot.body.names))
         self._turning = np.zeros(3)
         self._idling = Idling(robot)
@@ -100,7 +98,7 @@ class VirtualDriver:
         if limbs & MOVING:
             task = steadily(self.robot, task)
         started = self._held_up if self._braking else self._running
-        started[command_id] = _Running(task, limbs)
+        started[command_id] = Running(task, limbs)
 
     def stop(self, command_ids: Collection[str]) -> None:
         """End some actions: their joints brake, which holds up later actions for a moment."""
@@ -112,7 +110,7 @@ class VirtualDriver:
                 limbs |= stopped.limbs
         if limbs & MOVING:
             rest = come_to_rest(self.robot, limbs, self._joint_speed)
-            self._braking.append(_Running(rest, frozenset(limbs)))
+            self._braking.append(Running(rest, frozenset(limbs)))
 
     def surroundings(self, things: Sequence[Thing]) -> None:
         """Take in what stands around the robot; it notices by itself what is in sight."""
@@ -193,7 +191,7 @@ class VirtualDriver:
         angles = self.robot.angles.copy()
         self._use_battery(TICK_S)
         self._braking = [one for one in self._braking if not _is_over(one.task)]
-        ended = [end for name in tuple(self._running) if (end := self._advance(name))]
+        ended = [end for name in tuple(self._running) if (end := advance(self._running, name))]
         if not self._braking:
             self._running |= self._held_up
             self._held_up.clear()
@@ -242,25 +240,8 @@ class VirtualDriver:
         moving = [name for name, one in self._running.items() if one.limbs & limbs]
         for name in moving:
             self._running.pop(name).task.close()
-        self._braking = [_Running(task, limbs)]
+        self._braking = [Running(task, limbs)]
         return [Ended(name, "failed", sentence) for name in moving]
-
-    def _advance(self, command_id: str) -> Ended | None:
-        try:
-            next(self._running[command_id].task)
-        except StopIteration as end:
-            ended = Ended(command_id, "done", end.value)
-        except ActionFailed as problem:
-            ended = Ended(command_id, "failed", problem.sentence)
-        else:
-            return None
-        del self._running[command_id]
-        return ended
-
-
-class _Running(NamedTuple):
-    task: Task
-    limbs: frozenset[Limb]
 
 
 def _is_over(task: Task) -> bool:

@@ -16,9 +16,10 @@ from nodes.action.naobody.motion import TICK_S, braking
 from nodes.action.naobody.obstacles import bump
 from nodes.action.naobody.pose import VirtualRobot
 from nodes.action.naobody.rolling import plan_roll
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.skeleton import turned
 from nodes.action.naobody.stance import Carried, Leaning
-from nodes.action.naobody.tasks import DOES_NOT_STAND, Task, at_once, go, moved_base, play_motion
+from nodes.action.naobody.tasks import DOES_NOT_STAND, at_once, go, moved_base, play_motion
 
 WALKING_POSTURE = "StandInit"
 JOINING_S = 0.3

@@ -12,10 +12,10 @@ from collections.abc import Generator, Mapping, Sequence
 from typing import Any
 
 from nep_core.errors import ActionFailed
+from nodes.action.naobody.running import Task
 from nodes.action.naoqi.client import NaoqiError, NoConnection, Pending, RemoteObject
 
 Calling = Generator[None, None, Any]
-Task = Generator[None, None, str]
 
 ANSWER_S = 2.5
 """What a robot does at once it has answered by then."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import queue
 from collections.abc import Callable, Collection, Sequence
-from typing import NamedTuple
 
 from nep_core.errors import ActionFailed
 from nep_core.messages import RobotState, SenseRequest, Thing
@@ -15,10 +14,11 @@ from nodes.action.naobody.gaze import from_world
 from nodes.action.naobody.limbs import MOVING, Limb
 from nodes.action.naobody.parts import SINGLE_PARTS
 from nodes.action.naobody.pose import VirtualRobot
+from nodes.action.naobody.running import Running, advance
 from nodes.action.naobody.sense_actions import Listen
 from nodes.action.naoqi.driver import told
 from nodes.action.naoqi.driver.address import read_address
-from nodes.action.naoqi.driver.calls import Calls, Task
+from nodes.action.naoqi.driver.calls import Calls
 from nodes.action.naoqi.driver.hearing import Hearing
 from nodes.action.naoqi.driver.link import Link, Reached
 from nodes.action.naoqi.driver.noticing import Noticing
@@ -42,7 +42,7 @@ class NaoqiDriver:
         self._noticing = Noticing(self._robot)
         self._watching = Watching(self._robot)
         self._hearing = Hearing(self._robot)
-        self._running: dict[str, _Running] = {}
+        self._running: dict[str, Running] = {}
         self._noticed: list[str] = []
         self._has_met_before = False
 
@@ -79,7 +79,7 @@ class NaoqiDriver:
         else:
             task = task_of(self._robot, action)
         task = self._robot.calls.after_stops(task)
-        self._running[command_id] = _Running(task, limbs_of(self._robot, action))
+        self._running[command_id] = Running(task, limbs_of(self._robot, action))
 
     def stop(self, command_ids: Collection[str]) -> None:
         """End some actions at once: each ends what it has begun on the robot."""
@@ -202,20 +202,8 @@ class NaoqiDriver:
 
     def _advance(self, command_id: str) -> Ended | None:
         try:
-            next(self._running[command_id].task)
-        except StopIteration as end:
-            ended = Ended(command_id, "done", end.value)
-        except ActionFailed as problem:
-            ended = Ended(command_id, "failed", problem.sentence)
+            return advance(self._running, command_id)
         except (TypeError, ValueError, LookupError, ArithmeticError):
             log.exception("what the robot answered to %s", command_id)
-            ended = Ended(command_id, "failed", told.strange_answer(self._robot.name))
-        else:
-            return None
-        del self._running[command_id]
-        return ended
-
-
-class _Running(NamedTuple):
-    task: Task
-    limbs: frozenset[Limb]
+            del self._running[command_id]
+            return Ended(command_id, "failed", told.strange_answer(self._robot.name))

@@ -9,7 +9,8 @@ import logging
 
 from nep_core.errors import ActionFailed
 from nodes.action.naobody import sense_actions as s
-from nodes.action.naoqi.driver.calls import Task, waited
+from nodes.action.naobody.running import Task
+from nodes.action.naoqi.driver.calls import waited
 from nodes.action.naoqi.driver.common_words import common_words
 from nodes.action.naoqi.driver.real import RealRobot
 

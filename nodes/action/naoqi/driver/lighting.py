@@ -5,7 +5,7 @@ from __future__ import annotations
 from nodes.action.naobody import actions as a
 from nodes.action.naobody import leds
 from nodes.action.naobody import sense_actions as s
-from nodes.action.naoqi.driver.calls import Task
+from nodes.action.naobody.running import Task
 from nodes.action.naoqi.driver.real import RealRobot
 
 ONE_COLOUR = frozenset({"LeftEarLeds", "RightEarLeds", "BrainLeds"})

@@ -14,8 +14,8 @@ from nodes.action.naobody.keyframes import Keyframes, Track
 from nodes.action.naobody.limbs import MOVING
 from nodes.action.naobody.parts import part_of, single_parts
 from nodes.action.naobody.postures import posture_name
+from nodes.action.naobody.running import Task
 from nodes.action.naoqi.driver.bezier import bezier_call
-from nodes.action.naoqi.driver.calls import Task
 from nodes.action.naoqi.driver.real import RealRobot
 
 POSTURE_S = 60.0

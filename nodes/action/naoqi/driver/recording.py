@@ -6,7 +6,8 @@ from pathlib import PurePosixPath
 
 from nep_core.errors import ActionFailed
 from nodes.action.naobody import sense_actions as s
-from nodes.action.naoqi.driver.calls import Task, waited
+from nodes.action.naobody.running import Task
+from nodes.action.naoqi.driver.calls import waited
 from nodes.action.naoqi.driver.real import RealRobot
 
 HOME = PurePosixPath("/home/nao")

@@ -12,8 +12,9 @@ from nodes.action.naobody import motor_actions as m
 from nodes.action.naobody import repertoire as virtual
 from nodes.action.naobody import sense_actions as s
 from nodes.action.naobody.limbs import MOVING, Limb
+from nodes.action.naobody.running import Task
 from nodes.action.naoqi.driver import lighting, moving, recording, speaking, walking
-from nodes.action.naoqi.driver.calls import Task, waited
+from nodes.action.naoqi.driver.calls import waited
 from nodes.action.naoqi.driver.real import RealRobot
 
 LIMBS: dict[type[a.Action], frozenset[Limb]] = {

@@ -8,10 +8,11 @@ from nodes.action.naobody import sense_actions as s
 from nodes.action.naobody.animations import NO_GESTURE, Animation
 from nodes.action.naobody.body_language import Spoken
 from nodes.action.naobody.keyframes import Keyframes
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.speaking import spoken
 from nodes.action.naobody.speech import speaking_time_s
 from nodes.action.naobody.tasks import at_once, changed, fitted
-from nodes.action.naoqi.driver.calls import Task, waited
+from nodes.action.naoqi.driver.calls import waited
 from nodes.action.naoqi.driver.moving import play_keyframes, return_to_posture, take_posture
 from nodes.action.naoqi.driver.real import RealRobot
 from nodes.action.naoqi.driver.watched import LANGUAGES, language_code

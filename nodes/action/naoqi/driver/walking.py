@@ -8,8 +8,9 @@ from nep_core.errors import ActionFailed
 from nodes.action.naobody import body_actions as b
 from nodes.action.naobody.gaze import arm_for, head_angles, in_torso, pointing
 from nodes.action.naobody.limbs import MOVING
+from nodes.action.naobody.running import Task
 from nodes.action.naobody.tasks import DOES_NOT_STAND
-from nodes.action.naoqi.driver.calls import Calling, Task
+from nodes.action.naoqi.driver.calls import Calling
 from nodes.action.naoqi.driver.real import RealRobot
 
 SLOWEST_M_S = 0.03

@@ -1,9 +1,10 @@
-"""A lamp that speaks NAOqi, our server that offers it, and our client at it."""
+"""A lamp that speaks NAOqi, and a virtual NAO that does: our servers, and our client at them."""
 
 from collections.abc import Iterator
 
 import pytest
 from naoqi_lamp import CallingLamp, lamp_server
+from naoqi_theatre import NaoqiTheatre
 
 from nodes.action.naoqi.client import RemoteObject, Session
 from nodes.action.naoqi.server import Server
@@ -31,3 +32,19 @@ def lamp(lamp_serving: tuple[CallingLamp, Server]) -> CallingLamp:
 @pytest.fixture
 def lamp_remote(lamp_session: Session) -> RemoteObject:
     return lamp_session.service("Lamp")
+
+
+@pytest.fixture
+def theatre() -> Iterator[NaoqiTheatre]:
+    """A robot that lives ten times as fast as a real one."""
+    theatre = NaoqiTheatre(speed=10)
+    yield theatre
+    theatre.close()
+
+
+@pytest.fixture
+def real_time() -> Iterator[NaoqiTheatre]:
+    """A robot that lives as fast as a real one."""
+    theatre = NaoqiTheatre()
+    yield theatre
+    theatre.close()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,13 +15,6 @@ from nodes.action.naoqi.server import CallFailed
 def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("NEP_ROBOT_FILES", str(tmp_path))
     return tmp_path / "NAO"
-
-
-@pytest.fixture
-def theatre() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre(speed=10)
-    yield theatre
-    theatre.close()
 
 
 def test_a_picture_is_in_the_file_that_is_told(theatre: NaoqiTheatre, files: Path) -> None:

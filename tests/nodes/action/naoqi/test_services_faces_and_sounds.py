@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 import wave
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
 from nodes.action.naoqi.client import CallFailed
-
-
-@pytest.fixture
-def theatre() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre(speed=10)
-    yield theatre
-    theatre.close()
 
 
 @pytest.fixture

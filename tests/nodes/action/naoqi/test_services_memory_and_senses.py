@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
 from nodes.action.naoqi.client import CallFailed, NoSuchService
-
-
-@pytest.fixture
-def theatre() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre(speed=10)
-    yield theatre
-    theatre.close()
 
 
 def heard_events(theatre: NaoqiTheatre, event: str) -> list[Any]:

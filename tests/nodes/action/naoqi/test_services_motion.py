@@ -3,26 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
 from nodes.action.naoqi.client import CallCancelled, CallFailed
-
-
-@pytest.fixture
-def theatre() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre(speed=10)
-    yield theatre
-    theatre.close()
-
-
-@pytest.fixture
-def real_time() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre()
-    yield theatre
-    theatre.close()
 
 
 def test_an_interpolation_takes_its_time_and_ends_at_its_last_angles(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 
 import pytest
 from naoqi_theatre import NaoqiTheatre
@@ -11,20 +10,6 @@ from naoqi_theatre import NaoqiTheatre
 from nodes.action.naoqi.client import CallFailed
 
 HEY = "animations/Stand/Gestures/Hey_1"
-
-
-@pytest.fixture
-def theatre() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre(speed=10)
-    yield theatre
-    theatre.close()
-
-
-@pytest.fixture
-def real_time() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre()
-    yield theatre
-    theatre.close()
 
 
 def test_say_waits_until_the_words_are_said(real_time: NaoqiTheatre) -> None:

@@ -4,26 +4,11 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
 
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
 from nodes.action.naoqi.client import CallFailed
-
-
-@pytest.fixture
-def theatre() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre(speed=10)
-    yield theatre
-    theatre.close()
-
-
-@pytest.fixture
-def real_time() -> Iterator[NaoqiTheatre]:
-    theatre = NaoqiTheatre()
-    yield theatre
-    theatre.close()
 
 
 def test_walking_ends_where_it_was_told_to(theatre: NaoqiTheatre) -> None:
