@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from nep_core.messages import NodeEvent, NodeState, NodeType
@@ -35,6 +36,7 @@ class NodeStatus:
     """A node as it was heard last; ``node`` is "type/name" of its manifest, "" when not known.
 
     ``since_s`` is when it took this state, ``heard_s`` when it was heard last (time.time()).
+    ``measures`` are the last that it sent; new ones alone are no change of its status.
     """
 
     name: str
@@ -47,6 +49,7 @@ class NodeStatus:
     heard_s: float = 0.0
     restarts: int = 0
     health: Health = "planned"
+    measures: Mapping[str, float] = field(default_factory=dict, compare=False)
 
     @property
     def is_there(self) -> bool:
@@ -115,6 +118,8 @@ class NodeBoard:
 
 
 def _heard(before: NodeStatus, state: NodeState) -> NodeStatus:
+    if state.measures or state.event == "starting":
+        before = replace(before, measures=state.measures)
     if state.event == "alive":
         was_silent = before.health in ("frozen", "planned")
         health: Health = "ready" if was_silent else before.health

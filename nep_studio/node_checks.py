@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from nep_core.errors import NepError
@@ -13,10 +13,12 @@ from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NodeEntry,
     RobotEntry,
+    named_gestures,
     node_entries,
     robot_entries,
 )
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
 
 RESERVED_NAMES = ("master", "studio", "program", "recording")
@@ -30,9 +32,10 @@ def all_problems(project: Project, language: Language, folder: Path) -> list[Pro
     """
     catalog = NodeCatalog(node_folders())
     nodes, robots = node_entries(project, language), robot_entries(project, language)
+    known = _known_gestures(project, language)
     found = [
         *check(project, language),
-        *(problem for entry in nodes for problem in _node(entry, catalog, language, folder)),
+        *(problem for entry in nodes for problem in _node(entry, catalog, known, folder)),
         *(problem for entry in robots for problem in _robot(entry)),
         *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
         *(_reserved("robots", entry.name, entry.block_id) for entry in robots),
@@ -42,7 +45,7 @@ def all_problems(project: Project, language: Language, folder: Path) -> list[Pro
 
 
 def _node(
-    entry: NodeEntry, catalog: NodeCatalog, language: Language, folder: Path
+    entry: NodeEntry, catalog: NodeCatalog, gestures: Collection[str], folder: Path
 ) -> Iterator[Problem]:
     try:
         manifest = catalog.find(entry.node)
@@ -53,7 +56,7 @@ def _node(
     for name, value in settings.items():
         if manifest.parameters[name].type == "file" and isinstance(value, str) and value:
             yield from _file(entry, name, value, folder)
-    yield from _gesture(entry, manifest, language)
+    yield from _gesture(entry, manifest, gestures)
 
 
 def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Problem]:
@@ -65,15 +68,21 @@ def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Pro
         )
 
 
-def _gesture(entry: NodeEntry, manifest: Manifest, language: Language) -> Iterator[Problem]:
-    gesture, shipped = entry.parameters.get("gesture"), language.choices.get("gestures", {})
-    own_model = bool(entry.parameters.get("model"))
-    if manifest.id == GESTURE_NODE and gesture and not own_model and gesture not in shipped:
-        yield _wrong(
-            entry,
-            f"Nobody has taught the gesture “{gesture}” yet.",
-            (f"Choose one of: {', '.join(shipped)}.", "Or name a model of your own: model=..."),
-        )
+def _known_gestures(project: Project, language: Language) -> list[str]:
+    """The gestures that the project has learned, and those that every project has."""
+    return [*trained_gestures(project), *language.choices.get("gestures", {})]
+
+
+def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> Iterator[Problem]:
+    if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
+        return
+    for gesture in named_gestures(entry):
+        if gesture not in known:
+            yield _wrong(
+                entry,
+                f"Nobody has taught the gesture “{gesture}” yet.",
+                (f"Choose one of: {', '.join(known)}.", "Or name a model of your own: model=..."),
+            )
 
 
 def _wrong(entry: NodeEntry, sentence: str, checklist: tuple[str, ...]) -> Problem:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Protocol
 
 from nep_studio.animation_files import AnimationFiles, animation_files
 from nep_studio.blocks.deployment import (
@@ -12,11 +13,14 @@ from nep_studio.blocks.deployment import (
     RobotEntry,
     gestures_used,
     is_recognised,
+    named_gestures,
     node_entries,
     robot_entries,
 )
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.own_gestures import TRIGGER, trained_gestures
 from nep_studio.blocks.program import Project
+from nep_studio.gesture_files import recogniser_file, take_files
 
 VIRTUAL_WATCH = "sensory/virtual_watch"
 REPLAY = "sensory/replay"
@@ -25,6 +29,13 @@ FASTEST = 50.0
 """The highest ``speed`` that nodes take."""
 
 Setting = str | float | int | bool
+
+
+class KeptFiles(Protocol):
+    """What a node reads of what the project keeps."""
+
+    def write(self) -> None:
+        """Write what is not there. Raises OSError."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +50,7 @@ class PlannedNode:
     parameters: Mapping[str, Setting] = field(default_factory=dict)
     reason: str = ""
     block_id: str = ""
-    files: AnimationFiles | None = None
+    files: KeptFiles | None = None
 
     @property
     def is_sensory(self) -> bool:
@@ -71,10 +82,10 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     nodes += [robot for robot in robots if robot.name not in names]
     if (files := animation_files(project)) is not None:
         nodes = [_with_animations(node, files, language.profile.node) for node in nodes]
-    known = language.choices.get("gestures", {})
+    nodes = [_with_recogniser(node, entry, project) for node, entry in _paired(nodes, listed)]
     nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
-    wanted = [gesture for gesture in gestures_used(project, language) if gesture in known]
-    nodes = _with_a_watch(nodes, choices, wanted)
+    nodes = _with_a_watch(nodes, choices, _known_gestures(project, language))
+    nodes = [_with_takes(node, project) for node in nodes]
     return [_hurried(node, choices.speed, language.profile.node) for node in nodes]
 
 
@@ -126,20 +137,71 @@ def _found(value: Setting, folder: Path) -> Setting:
     return str(folder / value) if (folder / value).is_file() else value
 
 
+def _known_gestures(project: Project, language: Language) -> list[str]:
+    """The gestures that rules wait for and somebody has taught."""
+    known = {*language.choices.get("gestures", {})} | {*trained_gestures(project)}
+    return [gesture for gesture in gestures_used(project, language) if gesture in known]
+
+
 def _missing_gestures(
     project: Project, language: Language, listed: tuple[NodeEntry, ...], names: set[str]
 ) -> list[PlannedNode]:
-    known = language.choices.get("gestures", {})
+    """Nodes for gestures that no node of the page recognises: one for all of the project's own."""
+    shipped, own = language.choices.get("gestures", {}), trained_gestures(project)
     missing = [
         gesture
-        for gesture in gestures_used(project, language)
-        if gesture in known and not is_recognised(gesture, listed, known)
+        for gesture in _known_gestures(project, language)
+        if not is_recognised(gesture, listed, shipped, own)
     ]
     reason = "a rule waits for this gesture"
-    return [
+    nodes = [
         PlannedNode(GESTURE, _free(gesture, names), {"gesture": gesture}, reason)
         for gesture in missing
+        if gesture not in own
     ]
+    if any(gesture in own for gesture in missing):
+        node = PlannedNode(GESTURE, _free("gestures", names), {}, "rules wait for your gestures")
+        nodes.append(_of_project(node, project))
+    return nodes
+
+
+def _paired(
+    nodes: list[PlannedNode], listed: tuple[NodeEntry, ...]
+) -> list[tuple[PlannedNode, NodeEntry | None]]:
+    entries = {entry.block_id: entry for entry in listed}
+    return [(node, entries.get(node.block_id)) for node in nodes]
+
+
+def _with_recogniser(node: PlannedNode, entry: NodeEntry | None, project: Project) -> PlannedNode:
+    """A node of the page that is to recognise what the project has learned; others as they are."""
+    if entry is None or node.node != GESTURE or node.parameters.get("model"):
+        return node
+    own = trained_gestures(project)
+    named = named_gestures(entry)
+    is_own = all(gesture in own for gesture in named) if named else bool(own)
+    return _of_project(node, project) if is_own else node
+
+
+def _of_project(node: PlannedNode, project: Project) -> PlannedNode:
+    """A gesture node with what the project has learned, as certain as each gesture wants it."""
+    file, own = recogniser_file(project), trained_gestures(project)
+    if file is None:
+        return node
+    settings: dict[str, Setting] = {**node.parameters, "model": str(file.path)}
+    points = {name: one.certainty for name, one in own.items() if one.certainty != TRIGGER}
+    if points and "certainty" not in settings:
+        settings["certainties"] = ", ".join(f"{name} {point:g}" for name, point in points.items())
+    return replace(node, parameters=settings, files=file)
+
+
+def _with_takes(node: PlannedNode, project: Project) -> PlannedNode:
+    """A virtual watch that can make the project's gestures; others as they are."""
+    if node.node != VIRTUAL_WATCH or node.parameters.get("takes"):
+        return node
+    files = take_files(project)
+    if files is None:
+        return node
+    return replace(node, parameters={**node.parameters, "takes": str(files.folder)}, files=files)
 
 
 def _free(name: str, names: set[str]) -> str:

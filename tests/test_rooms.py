@@ -40,11 +40,18 @@ ROOMS = {
 }
 """The arrows of the design; a module is in the room with the longest name that fits."""
 
-FINDING_ROOM, FINDING = "nodes.action.naoqi", "zeroconf"
-"""Where the library that finds robots may be imported: only inside functions."""
+LATE = {
+    "nodes.action.naoqi": ("zeroconf",),
+    "nodes.sensory": ("aiohttp", "cryptography", "bleak"),
+    "nep_studio.ui": ("segno", "mcap"),
+}
+"""Libraries that are imported when they are needed: only inside functions, or for types."""
 LEARNING = ("sklearn", "scipy")
 TRAINING_ROOM, TRAINING = "nodes.perceptual.recognition", re.compile("_*(train|fit)")
 """Where the libraries of learning may be imported: only inside functions of such names."""
+
+
+FOR_TYPES = "TYPE_CHECKING"
 
 
 @dataclass(frozen=True)
@@ -53,7 +60,7 @@ class Import:
 
     name: str
     line: int
-    function: str  # the function that it is in; empty at the top of the module
+    function: str  # the function that it is in; empty at the top of the module; FOR_TYPES
 
 
 def is_within(name: str, package: str) -> bool:
@@ -92,6 +99,8 @@ def imports_of(source: str, package: str) -> Iterator[Import]:
             yield Import(name, getattr(node, "lineno", 0), function)
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             function = node.name
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and not function:
+            function = FOR_TYPES if node.test.id == FOR_TYPES else ""
         waiting += [(child, function) for child in ast.iter_child_nodes(node)]
 
 
@@ -104,8 +113,9 @@ def is_allowed(module: str, found: Import) -> bool:
         return room_of(found.name) in room.ours
     if is_within(module, TRAINING_ROOM) and any(is_within(found.name, it) for it in LEARNING):
         return bool(TRAINING.match(found.function))
-    if is_within(module, FINDING_ROOM) and is_within(found.name, FINDING):
-        return bool(found.function)
+    for late_room, libraries in LATE.items():
+        if is_within(module, late_room) and any(is_within(found.name, it) for it in libraries):
+            return bool(found.function)
     return any(is_within(found.name, other) for other in room.others)
 
 
@@ -152,6 +162,9 @@ def test_every_import_follows_an_arrow_of_the_design() -> None:
         ("nep_studio/session.py", 'x.import_module("nodes.action.nao")', "nodes.action.nao"),
         ("nep_studio/ui/app.py", "import tests.fakes", "tests.fakes"),
         ("nep_studio/ui/app.py", "import sklearn", "sklearn"),
+        ("nep_studio/ui/watches/code.py", "import segno", "segno"),
+        ("nodes/sensory/ways/push.py", "import aiohttp.web", "aiohttp.web"),
+        ("nodes/action/nao.py", "def f():\n    import aiohttp", "aiohttp"),
     ],
 )
 def test_a_planted_wrong_arrow_is_found(tmp_path: Path, place: str, source: str, name: str) -> None:
@@ -171,6 +184,8 @@ def test_a_planted_wrong_arrow_is_found(tmp_path: Path, place: str, source: str,
         ("nodes/action/nao.py", "from nep_core.node import Node\nimport numpy as np"),
         ("nodes/perceptual/recognition/gmr.py", "def fit():\n    from sklearn import mixture"),
         ("nodes/action/naoqi/discovery.py", "def find():\n    from zeroconf import Zeroconf"),
+        ("nodes/sensory/ways/push.py", "def serve():\n    from aiohttp import web"),
+        ("nodes/sensory/ways/push.py", "if TYPE_CHECKING:\n    from aiohttp import web"),
         ("nep_studio/blocks/generate/names.py", "from ..edits import Edit\nimport msgspec"),
         ("nep_studio/session.py", "from nep_studio.blocks import edits\nimport nep_core"),
         ("nep_studio/session.py", "from PySide6.QtCore import QObject"),

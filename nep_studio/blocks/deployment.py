@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import cast
 
@@ -82,18 +82,29 @@ def gestures_used(project: Project, language: Language) -> dict[str, str]:
     return used
 
 
-def is_recognised(gesture: str, nodes: tuple[NodeEntry, ...], shipped: Iterable[str]) -> bool:
+def is_recognised(
+    gesture: str,
+    nodes: tuple[NodeEntry, ...],
+    shipped: Iterable[str],
+    own: Container[str] = (),
+) -> bool:
     """Whether a node of the Nodes page recognises a gesture.
 
-    A node that names no gesture recognises all of its model: the ``shipped`` ones, or those of a
-    model of its own, which only training knows.
+    A node that names no gesture recognises all of its model: those of a file, which only training
+    knows, else those that the project has learned (``own``), else the ``shipped`` ones.
     """
     for entry in nodes:
         if entry.node == GESTURE_NODE:
-            named, model = entry.parameters.get("gesture"), entry.parameters.get("model")
-            if named == gesture or (not named and (model or gesture in shipped)):
+            named, model = named_gestures(entry), entry.parameters.get("model")
+            if gesture in named or (not named and (model or gesture in (own or shipped))):
                 return True
     return False
+
+
+def named_gestures(entry: NodeEntry) -> list[str]:
+    """The gestures that a node is to recognise; none stands for all of its model."""
+    named = str(entry.parameters.get("gesture") or "").split(",")
+    return [name.strip() for name in named if name.strip()]
 
 
 def rules(project: Project, language: Language) -> Iterator[list[str]]:

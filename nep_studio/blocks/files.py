@@ -13,7 +13,7 @@ from .program import Project
 from .reading import from_bytes
 from .writing import to_bytes
 
-LARGEST_BYTES = 20_000_000
+LARGEST_BYTES = 60_000_000
 
 _CHOOSE = ("Is the file still where it was?", "Choose a project that NEP Studio has saved.")
 

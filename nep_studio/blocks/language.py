@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 
 from .definitions import Category, Definition
 from .own_animations import choices_with
+from .own_gestures import gestures_with
 from .procedures import definitions_of
 from .profile import RobotProfile
 from .program import Block, Project, split_slot
@@ -71,7 +72,7 @@ class Language:
         if own.revision[1] != revision[1]:
             choices = own.language.choices
             assert isinstance(choices, dict)
-            choices.update(choices_with(base.choices, project))
+            choices.update(gestures_with(choices_with(base.choices, project), project))
         own.revision = revision
         return own.language
 

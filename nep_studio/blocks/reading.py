@@ -19,6 +19,7 @@ from .file_text import OLD_COPY, Fault, decode, in_words, is_deeper, place_in
 from .fitting import why_not_block, why_not_stack
 from .language import Language
 from .own_animations import PREFIX, why_not_animation
+from .own_gestures import why_not_kept
 from .procedures import MOST_PROCEDURES, why_not_procedure
 from .program import FARTHEST, PAGES, Block, Note, Parent, Procedure, Project, Stack, Variable
 from .values import why_not_name, why_not_text
@@ -86,7 +87,7 @@ def _project(decoded: dict[str, Any], language: Language) -> Project:
     project.extra = {k: v for k, v in decoded.items() if k not in _File.__struct_fields__}
     if is_deeper(project.extra, DEEPEST_EXTRA):
         raise Fault("groups are nested too deep in it.")
-    _check_animations(project)
+    _check_kept(project)
     _read_variables(project, file.variables)
     _read_procedures(project, file.procedures)
     _read_page_order(project, file.page_order)
@@ -105,8 +106,10 @@ def _project(decoded: dict[str, Any], language: Language) -> Project:
     return project
 
 
-def _check_animations(project: Project) -> None:
+def _check_kept(project: Project) -> None:
     for key, value in project.extra.items():
+        if (reason := why_not_kept(key, value)) is not None:
+            raise Fault(reason)
         name = key.removeprefix(PREFIX)
         if name != key and (reason := why_not_animation(name, value)) is not None:
             raise Fault(f"the animation “{name[:40]}”: {reason}")

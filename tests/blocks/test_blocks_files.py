@@ -92,7 +92,7 @@ def test_a_huge_file_is_refused_before_it_is_read_as_json(language, tmp_path):
     with path.open("wb") as file:
         file.truncate(LARGEST_BYTES + 1)
 
-    with pytest.raises(ProjectFileError, match=r"huge\.nep is too large: more than 20 MB"):
+    with pytest.raises(ProjectFileError, match=r"huge\.nep is too large: more than 60 MB"):
         load(path, language)
 
 

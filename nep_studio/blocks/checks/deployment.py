@@ -12,6 +12,7 @@ from ..deployment import (
     robots_used,
 )
 from ..language import Language
+from ..own_gestures import own_gestures, trained_gestures
 from ..program import ALL_ROBOTS, Project
 from ..values import why_not_name
 from .problem import Fix, Problem, page_of
@@ -47,8 +48,13 @@ def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
 
 def _unrecognised_gestures(project: Project, language: Language) -> Iterator[Problem]:
     nodes, shipped = node_entries(project, language), language.choices.get("gestures", {})
+    own, trained = own_gestures(project), trained_gestures(project)
     for gesture, block in gestures_used(project, language).items():
-        if gesture.strip() and not is_recognised(gesture, nodes, shipped):
+        if gesture in own and gesture not in trained:
+            yield _untrained(own[gesture].title, page_of(project, block), block)
+        elif gesture in trained or not gesture.strip():
+            continue  # the project's own recogniser is started with the program
+        elif not is_recognised(gesture, nodes, shipped, trained):
             yield Problem(
                 "warning",
                 "gesture_unrecognised",
@@ -58,6 +64,17 @@ def _unrecognised_gestures(project: Project, language: Language) -> Iterator[Pro
                 ("Launch a gesture node for it on the Nodes page.",),
                 Fix("add_gesture_node", f"Recognise “{gesture}”", {"gesture": gesture}),
             )
+
+
+def _untrained(title: str, page: str, block: str) -> Problem:
+    return Problem(
+        "warning",
+        "gesture_untrained",
+        page,
+        block,
+        f"The gesture “{title}” is not learned yet.",
+        ("Record it five times in the panel Gestures.", "Press Train there."),
+    )
 
 
 def _names(project: Project, language: Language) -> Iterator[Problem]:

@@ -28,7 +28,16 @@ LONGEST_KEY = 64
 LARGEST_BYTES = 200_000
 ANIMATION = "animation_"
 """What the keys of the project's animations begin with: a dance has many numbers."""
-LARGEST_ANIMATION_BYTES = 1_000_000
+GESTURE = "gesture_"
+RECORDING = "recording_"
+RECOGNISER = "recogniser"
+"""The keys of what the project knows of gestures: gestures, recordings, and what was learned."""
+_LARGEST_OF = {
+    ANIMATION: 1_000_000,
+    GESTURE: 1_000_000,
+    RECORDING: 12_000_000,
+    RECOGNISER: 8_000_000,
+}
 DEEPEST = 20
 
 
@@ -62,7 +71,7 @@ def why_not_extra(key: str, value: object) -> str | None:
         size = len(msgspec.json.encode(value))
     except (TypeError, ValueError, RecursionError, UnicodeEncodeError):
         return "This cannot be written into the project's file."
-    most = LARGEST_ANIMATION_BYTES if key.startswith(ANIMATION) else LARGEST_BYTES
-    if size > most or is_deeper(value, DEEPEST):
+    sizes = (most for prefix, most in _LARGEST_OF.items() if key.startswith(prefix))
+    if size > next(sizes, LARGEST_BYTES) or is_deeper(value, DEEPEST):
         return "This is too much to be kept in the project's file."
     return None

@@ -1,0 +1,125 @@
+"""The gestures of a project as files for its nodes, and the nodes that are planned for them."""
+
+from __future__ import annotations
+
+from array import array
+from base64 import b64encode
+from pathlib import Path
+
+import pytest
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.own_gestures import (
+    OwnGesture,
+    OwnRecogniser,
+    OwnRecording,
+    OwnTake,
+    keep_gesture,
+    keep_recogniser,
+    keep_recording,
+    training_digest,
+)
+from nep_studio.blocks.packed_samples import packed_samples
+from nep_studio.gesture_files import RecogniserFile, recogniser_file, take_files
+from nep_studio.node_checks import all_problems
+from nep_studio.plan import Choices, PlannedNode, plan
+from nep_studio.studio_language import studio_language
+from nodes.perceptual.recognition.passages import takes_of
+from nodes.recordings import read_recordings
+from tests.blocks.block_building import B, build
+
+RATE_HZ = 50.0
+MODEL = b"a model"
+
+
+@pytest.fixture(scope="module")
+def language() -> Language:
+    return studio_language()
+
+
+@pytest.fixture
+def editor(language: Language, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Editor:
+    """A project whose rule waits for a wave, which it has learned."""
+    monkeypatch.setattr("nep_studio.gesture_files.cache_folder", lambda: tmp_path)
+    rows = array("f")
+    for number in range(300):
+        rows.extend([number / RATE_HZ, 0.1 * (number % 7), 0.0, 9.8])
+    samples = packed_samples(rows.tobytes())
+    takes = (OwnTake("a", "r1", 1.0, 2.0), OwnTake("b", "r1", 3.0, 4.0, left_out=True))
+    editor = build(language, [B("event.gesture"), B("control.wait")])
+    editor.apply(keep_recording("r1", OwnRecording(6.0, RATE_HZ, samples)), "record")
+    editor.apply(keep_gesture("wave", OwnGesture("Wave", takes=takes)), "record")
+    digest = training_digest(editor.project)
+    learned = OwnRecogniser(digest, ("wave",), b64encode(MODEL).decode())
+    editor.apply(keep_recogniser(learned), "train")
+    editor.apply(SetField(editor.project.pages["behaviour"][0].body[0], "gesture", "wave"), "wave")
+    return editor
+
+
+def planned(editor: Editor, node: str) -> list[PlannedNode]:
+    nodes = plan(editor.project, editor.language, Choices(), Path())
+    return [one for one in nodes if one.node == node]
+
+
+def test_one_node_recognises_all_that_the_project_has_learned(editor):
+    (node,) = planned(editor, "perceptual/gesture")
+
+    assert node.files is not None
+    node.files.write()
+
+    assert Path(str(node.parameters["model"])).read_bytes() == MODEL
+    assert "gesture" not in node.parameters
+
+
+def test_a_gesture_that_needs_more_certainty_says_so_to_its_node(editor):
+    editor.apply(keep_gesture("wave", OwnGesture("Wave", 0, 0.6)), "set the certainty")
+
+    (node,) = planned(editor, "perceptual/gesture")
+
+    assert node.parameters["certainties"] == "wave 0.6"
+
+
+def test_a_gesture_node_of_the_page_recognises_what_the_project_has_learned(editor, language):
+    launch = B("nodes.launch", {"node": "perceptual/gesture", "name": "mine"})
+    build(language, [launch], page="nodes", editor=editor)
+
+    (node,) = planned(editor, "perceptual/gesture")
+
+    assert (node.name, bool(node.parameters["model"])) == ("mine", True)
+    assert not [
+        p for p in all_problems(editor.project, editor.language, Path()) if "mine" in p.sentence
+    ]
+
+
+def test_the_virtual_watch_makes_the_gestures_of_the_project(editor):
+    (watch,) = planned(editor, "sensory/virtual_watch")
+
+    assert watch.files is not None
+    watch.files.write()
+    (recording,) = read_recordings(Path(str(watch.parameters["takes"])))
+
+    assert watch.parameters["gestures"] == "wave"
+    made = [
+        (one.gesture, round(one.start_s, 1), round(one.end_s, 1)) for one in takes_of(recording)
+    ]
+    assert made == [("wave", 1.0, 2.0)]
+
+
+def test_the_same_gestures_have_the_same_files(editor):
+    assert take_files(editor.project) == take_files(editor.project)
+    assert recogniser_file(editor.project) == recogniser_file(editor.project)
+
+
+def test_a_damaged_recogniser_is_told_when_it_is_written(tmp_path):
+    with pytest.raises(OSError, match="train the gestures again"):
+        RecogniserFile(tmp_path / "x", "no base64!").write()
+
+
+def test_only_the_newest_files_are_kept(tmp_path):
+    text = b64encode(MODEL).decode()
+    for number in range(25):
+        RecogniserFile(tmp_path / f"{number}", text).write()
+
+    assert len(list(tmp_path.iterdir())) == 20
