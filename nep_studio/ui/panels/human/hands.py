@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import uuid
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
@@ -55,7 +55,7 @@ class Hands(QObject):
         self,
         runner: Runner,
         visitors: Visitors,
-        watch_gestures: Collection[str],
+        watch_gestures: Callable[[], Collection[str]],
         parent: QObject,
     ) -> None:
         super().__init__(parent)
@@ -157,7 +157,7 @@ class Hands(QObject):
 
     def can_move_watch(self, gesture: str) -> bool:
         """Whether the watch on the screen is there, and knows a gesture."""
-        return self.has_watch and gesture in self._watch_gestures
+        return self.has_watch and gesture in self._watch_gestures()
 
     # How things happen
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from nep_core import messages as m
 from nep_core.words import plain
+from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.blocks.values import why_not_line
 from nep_studio.happenings import Happening, happenings_of
 from nep_studio.ui.main_window_panels import Panel
@@ -59,8 +60,7 @@ class HumanPanel(QScrollArea):
         self._tap: Tap | None = None
         self._ear = ProjectEar(window.files, self)
         self.visitors = Visitors(floor, self)
-        known = self._language.choices.get("gestures", {})
-        self.hands = Hands(self._runner, self.visitors, known, self)
+        self.hands = Hands(self._runner, self.visitors, self.watch_gestures, self)
         self.robot = QComboBox()
         self.state, self.run_button = QLabel(), QPushButton(tr("Run"))
         self.told = QLabel()
@@ -171,6 +171,16 @@ class HumanPanel(QScrollArea):
         editor = self._ear.editor
         return [] if editor is None else happenings_of(editor.project, editor.language)
 
+    def watch_gestures(self) -> dict[str, str]:
+        """What the watch on the screen can make: gestures that the project has takes of, and five.
+
+        Names to titles.
+        """
+        editor = self._ear.editor
+        own = {} if editor is None else own_gestures(editor.project)
+        recorded = {name: one.title for name, one in own.items() if one.takes}
+        return {**recorded, **self._language.choices.get("gestures", {})}
+
     def reset(self) -> None:
         """Let all visitors go, and all sensors measure what they usually do."""
         self.visitors.go_all()
@@ -193,7 +203,7 @@ class HumanPanel(QScrollArea):
         found = {what: self.visitors.find(what) for what in KINDS}
         here = {what: thing.name for what, thing in found.items() if thing is not None}
         self.waiting.show_happenings(waited_for, here)
-        self.gestures.show_gestures(waited_for)
+        self.gestures.show_gestures(waited_for, self.watch_gestures())
         self.person.set_names([one.value for one in waited_for if one.kind == "face" and one.value])
 
     def _show_state(self) -> None:

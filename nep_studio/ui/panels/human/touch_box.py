@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSpinBox, QVBoxLayout, QWidget
 
@@ -43,7 +43,7 @@ class GestureBox(QWidget):
 
     def __init__(self, hands: Hands, language: Language, look: Look) -> None:
         super().__init__()
-        self._hands, self._language, self._look = hands, language, look
+        self._hands, self._look = hands, look
         self.buttons: list[HappeningButton] = []
         self._shown: dict[str, str] | None = None
         self._rows = QWidget()
@@ -68,11 +68,10 @@ class GestureBox(QWidget):
         box.addWidget(self._rows)
         box.addWidget(self.how)
         box.addWidget(self._certain)
-        self.show_gestures([])
+        self.show_gestures([], language.choices.get("gestures", {}))
 
-    def show_gestures(self, of_program: Iterable[Happening]) -> None:
-        """Offer these gestures, and all that everybody knows."""
-        known = self._language.choices.get("gestures", {})
+    def show_gestures(self, of_program: Iterable[Happening], known: Mapping[str, str]) -> None:
+        """Offer the gestures of the program, and all that the watch on the screen knows."""
         wanted = {one.value: one.words for one in of_program if one.kind == "gesture"}
         offered = {**wanted, **known}
         if offered != self._shown:

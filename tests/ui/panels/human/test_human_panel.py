@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.own_gestures import OwnGesture, OwnTake, keep_gesture
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.panels.human.panel import HumanPanel
@@ -82,6 +83,24 @@ def test_there_is_a_control_for_every_hat_and_question(human: Human, block: str)
     panel = human([B("event.started"), asked] if asked else [B(block, fields)])
 
     assert words(panel) or "Do nothing" in panel.waiting.words.text()
+
+
+def test_gestures_that_were_recorded_in_the_project_can_be_made(
+    human: Human, window: MainWindow, qtbot: QtBot
+) -> None:
+    panel = human(rule("robot_events.heard", word="hello"))
+    takes = (OwnTake("t1", "r1", 0.0, 1.0),)
+    editor = window.files.document.editor
+
+    editor.apply(keep_gesture("big_wave", OwnGesture("big wave", takes=takes)), "record")
+
+    def titles() -> list[str]:
+        return [button.words for button in panel.gestures.buttons]
+
+    qtbot.waitUntil(lambda: "Big wave" in titles())
+    assert "big_wave" in panel.watch_gestures()
+    editor.history.undo()
+    qtbot.waitUntil(lambda: "Big wave" not in titles())
 
 
 def test_without_a_running_program_it_says_why_and_offers_run(
