@@ -58,16 +58,22 @@ ProgramEvent = Literal[
 ]
 
 ThingKind = Literal["person", "ball", "wall", "mark"]
+Wrist = Literal["", "left", "right", "hand"]
 ProgramCommand = Literal["start", "stop", "pause", "resume", "step", "set"]
 
 
 class NodeState(msgspec.Struct, kw_only=True, omit_defaults=True):
-    """How a node is doing (``/node_state``); ``alive`` is its heartbeat, once a second."""
+    """How a node is doing (``/node_state``); ``alive`` is its heartbeat, once a second.
+
+    ``measures`` are numbers by name that it measures about itself: ``rate_hz``, ``latency_ms``,
+    ``load`` (a share of a core), ``certainty.karate``; they come at most twice a second.
+    """
 
     node: str
     type: NodeType
     event: NodeEvent
     description: str = ""
+    measures: dict[str, float] = {}
     pid: int = 0
     host: str = ""
     time: float = msgspec.field(default_factory=time.time)
@@ -77,7 +83,8 @@ class Imu(msgspec.Struct, kw_only=True, omit_defaults=True):
     """A batch of n samples of a watch or phone (``/imu``).
 
     ``t`` is n seconds on the sensor's own clock, rising; ``acc`` is n rows of 3 in m/s²;
-    ``gyr`` is n rows of 3 in rad/s, or absent where the sensor has no gyroscope.
+    ``gyr`` is n rows of 3 in rad/s, or absent where the sensor has no gyroscope. ``wrist`` is
+    where the sensor is worn, "hand" when it is held, "" when nobody said.
     """
 
     source: str
@@ -87,6 +94,7 @@ class Imu(msgspec.Struct, kw_only=True, omit_defaults=True):
     gyr: list[tuple[float, float, float]] | None = None
     gravity_included: bool = True
     simulated: bool = False
+    wrist: Wrist = ""
 
 
 class HumanBehavior(msgspec.Struct, kw_only=True, omit_defaults=True):

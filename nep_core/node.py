@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import logging
+import math
 import os
 import select
 import signal
 import socket
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from nep_core.frames import Encoding
@@ -23,6 +24,8 @@ log = logging.getLogger(__name__)
 T = TypeVar("T")
 
 HEARTBEAT_S = 1.0
+MEASURES_S = 0.5
+"""Measures alone are sent no more often than this."""
 QUIET_BEATS = 5
 """After so many heartbeats without another lost message a node is well again."""
 STOP_SIGNALS = tuple(
@@ -48,6 +51,8 @@ class Node:
         self._lost: dict[str, int] = {}
         self._beats_since_loss = QUIET_BEATS
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
+        self._next_measures_s = -math.inf
+        self._told: tuple[NodeEvent, str] | None = None
         try:
             self._states = Publisher(NODE_STATE, network=self.network)
         except BaseException:
@@ -80,9 +85,23 @@ class Node:
         self._subscribers.append(subscriber)
         return subscriber
 
-    def state(self, event: NodeEvent, description: str = "") -> None:
-        """Tell how the node is doing."""
-        self._states.send(self._state(event, description))
+    def state(
+        self,
+        event: NodeEvent,
+        description: str = "",
+        *,
+        measures: Mapping[str, float] | None = None,
+    ) -> None:
+        """Tell how the node is doing, and what it measures about itself.
+
+        The same state again with measures goes out as a heartbeat with them, at most twice a
+        second, so that it can be told as often as the node likes.
+        """
+        if measures is not None and (event == "alive" or self._told == (event, description)):
+            self._measure(measures)
+            return
+        self._told = (event, description)
+        self._states.send(self._state(event, description, measures))
 
     def ready(self, description: str = "") -> None:
         """Tell that the node is ready, and for what."""
@@ -132,12 +151,23 @@ class Node:
             signal.raise_signal(number)
         self.stop()
 
-    def _state(self, event: NodeEvent, description: str = "") -> NodeState:
+    def _measure(self, measures: Mapping[str, float]) -> None:
+        if time.monotonic() >= self._next_measures_s:
+            self._next_measures_s = time.monotonic() + MEASURES_S
+            self._states.send(self._state("alive", measures=measures), latch=False)
+
+    def _state(
+        self,
+        event: NodeEvent,
+        description: str = "",
+        measures: Mapping[str, float] | None = None,
+    ) -> NodeState:
         return NodeState(
             node=self.name,
             type=self.type,
             event=event,
             description=description,
+            measures={name: value for name, value in (measures or {}).items() if _is_number(value)},
             pid=os.getpid(),
             host=self._host,
         )
@@ -165,3 +195,8 @@ class Node:
             self._beats_since_loss += 1
             if self._beats_since_loss == QUIET_BEATS:
                 self.state("running", "It keeps up again.")
+
+
+def _is_number(value: float) -> bool:
+    """Whether JSON knows the number: it has none for NaN and the infinities."""
+    return math.isfinite(value)

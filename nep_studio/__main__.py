@@ -18,6 +18,7 @@ JOBS = {
     "naoqi": "nep_studio.commands.naoqi:main",
     "exec": "nep_studio.commands.execute:main",
     "train": "nodes.perceptual.recognition.command:main",
+    "train-worker": "nodes.perceptual.recognition.worker:main",
     "master": "nep_core.cli.services:run_master",
 }
 

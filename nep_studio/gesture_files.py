@@ -126,6 +126,10 @@ def _lines(key: str, recording: OwnRecording, gestures: Mapping[str, OwnGesture]
     columns = 7 if recording.has_rotation else 4
     numbers = _numbers(recording)
     spans = sorted(_spans(key, recording, gestures))
+    yield f"# person: {recording.person}"
+    yield f"# gravity_included: {'yes' if recording.gravity_included else 'no'}"
+    yield f"# simulated: {'yes' if recording.simulated else 'no'}"
+    yield f"# wrist: {recording.wrist}"
     yield ",".join((*_HEADER[:columns], "gesture"))
     for at in range(0, len(numbers) - columns + 1, columns):
         t = numbers[at]

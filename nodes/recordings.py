@@ -7,10 +7,12 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 
 from nep_core.errors import RecordingError
+from nep_core.messages import Wrist
 from nodes.recording_columns import Columns
 from nodes.recording_table import IS_TEXT, Floats, Table, check_size, read_table
 
@@ -21,6 +23,7 @@ _MAY_WRITE = (
     "Choose a folder that you may write into, such as one in your home folder.",
     "Is there room on the disk?",
 )
+_LONGEST_DEVICE = 100
 _EARTH_M_S2 = (6.0, 14.0)  # a sensor whose usual |acceleration| is in here feels gravity
 
 
@@ -29,7 +32,8 @@ class Recording:
     """n samples of one sensor.
 
     ``t`` (n,) is s from 0, never going back; ``acc`` (n, 3) is m/s²; ``gyr`` (n, 3) is rad/s or
-    None; ``labels`` names the gesture being made at each sample, "" where there is none.
+    None; ``labels`` names the gesture being made at each sample, "" where there is none and "?"
+    where nobody knows. ``wrist`` and ``device`` are "" when nobody said.
     """
 
     source: str
@@ -40,6 +44,8 @@ class Recording:
     gravity_included: bool
     person: str = ""
     simulated: bool = False
+    wrist: Wrist = ""
+    device: str = ""
 
     @property
     def rate_hz(self) -> float:
@@ -128,7 +134,17 @@ def _recording(stem: str, table: Table) -> Recording:
         gravity_included=_feels_gravity(acc, table),
         person=table.about.get("person", person if table.gestures else ""),
         simulated=table.about.get("simulated") == "yes",
+        wrist=_wrist(table.about.get("wrist", "")),
+        device=_printable(table.about.get("device", "")),
     )
+
+
+def _printable(text: str) -> str:
+    return "".join(one for one in text if one.isprintable())[:_LONGEST_DEVICE]
+
+
+def _wrist(told: str) -> Wrist:
+    return told if told in get_args(Wrist) else ""  # type: ignore[return-value] # in says so
 
 
 def _seconds(times: Floats, columns: Columns) -> Floats:
@@ -161,6 +177,10 @@ def _lines_of(recording: Recording) -> Iterator[str]:
     yield f"# person: {_one_line(recording.person)}\n"
     yield f"# gravity_included: {'yes' if recording.gravity_included else 'no'}\n"
     yield f"# simulated: {'yes' if recording.simulated else 'no'}\n"
+    if recording.wrist:
+        yield f"# wrist: {recording.wrist}\n"
+    if recording.device:
+        yield f"# device: {' '.join(recording.device.split())}\n"
     gyr_names = ",gx,gy,gz" if recording.gyr is not None else ""
     yield f"t_s,ax,ay,az{gyr_names}{',gesture' if recording.labels is not None else ''}\n"
     parts = [recording.t[:, None], recording.acc]

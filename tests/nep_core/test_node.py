@@ -44,6 +44,40 @@ def test_a_node_that_fails_tells_so(join: Join) -> None:
     assert (heard[-1].event, heard[-1].description) == ("crashed", "the lamp is broken")
 
 
+def test_measures_of_the_same_state_go_out_as_a_heartbeat_at_most_twice_a_second(
+    join: Join,
+) -> None:
+    states = Subscriber(NODE_STATE, NodeState, network=join("observer"))
+
+    with Node("watch", "sensory") as node:
+        node.state("running", "listens", measures={"rate_hz": 50.0, "drift_ppm": float("nan")})
+        for rate_hz in range(100):
+            node.state("running", "listens", measures={"rate_hz": rate_hz})
+        node.state("running", "listens to two", measures={"rate_hz": 100.0})
+
+    heard = [state for state in iter(lambda: states.receive(0.2), None) if state]
+    told = [(one.event, one.description, one.measures) for one in heard]
+    assert told == [
+        ("starting", "", {}),
+        ("running", "listens", {"rate_hz": 50.0}),
+        ("alive", "", {"rate_hz": 0.0}),
+        ("running", "listens to two", {"rate_hz": 100.0}),
+        ("stopped", "", {}),
+    ]
+
+
+def test_a_late_joiner_hears_the_state_and_not_the_last_measures(join: Join) -> None:
+    with Node("watch", "sensory", network=join("watch")) as node:
+        node.ready("at port 8085")
+        node.state("alive", measures={"rate_hz": 50.0})
+
+        late = Subscriber(NODE_STATE, NodeState, network=join("late"))
+        heard = late.receive(5)
+
+    assert heard is not None
+    assert heard.event == "ready"
+
+
 def test_stopping_ends_every_wait(join: Join) -> None:
     node = Node("lamp", "sensory", network=join("lamp"))
     silence = node.subscriber("/silence")

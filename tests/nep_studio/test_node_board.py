@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 
 from nep_core.messages import NodeEvent, NodeState
@@ -12,6 +13,10 @@ def state(event: NodeEvent, at_s: float = 0.0, *, pid: int = 7, description: str
     return NodeState(
         node="karate", type="perceptual", event=event, pid=pid, time=at_s, description=description
     )
+
+
+def measured(**measures: float) -> NodeState:
+    return msgspec.structs.replace(state("alive"), measures=measures)
 
 
 @pytest.fixture
@@ -127,3 +132,23 @@ def test_nodes_are_not_frozen_because_the_computer_was_asleep(board: NodeBoard) 
 
     assert board.frozen(9002.0) == []
     assert board.frozen(9004.0) == ["karate"]
+
+
+def test_new_measures_are_kept_and_are_no_change_of_the_nodes_status(board: NodeBoard) -> None:
+    board.update(state("running", description="listens"))
+
+    is_changed = board.update(measured(rate_hz=50.0))
+    board.update(state("alive"))
+
+    status = board.nodes["karate"]
+    assert not is_changed
+    assert status.measures == {"rate_hz": 50.0}
+    assert (status.event, status.description) == ("running", "listens")
+
+
+def test_a_node_that_starts_anew_has_measured_nothing(board: NodeBoard) -> None:
+    board.update(measured(rate_hz=50.0))
+
+    board.update(state("starting"))
+
+    assert not board.nodes["karate"].measures

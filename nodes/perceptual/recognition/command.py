@@ -6,16 +6,19 @@ import argparse
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from nep_core.errors import NepError, RecordingError
-from nodes.perceptual.recognition.everyday import simulated_everyday
+from nodes.perceptual.recognition.material import (
+    EVERYDAY,
+    Material,
+    everybodys_movement,
+    learn,
+    read_material,
+)
 from nodes.perceptual.recognition.model import METHODS, Model
 from nodes.perceptual.recognition.model_file import SUFFIX, check_writable, write_model
 from nodes.perceptual.recognition.report import advice, in_words
-from nodes.perceptual.recognition.training import train
-from nodes.recordings import Recording, read_recordings
 
 
 def main(arguments: list[str]) -> int:
@@ -24,14 +27,18 @@ def main(arguments: list[str]) -> int:
     methods = METHODS if asked.method == "both" else (asked.method,)
     try:
         _check_goal(asked.output, asked.replace)
-        model = _train(asked.directory, asked.everyday, methods)
+        material = read_material(asked.directory, asked.everyday)
+        has_own_everyday = bool(material.everyday)
+        if not has_own_everyday:
+            material = material.with_everyday(everybodys_movement())
+        model = _train(material, methods)
     except RecordingError as error:
         return _tell_error(error, 2)
     try:
         write_model(asked.output, model)
     except NepError as error:
         return _tell_error(error, 1)
-    print("\n".join(_report(asked.output, model, asked.everyday is not None)))
+    print("\n".join(_report(asked.output, model, has_own_everyday)))
     return 0
 
 
@@ -54,7 +61,8 @@ def _parser() -> argparse.ArgumentParser:
         "--everyday",
         type=Path,
         metavar="DIRECTORY",
-        help="recordings of movement without gestures; without it, simulated people give some",
+        help="recordings of movement without gestures; without it, those of the folder"
+        f" {EVERYDAY} in DIRECTORY, and without these, simulated people give some",
     )
     return parser
 
@@ -81,18 +89,13 @@ def _check_goal(output: Path, replaces: bool) -> None:
         )
 
 
-def _train(directory: Path, everyday: Path | None, methods: Sequence[str]) -> Model:
-    recordings = read_recordings(directory)
-    idle = read_recordings(everyday) if everyday else simulated_everyday()
+def _train(material: Material, methods: Sequence[str]) -> Model:
+    for remark in material.remarks:
+        print(remark)
     started_s = time.monotonic()
-    model = train(recordings, [_without_labels(one) for one in idle], methods, tell=print)
+    model = learn(material, methods, tell=print)
     print(f"Trained in {time.monotonic() - started_s:.1f} s on {model.trained_on}.")
     return model
-
-
-def _without_labels(recording: Recording) -> Recording:
-    """Everyday recordings name activities (sitting, walking), which are no gestures."""
-    return replace(recording, labels=None)
 
 
 def _report(output: Path, model: Model, has_own_everyday: bool) -> list[str]:

@@ -65,6 +65,8 @@ def label_scan(found: Scan, gestures: Sequence[Gesture]) -> Integers:
         labels[overlaps >= _HOLDS] = names.index(take.gesture)
         most = np.maximum(most, overlaps)
     labels[(most >= _LACKS) & (most < _HOLDS)] = NEITHER
+    for start_s, end_s in found.passage.unknown:
+        labels[(found.starts_s < end_s) & (found.ends_s > start_s)] = NEITHER
     return labels
 
 

@@ -47,6 +47,16 @@ class Channels:
         return 4 * (1 + self.gyroscope) + 3 * self.gravity
 
     @property
+    def signal_names(self) -> tuple[str, ...]:
+        """What each signal of ``signals_of`` is: the body's movement, its size, rotation, gravity.
+
+        ``body x`` and ``rotation x`` are on a logarithmic scale, ``gravity x`` in parts of g.
+        """
+        kinds = ["body", *(["rotation"] if self.gyroscope else [])]
+        names = [f"{kind} {axis}" for kind in kinds for axis in ("x", "y", "z", "size")]
+        return (*names, *(f"gravity {axis}" for axis in "xyz" if self.gravity))
+
+    @property
     def in_words(self) -> str:
         """For people: what the sensor must have."""
         return IN_WORDS[self.gravity, self.gyroscope]

@@ -43,6 +43,15 @@ class Curves:
     whiten: Floats
     log_det: Floats
 
+    def expected(self, gesture_index: int) -> tuple[Floats, Floats]:
+        """The curve of a gesture and how far takes usually stray from it; both (32, s).
+
+        In the units of ``signals_of``; ``signal_names`` tells what each column is.
+        """
+        inverse = np.linalg.inv(self.whiten[gesture_index])
+        spread = np.sqrt(np.einsum("tij,tij->ti", inverse, inverse))
+        return self.mean[gesture_index] * self.scale, spread * self.scale
+
     def distances(self, signals: Singles) -> Floats:
         """Twice the negative log likelihood a point, less a constant; (n, curves)."""
         points = (signals / self.scale).transpose(1, 2, 0)

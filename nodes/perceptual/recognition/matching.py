@@ -61,7 +61,7 @@ def match(takes: Sequence[Take], detections: Sequence[Detection]) -> Tally:
     left = list(detections)
     pairs = []
     for take in takes:
-        caused = [found for found in left if _meet(take, found)]
+        caused = [found for found in left if meets(take, found)]
         caused.sort(key=lambda found: found.gesture != take.gesture)
         pairs.append((take.gesture, caused[0].gesture if caused else NOTHING))
         if caused:
@@ -69,6 +69,7 @@ def match(takes: Sequence[Take], detections: Sequence[Detection]) -> Tally:
     return Tally((*pairs, *((NOTHING, found.gesture) for found in left)))
 
 
-def _meet(take: Take, found: Detection) -> bool:
+def meets(take: Take, found: Detection) -> bool:
+    """Whether a trigger may have been caused by a take."""
     shared = min(take.end_s, found.t_end) - max(take.start_s, found.t_start)
     return shared > _SHARED * min(take.duration_s, found.t_end - found.t_start)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -17,6 +17,7 @@ from nodes.perceptual.recognition.stream import Floats
 METHODS = ("trees", "gmr")
 TRIGGER = 0.75
 """The certainty at which a gesture counts as made."""
+LOWEST_TRIGGER, HIGHEST_TRIGGER = 0.05, 1.0
 
 
 class Scorer(Protocol):
@@ -52,13 +53,35 @@ def certainty_of(scores: Floats, usual: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
+class Sensor:
+    """What recordings were made with; ``device`` is "" when nobody said."""
+
+    device: str
+    rate_hz: float
+    gravity_included: bool
+    gyroscope: bool
+
+
+@dataclass(frozen=True)
 class Model:
-    """Gestures, recognisers, ``trained_on`` in words, and the report of the training by method."""
+    """Gestures, recognisers, ``trained_on`` in words, and the report of the training by method.
+
+    ``triggers`` are the certainties at which each gesture counts as made, TRIGGER where none is
+    given. ``wrist`` is where the ``sensors`` of the training were worn: left, right, hand, or ""
+    when nobody said.
+    """
 
     gestures: tuple[Gesture, ...]
     recognisers: tuple[Recogniser, ...]
     trained_on: str
     report: Mapping[str, Any]
+    triggers: Mapping[str, float] = field(default_factory=dict)
+    wrist: str = ""
+    sensors: tuple[Sensor, ...] = ()
+
+    def __post_init__(self) -> None:
+        complete = {name: self.triggers.get(name, TRIGGER) for name in self.names}
+        object.__setattr__(self, "triggers", complete)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -101,3 +124,27 @@ class Model:
                 ),
             )
         return max(usable, key=lambda found: found.channels.signals)
+
+
+def with_triggers(model: Model, triggers: Mapping[str, float]) -> Model:
+    """The model with other triggers for some of its gestures.
+
+    RecordingError for a gesture that it does not know, or a certainty that makes no sense.
+    """
+    for name, certainty in triggers.items():
+        if name not in model.names:
+            raise unknown_gesture(model, name)
+        if not LOWEST_TRIGGER <= certainty <= HIGHEST_TRIGGER:
+            raise RecordingError(
+                f"The certainty of {name} is {certainty:g}, which is not possible.",
+                checklist=(f"Choose one from {LOWEST_TRIGGER} to {HIGHEST_TRIGGER:.0f}.",),
+            )
+    return replace(model, triggers={**model.triggers, **triggers})
+
+
+def unknown_gesture(model: Model, name: str) -> RecordingError:
+    """The error of a gesture that a model was not trained for."""
+    return RecordingError(
+        f'The gesture model does not know "{name}".',
+        checklist=(f"Choose one of: {', '.join(model.names)}.", "Or train it and try again."),
+    )

@@ -13,6 +13,8 @@ from nodes.perceptual.recognition.stream import RATE_HZ, EvenStream, Floats
 from nodes.recordings import Recording
 
 SHORTEST_S, LONGEST_S = 0.2, 8.0
+UNKNOWN = "?"
+"""The label of what is neither a gesture nor its absence: nothing is learned from it."""
 _LONGEST_NAME = 100
 _SLOWEST_HZ = 10.0
 
@@ -33,13 +35,17 @@ class Take:
 
 @dataclass(frozen=True)
 class Passage:
-    """Even ``samples`` (m, 3 or 6) from ``start_s`` on, without a gap, and the takes in it."""
+    """Even ``samples`` (m, 3 or 6) from ``start_s`` on, without a gap, and the takes in it.
+
+    ``unknown`` are the spans (start, end) in s that are neither a gesture nor its absence.
+    """
 
     source: str
     person: str
     start_s: float
     samples: Floats
     takes: tuple[Take, ...]
+    unknown: tuple[tuple[float, float], ...] = ()
 
     @property
     def duration_s(self) -> float:
@@ -59,16 +65,27 @@ def passages_of(recordings: Sequence[Recording], gyroscope: bool) -> list[Passag
 
 def takes_of(recording: Recording) -> list[Take]:
     """The gestures labelled in a recording; RecordingError names one that is too short or long."""
-    takes = []
+    takes = [
+        Take(name, start_s, end_s) for name, start_s, end_s in _spans(recording) if name != UNKNOWN
+    ]
+    for take in takes:
+        _check(recording, take)
+    return takes
+
+
+def unknown_spans(recording: Recording) -> list[tuple[float, float]]:
+    """The spans (start, end) in s that are marked as neither a gesture nor its absence."""
+    return [(start_s, end_s) for name, start_s, end_s in _spans(recording) if name == UNKNOWN]
+
+
+def _spans(recording: Recording) -> Iterator[tuple[str, float, float]]:
+    """Each run of equal labels that are not empty: label, start and end in s."""
     at = 0
     for name, run in groupby(recording.labels or ()):
         count = len(list(run))
         if name:
-            take = Take(name, float(recording.t[at]), float(recording.t[at + count - 1]))
-            _check(recording, take)
-            takes.append(take)
+            yield name, float(recording.t[at]), float(recording.t[at + count - 1])
         at += count
-    return takes
 
 
 def _passages(recording: Recording, gyroscope: bool) -> Iterator[Passage]:
@@ -82,11 +99,12 @@ def _passages(recording: Recording, gyroscope: bool) -> Iterator[Passage]:
     if gyroscope and recording.gyr is not None:
         values = np.hstack([recording.acc, recording.gyr])
     takes = takes_of(recording)
+    unknown = tuple(unknown_spans(recording))
     for stretch in EvenStream().push(recording.t, values):
         start_s, end_s = float(stretch.t[0]), float(stretch.t[-1])
         inside = (take for take in takes if start_s - 0.1 <= take.start_s <= end_s)
         whole = tuple(take for take in inside if take.end_s <= end_s + 0.1)
-        yield Passage(recording.source, recording.person, start_s, stretch.values, whole)
+        yield Passage(recording.source, recording.person, start_s, stretch.values, whole, unknown)
 
 
 def _check(recording: Recording, take: Take) -> None:

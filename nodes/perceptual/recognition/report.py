@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from nodes.perceptual.recognition.matching import NOTHING
+from nodes.perceptual.recognition.matching import NOTHING, Tally
 from nodes.perceptual.recognition.scans import Gesture
 from nodes.perceptual.recognition.validation import Validation
 
@@ -14,7 +14,11 @@ _FEW_TAKES = 5
 
 
 def report_of(gestures: Sequence[Gesture], validation: Validation) -> dict[str, Any]:
-    """The figures of a validation: pairs made and recognised ("" is nothing), and everyday."""
+    """The figures of a validation: pairs made and recognised ("" is nothing), and everyday.
+
+    ``curves`` tell by gesture what each certainty would catch and let through, ``left_out`` how
+    each take fared, ``people`` how each person did where there are several.
+    """
     pairs = Counter(validation.tally.pairs)
     return {
         "takes": {gesture.name: gesture.takes for gesture in gestures},
@@ -24,7 +28,25 @@ def report_of(gestures: Sequence[Gesture], validation: Validation) -> dict[str, 
         "f1": round(validation.tally.f1, 4),
         "everyday_triggers": validation.everyday_triggers,
         "everyday_s": round(validation.everyday_s, 1),
+        "curves": {
+            name: [_rounded(vars(point)) for point in points]
+            for name, points in validation.curves.items()
+        },
+        "left_out": [_rounded(vars(take)) for take in validation.takes],
+        "people": {person: _score(tally) for person, tally in validation.people.items()},
     }
+
+
+def _rounded(figures: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        name: round(value, 4) if isinstance(value, float) else value
+        for name, value in figures.items()
+    }
+
+
+def _score(tally: Tally) -> dict[str, float]:
+    score = {"made": tally.made, "right": tally.right, "fired": tally.fired}
+    return score | {"f1": round(tally.f1, 4)}
 
 
 def in_words(method: str, report: Mapping[str, Any]) -> list[str]:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from nodes.perceptual.recognition.curves import CurvePoint, curves_of, is_unknown, rises
 from nodes.perceptual.recognition.examples import Examples
 from nodes.perceptual.recognition.features import Integers
-from nodes.perceptual.recognition.matching import Tally, match
+from nodes.perceptual.recognition.matching import Tally, match, meets
 from nodes.perceptual.recognition.model import TRIGGER, Scorer, certainty_of
+from nodes.perceptual.recognition.passages import Passage, Take
 from nodes.perceptual.recognition.peaks import Detection, PeakPicker, best_lengths
 from nodes.perceptual.recognition.scans import Gesture, Scan, fitting, window_lengths
 from nodes.perceptual.recognition.stream import RATE_HZ, Floats
@@ -23,13 +25,34 @@ _SAME = 0.5  # a window that shares so much with a take may be the one that find
 
 
 @dataclass(frozen=True)
+class LeftOutTake:
+    """A take that the recogniser had not seen: how certain it was of the right gesture.
+
+    ``recognised`` is the gesture that it was taken for, NOTHING for none.
+    """
+
+    gesture: str
+    source: str
+    start_s: float
+    certainty: float
+    recognised: str
+
+
+@dataclass(frozen=True)
 class Validation:
-    """``usual`` scores of left-out takes (gestures,), and what was found in left-out stretches."""
+    """``usual`` scores of left-out takes (gestures,), and what was found in left-out stretches.
+
+    ``tally`` and ``everyday_triggers`` are at TRIGGER, ``curves`` by gesture at every certainty;
+    ``people`` are the tallies of each person where there are several.
+    """
 
     usual: Floats
     tally: Tally
     everyday_triggers: int
     everyday_s: float
+    curves: Mapping[str, tuple[CurvePoint, ...]] = field(default_factory=dict)
+    takes: tuple[LeftOutTake, ...] = ()
+    people: Mapping[str, Tally] = field(default_factory=dict)
 
 
 def cross_validate(
@@ -39,14 +62,32 @@ def cross_validate(
     gestures = examples.gestures
     scores = _left_out_scores(fit, examples, scans, folds)
     usual = _usual_scores(gestures, scans, scores)
+    certainties = [certainty_of(score, usual) for score in scores]
+    takes: list[LeftOutTake] = []
+    people: dict[str, Tally] = {}
     tally, triggers, everyday_s = Tally(), 0, 0.0
-    for found, score in zip(scans, scores, strict=True):
-        detections = spot(found, gestures, certainty_of(score, usual))
-        if found.passage.takes:
-            tally += match(found.passage.takes, detections)
-        else:
-            triggers, everyday_s = triggers + len(detections), everyday_s + found.passage.duration_s
-    return Validation(usual, tally, triggers, everyday_s)
+    for found, certainty in zip(scans, certainties, strict=True):
+        passage = found.passage
+        detections = spot(found, gestures, certainty)
+        if not passage.takes:
+            triggers, everyday_s = triggers + len(detections), everyday_s + passage.duration_s
+            continue
+        here = _tally(passage, detections)
+        tally, people[passage.person] = tally + here, people.get(passage.person, Tally()) + here
+        takes += _left_out_takes(found, gestures, certainty, here)
+    seen = [
+        (found.passage, rises(found, gestures, certainty))
+        for found, certainty in zip(scans, certainties, strict=True)
+    ]
+    return Validation(
+        usual,
+        tally,
+        triggers,
+        everyday_s,
+        curves_of(gestures, seen),
+        tuple(takes),
+        people if len(people) > 1 else {},
+    )
 
 
 def spot(
@@ -65,6 +106,38 @@ def spot(
         for hop in range(len(looks))
     ]
     return [one for one in (*detections, picker.flush()) if one is not None]
+
+
+def _tally(passage: Passage, detections: Sequence[Detection]) -> Tally:
+    """How triggers agree with the takes; those where nobody knows what was made do not count."""
+    takes = passage.takes
+    known = [
+        found
+        for found in detections
+        if any(meets(take, found) for take in takes) or not is_unknown(passage, found)
+    ]
+    return match(takes, known)
+
+
+def _left_out_takes(
+    found: Scan, gestures: Sequence[Gesture], certainties: Floats, tally: Tally
+) -> list[LeftOutTake]:
+    names = [gesture.name for gesture in gestures]
+    return [
+        LeftOutTake(
+            take.gesture,
+            found.passage.source,
+            take.start_s,
+            _best_near(found, take, certainties[:, names.index(take.gesture)]),
+            recognised,
+        )
+        for take, (_, recognised) in zip(found.passage.takes, tally.pairs, strict=False)
+    ]
+
+
+def _best_near(found: Scan, take: Take, values: Floats) -> float:
+    """The highest value of the windows that may be the ones that find a take."""
+    return float(values[found.overlaps(take) >= _SAME].max(initial=0.0))
 
 
 def _left_out_scores(
@@ -90,9 +163,8 @@ def _usual_scores(
     best: dict[str, list[float]] = {gesture.name: [] for gesture in gestures}
     for found, score in zip(scans, scores, strict=True):
         for take in found.passage.takes:
-            near = found.overlaps(take) >= _SAME
-            column = list(best).index(take.gesture)
-            best[take.gesture].append(float(score[near, column].max(initial=0.0)))
+            column = score[:, list(best).index(take.gesture)]
+            best[take.gesture].append(_best_near(found, take, column))
     every = [value for values in best.values() for value in values]
     middle = float(np.median(every)) or UNCHECKED_SCORE
     own = np.array([np.median(values) if values else middle for values in best.values()])

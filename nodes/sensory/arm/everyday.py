@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
+from nodes.sensory.arm.chores import CHORES
 from nodes.sensory.arm.gestures import arm, trunk
-from nodes.sensory.arm.motion import Motion, Swing
-from nodes.sensory.arm.skeleton import LENGTHS, Joint, Pose, joint_values
-
-Activity = Callable[[Motion, float, np.random.Generator], float]
-"""Plans something from a time on; tells until when."""
+from nodes.sensory.arm.motion import Motion
+from nodes.sensory.arm.moving import Activity, settle, shift, sway
+from nodes.sensory.arm.skeleton import Joint, Pose
 
 HANGING = arm(3, 8, 5, 15, 25)
 _ON_THE_LAP = arm(20, 10, 35, 75, 40)
@@ -23,70 +20,70 @@ _SITTING: Pose = {Joint.FORWARD: -0.25, Joint.UP: -0.42}
 
 def rest(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Let the arm hang."""
-    return _settle(motion, start_s, {**HANGING, **trunk(0)}, rng) + rng.uniform(1.0, 3.0)
+    return settle(motion, start_s, {**HANGING, **trunk(0)}, rng) + rng.uniform(1.0, 3.0)
 
 
 def hand_on_lap(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Lay the hand down, and shift it now and then."""
-    now_s = _settle(motion, start_s, {**_ON_THE_LAP, **trunk(0)}, rng)
+    now_s = settle(motion, start_s, {**_ON_THE_LAP, **trunk(0)}, rng)
     for _ in range(rng.integers(1, 4)):
-        now_s = _shift(motion, now_s + rng.uniform(0.5, 2.0), _ON_THE_LAP, 5.0, rng)
+        now_s = shift(motion, now_s + rng.uniform(0.5, 2.0), _ON_THE_LAP, 5.0, rng)
     return now_s
 
 
 def type_on_keyboard(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Type: quick small turns of the forearm, the hand going to and fro over the keys."""
-    now_s = _settle(motion, start_s, {**_ON_THE_DESK, **trunk(0, 5)}, rng)
+    now_s = settle(motion, start_s, {**_ON_THE_DESK, **trunk(0, 5)}, rng)
     end_s = now_s + rng.uniform(3.0, 7.0)
     for joint, degrees in ((Joint.PRONATION, 1.2), (Joint.ELBOW, 0.5), (Joint.ROTATION, 0.6)):
-        _sway(motion, now_s, end_s, rng.uniform(2.0, 5.0), {joint: degrees}, rng)
+        sway(motion, now_s, end_s, rng.uniform(2.0, 5.0), {joint: degrees}, rng)
     while now_s < end_s - 1.5:
-        now_s = _shift(motion, now_s + rng.uniform(0.3, 1.0), _ON_THE_DESK, 4.0, rng)
+        now_s = shift(motion, now_s + rng.uniform(0.3, 1.0), _ON_THE_DESK, 4.0, rng)
     return end_s
 
 
 def drink(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Reach for a cup, bring it to the mouth, tilt it, put it back."""
     cup, mouth = arm(50, 10, 20, 50, 0), arm(60, 25, 45, 132, -5)
-    now_s = _settle(motion, start_s, cup, rng) + 0.4
-    now_s = _settle(motion, now_s, mouth, rng) + 0.2
+    now_s = settle(motion, start_s, cup, rng) + 0.4
+    now_s = settle(motion, now_s, mouth, rng) + 0.2
     motion.move({Joint.FLEXION: 72, Joint.PRONATION: 15}, now_s, 0.8)
-    now_s = _settle(motion, now_s + rng.uniform(1.5, 2.5), cup, rng) + 0.3
-    return _settle(motion, now_s, _ON_THE_DESK, rng)
+    now_s = settle(motion, now_s + rng.uniform(1.5, 2.5), cup, rng) + 0.3
+    return settle(motion, now_s, _ON_THE_DESK, rng)
 
 
 def scratch_head(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Scratch an ear."""
-    now_s = _settle(motion, start_s, arm(75, 45, 40, 140, 0), rng)
+    now_s = settle(motion, start_s, arm(75, 45, 40, 140, 0), rng)
     end_s = now_s + rng.uniform(1.5, 2.5)
-    _sway(motion, now_s, end_s, rng.uniform(3.0, 4.5), {Joint.ELBOW: 4, Joint.PRONATION: 5}, rng)
-    return _settle(motion, end_s, _ON_THE_LAP, rng)
+    sway(motion, now_s, end_s, rng.uniform(3.0, 4.5), {Joint.ELBOW: 4, Joint.PRONATION: 5}, rng)
+    return settle(motion, end_s, _ON_THE_LAP, rng)
 
 
 def gesticulate(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Talk with the hands."""
-    now_s = _settle(motion, start_s, _BEFORE_THE_CHEST, rng)
+    now_s = settle(motion, start_s, _BEFORE_THE_CHEST, rng)
     for _ in range(rng.integers(4, 9)):
-        now_s = _shift(motion, now_s, _BEFORE_THE_CHEST, 16.0, rng) + rng.uniform(-0.15, 0.5)
+        now_s = shift(motion, now_s, _BEFORE_THE_CHEST, 16.0, rng) + rng.uniform(-0.15, 0.5)
     return now_s
 
 
 def look_at_watch(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Lift the watch before the eyes."""
-    now_s = _settle(motion, start_s, arm(40, 20, 65, 105, 75), rng) + rng.uniform(0.8, 2.0)
-    return _settle(motion, now_s, HANGING, rng)
+    now_s = settle(motion, start_s, arm(40, 20, 65, 105, 75), rng) + rng.uniform(0.8, 2.0)
+    return settle(motion, now_s, HANGING, rng)
 
 
 def walk(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Walk: the arm swings, the hips go up and down with each step."""
-    now_s = _settle(motion, start_s, {**HANGING, **_STANDING, **trunk(0, 2)}, rng)
+    now_s = settle(motion, start_s, {**HANGING, **_STANDING, **trunk(0, 2)}, rng)
     end_s = now_s + rng.uniform(4.0, 9.0)
     stride_hz = rng.uniform(0.8, 1.05)
     swing = {Joint.FLEXION: rng.uniform(10, 24), Joint.ELBOW: rng.uniform(2, 9), Joint.TWIST: 4.0}
-    _sway(motion, now_s, end_s, stride_hz, swing, rng)
+    sway(motion, now_s, end_s, stride_hz, swing, rng)
     steps = {Joint.UP: rng.uniform(0.012, 0.028), Joint.FORWARD: 0.01}
-    _sway(motion, now_s, end_s, 2 * stride_hz, steps, rng)
-    _sway(motion, now_s, end_s, 4 * stride_hz, {Joint.UP: 0.002, Joint.FLEXION: 0.3}, rng)
+    sway(motion, now_s, end_s, 2 * stride_hz, steps, rng)
+    sway(motion, now_s, end_s, 4 * stride_hz, {Joint.UP: 0.002, Joint.FLEXION: 0.3}, rng)
     return end_s
 
 
@@ -95,8 +92,8 @@ def turn_round(motion: Motion, start_s: float, rng: np.random.Generator) -> floa
     heading = np.degrees(motion.goal[Joint.HEADING]) + rng.choice([-1, 1]) * rng.uniform(60, 180)
     duration_s = rng.uniform(1.2, 2.2)
     motion.move({Joint.HEADING: heading}, start_s, duration_s)
-    _sway(motion, start_s, start_s + duration_s, 1.8, {Joint.UP: 0.012}, rng)
-    return _settle(motion, start_s + duration_s / 2, {**HANGING, **_STANDING}, rng) + 0.5
+    sway(motion, start_s, start_s + duration_s, 1.8, {Joint.UP: 0.012}, rng)
+    return settle(motion, start_s + duration_s / 2, {**HANGING, **_STANDING}, rng) + 0.5
 
 
 def sit_down(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -119,43 +116,5 @@ def stand_up(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
 
 CALM: tuple[Activity, ...] = (rest, hand_on_lap, type_on_keyboard, gesticulate, look_at_watch)
 EVERYDAY: tuple[Activity, ...] = (
-    *CALM, drink, scratch_head, walk, walk, turn_round, sit_down, stand_up,
+    *CALM, drink, scratch_head, walk, walk, turn_round, sit_down, stand_up, *CHORES,
 )  # fmt: skip
-
-
-def _settle(motion: Motion, start_s: float, pose: Pose, rng: np.random.Generator) -> float:
-    """Go to about this pose, slower where it is farther; tells when it is reached."""
-    goal = {
-        joint: value if joint in LENGTHS else value + rng.normal(0.0, 4.0)
-        for joint, value in pose.items()
-    }
-    now = motion.goal
-    ways_rad = [
-        abs(np.radians(value) - now[joint]) for joint, value in goal.items() if joint not in LENGTHS
-    ]
-    duration_s = rng.uniform(0.6, 0.9) + 0.35 * max(ways_rad, default=0.0)
-    motion.move(goal, start_s, duration_s)
-    return start_s + duration_s
-
-
-def _shift(
-    motion: Motion, start_s: float, pose: Pose, wide_deg: float, rng: np.random.Generator
-) -> float:
-    """A small free movement about a pose."""
-    duration_s = rng.uniform(0.35, 0.9)
-    around = {joint: value + rng.normal(0.0, wide_deg) for joint, value in pose.items()}
-    motion.move(around, start_s, duration_s)
-    return start_s + duration_s
-
-
-def _sway(
-    motion: Motion,
-    start_s: float,
-    end_s: float,
-    frequency_hz: float,
-    pose: Pose,
-    rng: np.random.Generator,
-) -> None:
-    """An oscillation; ``pose`` holds how far, in degrees (hips in m)."""
-    phase = float(rng.uniform(0, 2 * np.pi))
-    motion.swing(Swing(start_s, end_s, frequency_hz, phase, joint_values(pose)))

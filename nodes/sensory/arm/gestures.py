@@ -50,53 +50,53 @@ def trunk(twist: float, lean: float = 0.0) -> Pose:
 
 _KARATE = Gesture(  # from the hip up beside the head, then a chop forward; the hand turns over
     "karate",
-    ready={**arm(-31, 9, 3, 110, -70), **trunk(-10)},
+    ready={**arm(-39, 10, 16, 111, -63), **trunk(-16, -12)},
     strokes=(
-        KeyStroke(0.08, 0.66, arm(-13, 13, 11, 134, -42)),
+        KeyStroke(0.18, 0.76, arm(-16, 14, 17, 125, -35)),
         KeyStroke(
-            0.45,
-            0.58,
-            {Joint.FLEXION: 78, Joint.ABDUCTION: -11, Joint.ROTATION: 29, **trunk(13)},
+            0.43,
+            0.70,
+            {Joint.FLEXION: 83, Joint.ABDUCTION: 1, Joint.ROTATION: 28, **trunk(19, 8)},
         ),
-        KeyStroke(0.59, 0.36, {Joint.PRONATION: 80}),
-        KeyStroke(0.71, 0.45, {Joint.ELBOW: 3}),
+        KeyStroke(0.65, 0.30, {Joint.PRONATION: 81}),
+        KeyStroke(0.69, 0.46, {Joint.ELBOW: 2}),
     ),
     duration_s=1.75,
 )
 _KATANA = Gesture(  # a sword, held with both hands, cut down from overhead and raised again
     "katana",
-    ready={**arm(153, 6, 30, 105, 22), **trunk(0)},
+    ready={**arm(157, 4, 31, 108, 20), **trunk(3)},
     strokes=(
-        KeyStroke(0.07, 0.92, {**arm(43, -5, 90, 7, -80), **trunk(0, 15)}),
-        KeyStroke(0.83, 1.15, {**arm(147, 7, 32, 94, 7), **trunk(0)}),
+        KeyStroke(0.02, 1.00, {**arm(39, -2, 93, 4, -82), **trunk(-4, 21)}),
+        KeyStroke(0.76, 1.25, {**arm(150, 7, 34, 93, 7), **trunk(1)}),
     ),
     duration_s=2.31,
 )
 _BATTING = Gesture(  # a baseball bat swung from the right shoulder round to the left one
     "batting",
-    ready={**arm(-9, 49, -82, 140, -8), **trunk(-50)},
+    ready={**arm(3, 41, -89, 146, -46), **trunk(-55, -9)},
     strokes=(
-        KeyStroke(0.37, 1.16, trunk(33, 3)),
-        KeyStroke(0.48, 1.00, arm(54, -10, 42, 14, -85)),
-        KeyStroke(1.00, 0.96, {**arm(98, -53, 36, 41, -87), **trunk(56)}),
+        KeyStroke(0.32, 1.45, arm(64, -20, 59, 7, -85)),
+        KeyStroke(0.41, 1.18, trunk(51, 7)),
+        KeyStroke(1.42, 0.72, {**arm(99, -25, 35, 26, -82), **trunk(44, 6)}),
     ),
     duration_s=2.06,
 )
 _HAND_UP = Gesture(  # the hand raised high in front of the body, and kept there
     "hand_up",
-    ready={**arm(2, 6, 10, 8, 60), **trunk(0)},
+    ready={**arm(4, 1, 9, 12, 58), **trunk(0)},
     strokes=(
-        KeyStroke(0.34, 1.08, arm(84, -3, 12, 8, 63)),
-        KeyStroke(0.80, 1.78, arm(175, -6, 12, 6, 62)),
+        KeyStroke(0.46, 1.19, arm(80, -6, 21, 2, 71)),
+        KeyStroke(0.90, 1.84, arm(176, -8, 17, 7, 67)),
     ),
     duration_s=3.66,
 )
 _STRECH_UP = Gesture(  # the hands, fingers laced and palms outward, stretched up slowly
     "strech_up",
-    ready={**arm(74, 24, 91, 87, 96), **trunk(0)},
+    ready={**arm(78, 23, 94, 87, 98), **trunk(0, -5)},
     strokes=(
-        KeyStroke(0.60, 2.0, {**arm(122, 13, 87, 72, 93), **trunk(0, -3)}),
-        KeyStroke(1.50, 2.1, arm(174, 6, 86, 28, 50)),
+        KeyStroke(0.54, 2.0, {**arm(127, 12, 89, 73, 96), **trunk(0, -4)}),
+        KeyStroke(1.50, 2.11, arm(171, 3, 86, 31, 50)),
     ),
     duration_s=4.28,
 )

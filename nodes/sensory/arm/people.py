@@ -16,6 +16,8 @@ from nodes.sensory.arm.skeleton import LENGTHS, Body, Floats, Joint
 
 FIRST_UNSEEN = 100
 _SEED = 2018
+_SCALES = 7  # a source of chance of its own: people stay who they were
+_LEFT_HANDED = 9
 _STYLE_DEG = 6.0  # how much people differ in each joint of each key pose
 _CARE_DEG = 3.0  # how much one person's performances differ
 
@@ -44,7 +46,7 @@ def person_numbered(number: int) -> Person:
     return Person(
         number=number,
         body=_body(rng, size),
-        sensor=_sensor(rng, left_wrist=number % 10 == 9),
+        sensor=_sensor(rng, number),
         pace=float(np.clip(rng.normal(1.0, 0.08), 0.85, 1.18)),
         reach=float(np.clip(rng.normal(1.0, 0.06), 0.85, 1.15)),
         tremor=tuple(_tremor(rng)),
@@ -67,16 +69,17 @@ def _body(rng: np.random.Generator, size: float) -> Body:
     )
 
 
-def _sensor(rng: np.random.Generator, *, left_wrist: bool) -> Sensor:
+def _sensor(rng: np.random.Generator, number: int) -> Sensor:
     """A loose strap lets the watch turn about the forearm (its x axis) more than tilt."""
     about_x, about_y, about_z = np.radians(rng.normal(0.0, (10.0, 3.0, 4.0)))
     return Sensor(
         turned=_turned(about_x, about_y, about_z),
+        scale=np.random.default_rng([_SEED, number, _SCALES]).normal(1.0, 0.01, 3),
         acc_bias=rng.normal(0.0, 0.06, 3),
         gyr_bias=rng.normal(0.0, 0.01, 3),
         acc_noise=float(rng.uniform(0.03, 0.08)),
         gyr_noise=float(rng.uniform(0.003, 0.01)),
-        left_wrist=left_wrist,
+        left_wrist=number % 10 == _LEFT_HANDED,
     )
 
 

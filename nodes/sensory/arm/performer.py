@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nodes.sensory.arm.everyday import HANGING, Activity
+from nodes.sensory.arm.everyday import HANGING
 from nodes.sensory.arm.gestures import Gesture
 from nodes.sensory.arm.motion import Motion
+from nodes.sensory.arm.moving import Activity
 from nodes.sensory.arm.people import Person, performance_variation
 from nodes.sensory.arm.skeleton import Floats, Joint, Pose, joint_values
 

@@ -19,11 +19,12 @@ _LEFT_GYR = np.array([1.0, -1.0, -1.0])  # and turning directions change with th
 class Sensor:
     """How a watch sits on a wrist, and its errors.
 
-    ``turned`` (3, 3) is the watch's attitude on the wrist; biases (3,) and noise (standard
-    deviations) in m/s² and rad/s.
+    ``turned`` (3, 3) is the watch's attitude on the wrist; ``scale`` (3,) is what each axis of the
+    accelerometer makes of 1 m/s²; biases (3,) and noise (standard deviations) in m/s² and rad/s.
     """
 
     turned: Floats
+    scale: Floats
     acc_bias: Floats
     gyr_bias: Floats
     acc_noise: float
@@ -38,6 +39,7 @@ class Sensor:
         if self.left_wrist:
             acc, gyr = acc * _LEFT_ACC, gyr * _LEFT_GYR
         acc, gyr = acc @ self.turned, gyr @ self.turned
+        acc *= self.scale
         acc += self.acc_bias + rng.normal(0.0, self.acc_noise, acc.shape)
         gyr += self.gyr_bias + rng.normal(0.0, self.gyr_noise, gyr.shape)
         return acc, gyr

@@ -9,6 +9,7 @@ import numpy as np
 from nodes.recordings import Recording
 from nodes.sensory.arm.everyday import CALM, EVERYDAY, rest
 from nodes.sensory.arm.gestures import gesture_named
+from nodes.sensory.arm.moving import Activity
 from nodes.sensory.arm.people import person_numbered
 from nodes.sensory.arm.performer import Performer, Samples
 
@@ -47,15 +48,22 @@ def simulate_session(
 
 
 def simulate_everyday(
-    person: int, seconds: float, rate_hz: float = 50.0, seed: int = 0
+    person: int,
+    seconds: float,
+    rate_hz: float = 50.0,
+    seed: int = 0,
+    activities: Sequence[Activity] = EVERYDAY,
 ) -> Recording:
-    """Everyday movement without any gesture: walking, drinking, typing, sitting down, ..."""
+    """Everyday movement without any gesture: walking, drinking, typing, sitting down, ...
+
+    ``activities``: EVERYDAY, or LIVELY for what is harder to tell from a gesture.
+    """
     chance = np.random.default_rng([4, person, seed])
     performer = Performer(person_numbered(person), rate_hz, seed)
 
     def parts() -> Iterator[Samples]:
         while performer.now_s < seconds:
-            performer.live(EVERYDAY[chance.integers(len(EVERYDAY))])
+            performer.live(activities[int(chance.integers(len(activities)))])
             left = max(0, round((seconds - performer.now_s) * rate_hz))
             planned = int((performer.planned_until_s - performer.now_s) * rate_hz)
             if not left:

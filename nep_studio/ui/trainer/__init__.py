@@ -1,0 +1,1 @@
+"""The panel in which gestures are recorded, learned and tried."""

@@ -1,0 +1,1 @@
+"""Training the gestures of a project, what came of it, and trying them out."""

@@ -1,0 +1,196 @@
+"""What a training found out, as data that its views can trust."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from nep_studio.blocks.own_gestures import OwnGesture
+
+NOTHING = ""
+"""Stands for no gesture, made or recognised."""
+HOUR_S = 3600.0
+_NEAR_S = 0.25
+"""A take that was left out begins within so much of the take that a person marked."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """What a certainty, as recognition point of one gesture, catches and what it lets through."""
+
+    certainty: float
+    caught: float
+    false_per_hour: float
+    false_in_others: float
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A take that the recogniser had not seen, and what it took it for (NOTHING for none)."""
+
+    gesture: str
+    recording: str
+    start_s: float
+    certainty: float
+    recognised: str
+
+
+@dataclass(frozen=True)
+class Person:
+    """How many of a person's gestures were recognised by what the others taught."""
+
+    made: int
+    right: int
+
+    @property
+    def share(self) -> float:
+        """From 0 to 1."""
+        return self.right / self.made if self.made else 0.0
+
+
+@dataclass(frozen=True)
+class Findings:
+    """How the takes of each gesture fared when one method of recognition had not seen them.
+
+    ``confusion`` counts pairs (made, recognised); ``takes`` how many each gesture has.
+    """
+
+    takes: Mapping[str, int]
+    confusion: Mapping[tuple[str, str], int]
+    everyday_triggers: int = 0
+    everyday_s: float = 0.0
+    curves: Mapping[str, tuple[Point, ...]] = field(default_factory=dict)
+    left_out: tuple[LeftOut, ...] = ()
+    people: Mapping[str, Person] = field(default_factory=dict)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The gestures."""
+        return tuple(self.takes)
+
+    @property
+    def is_checked(self) -> bool:
+        """Whether there were enough takes to leave one of each out."""
+        return bool(self.takes) and min(self.takes.values()) > 1
+
+    @property
+    def made(self) -> int:
+        """How many takes were left out once."""
+        return sum(count for (made, _), count in self.confusion.items() if made != NOTHING)
+
+    @property
+    def right(self) -> int:
+        """How many of them were recognised."""
+        return sum(self.confusion.get((name, name), 0) for name in self.takes)
+
+    def made_of(self, name: str) -> int:
+        """How many takes of a gesture (or, for NOTHING, false triggers) there are."""
+        return sum(count for (made, _), count in self.confusion.items() if made == name)
+
+    def found_at(self, name: str, certainty: float) -> Point | None:
+        """What a recognition point of a gesture means, between the points that were measured."""
+        return between(self.curves.get(name, ()), certainty)
+
+
+def between(points: tuple[Point, ...], certainty: float) -> Point | None:
+    """The curve at a certainty; None when there is none."""
+    if not points:
+        return None
+    later = next((at for at, point in enumerate(points) if point.certainty >= certainty), None)
+    if later is None:
+        return points[-1]
+    if later == 0:
+        return points[0]
+    low, high = points[later - 1], points[later]
+    part = (certainty - low.certainty) / (high.certainty - low.certainty)
+    return Point(
+        certainty,
+        low.caught + part * (high.caught - low.caught),
+        low.false_per_hour + part * (high.false_per_hour - low.false_per_hour),
+        low.false_in_others + part * (high.false_in_others - low.false_in_others),
+    )
+
+
+def findings_of(report: Mapping[str, Any]) -> dict[str, Findings]:
+    """The findings by method; a method whose report cannot be read is left out."""
+    found = {}
+    for method, figures in report.items():
+        try:
+            found[method] = _findings(msgspec.convert(figures, _Report))
+        except (msgspec.ValidationError, ValueError):
+            continue
+    return found
+
+
+def ids_of_takes(
+    left_out: tuple[LeftOut, ...], gestures: Mapping[str, OwnGesture]
+) -> tuple[str, ...]:
+    """The ids of the project's takes; those that are gone by now are left out."""
+    found = (id_of_take(one, gestures) for one in left_out)
+    return tuple(take for take in found if take)
+
+
+def id_of_take(left_out: LeftOut, gestures: Mapping[str, OwnGesture]) -> str:
+    """The id of the take in the project, "" when it is gone."""
+    gesture = gestures.get(left_out.gesture)
+    takes = [one for one in gesture.takes if one.recording == left_out.recording] if gesture else []
+    near = min(takes, key=lambda one: abs(one.start_s - left_out.start_s), default=None)
+    if near is None or abs(near.start_s - left_out.start_s) > _NEAR_S:
+        return ""
+    return near.id
+
+
+class _Point(msgspec.Struct):
+    certainty: float
+    caught: float
+    false_everyday_per_hour: float = 0.0
+    false_in_others: float = 0.0
+
+
+class _Take(msgspec.Struct):
+    gesture: str
+    source: str
+    start_s: float
+    certainty: float
+    recognised: str
+
+
+class _Person(msgspec.Struct):
+    made: int
+    right: int
+
+
+class _Report(msgspec.Struct):
+    takes: dict[str, int]
+    confusion: list[tuple[str, str, int]]
+    everyday_triggers: int = 0
+    everyday_s: float = 0.0
+    curves: dict[str, list[_Point]] = {}
+    left_out: list[_Take] = []
+    people: dict[str, _Person] = {}
+
+
+def _findings(report: _Report) -> Findings:
+    return Findings(
+        takes=report.takes,
+        confusion={(made, found): count for made, found, count in report.confusion},
+        everyday_triggers=report.everyday_triggers,
+        everyday_s=report.everyday_s,
+        curves={name: _curve(points) for name, points in report.curves.items()},
+        left_out=tuple(
+            LeftOut(one.gesture, one.source, one.start_s, one.certainty, one.recognised)
+            for one in report.left_out
+        ),
+        people={name: Person(one.made, one.right) for name, one in report.people.items()},
+    )
+
+
+def _curve(points: list[_Point]) -> tuple[Point, ...]:
+    made = (
+        Point(one.certainty, one.caught, one.false_everyday_per_hour, one.false_in_others)
+        for one in points
+    )
+    return tuple(sorted(made, key=lambda point: point.certainty))

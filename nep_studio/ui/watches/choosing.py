@@ -1,0 +1,153 @@
+"""What do you have? The ways as cards, in the order of ease."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+
+from nep_studio.ui.theme import Look, icon
+from nep_studio.ui.words import is_right_to_left, tr
+
+from .ways import APPS, BLUETOOTH, PAPER_WATCH, PHONE_PAGE, RECORDING, VIRTUAL
+
+
+@dataclass(frozen=True)
+class Offer:
+    """A card: the way that it opens, its icon, what one has, and what is done with it."""
+
+    way: str
+    icon: str
+    title: str
+    sentence: str
+
+
+def offers() -> list[Offer]:
+    """All cards, the easiest first."""
+    return [
+        Offer(
+            PHONE_PAGE.name,
+            PHONE_PAGE.icon,
+            tr("A phone"),
+            tr("Scan a code with its camera. Nothing is installed."),
+        ),
+        Offer(
+            APPS[0].name,
+            APPS[0].icon,
+            tr("A watch or phone with an app"),
+            tr("Sensor Logger (also for Apple Watch and Wear OS), phyphox, SensorServer, others."),
+        ),
+        Offer(
+            PAPER_WATCH.name,
+            PAPER_WATCH.icon,
+            tr("The watch of the paper"),
+            tr("An Android watch with NEP's own app of 2016."),
+        ),
+        Offer(
+            BLUETOOTH.name,
+            BLUETOOTH.icon,
+            tr("A Bluetooth sensor"),
+            tr("A motion sensor for which there is a profile."),
+        ),
+        Offer(
+            VIRTUAL.name,
+            VIRTUAL.icon,
+            tr("Nothing yet"),
+            tr("A simulated person makes the gestures, so that all can be tried."),
+        ),
+        Offer(
+            RECORDING.name,
+            RECORDING.icon,
+            tr("A recording"),
+            tr("A file of movements is played as if somebody moved now."),
+        ),
+    ]
+
+
+class OfferCard(QPushButton):
+    """One thing that a person may have; the whole card is a button."""
+
+    def __init__(self, offer: Offer, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.offer = offer
+        self.setAutoDefault(False)
+        self.setAccessibleName(offer.title)
+        self.setAccessibleDescription(offer.sentence)
+        line = self.fontMetrics().height()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(line * 2 // 3, line // 2, line * 2 // 3, line // 2)
+        row.setSpacing(line * 2 // 3)
+        row.addWidget(self._picture(offer.icon, look, line * 1.7))
+        title, sentence = QLabel(offer.title), QLabel(offer.sentence)
+        title.setProperty("role", "heading")
+        sentence.setProperty("role", "hint")
+        words = QVBoxLayout()
+        words.setSpacing(0)
+        for label in (title, sentence):
+            label.setWordWrap(True)
+            label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            words.addWidget(label)
+        row.addLayout(words, 1)
+        chevron = "chevron-left" if is_right_to_left() else "chevron-right"
+        row.addWidget(self._picture(chevron, look, line * 1.1))
+        policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
+
+    def _picture(self, name: str, look: Look, side: float) -> QLabel:
+        label = QLabel()
+        label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        size = QSize(round(side), round(side))
+        label.setPixmap(icon(name, look.theme).pixmap(size, self.devicePixelRatioF()))
+        label.setFixedWidth(size.width())
+        return label
+
+    def heightForWidth(self, width: int) -> int:
+        """The height that its words need."""
+        layout = self.layout()
+        return layout.totalHeightForWidth(width) if layout is not None else 0
+
+    def sizeHint(self) -> QSize:
+        """That of what is in it; a button measures only its own words."""
+        layout = self.layout()
+        return layout.totalSizeHint() if layout is not None else QSize()
+
+    def minimumSizeHint(self) -> QSize:
+        """That of what is in it."""
+        layout = self.layout()
+        return layout.totalMinimumSize() if layout is not None else QSize()
+
+
+class ChoosingPage(QWidget):
+    """``chosen`` gives the name of a way."""
+
+    chosen = Signal(str)
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        line = self.fontMetrics().height()
+        heading = QLabel(tr("What do you have?"))
+        heading.setProperty("role", "title")
+        heading.setWordWrap(True)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, line // 2, 0)
+        box.setSpacing(line // 2)
+        box.addWidget(heading)
+        self.cards = {one.way: OfferCard(one, look) for one in offers()}
+        for way, card in self.cards.items():
+            card.clicked.connect(lambda _=False, way=way: self.chosen.emit(way))
+            box.addWidget(card)
+        box.addStretch(1)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """The arrow keys go from card to card."""
+        steps = {Qt.Key.Key_Down: 1, Qt.Key.Key_Up: -1}
+        cards = list(self.cards.values())
+        focused = next((at for at, card in enumerate(cards) if card.hasFocus()), None)
+        key = Qt.Key(event.key())
+        if key in steps and focused is not None:
+            cards[(focused + steps[key]) % len(cards)].setFocus(Qt.FocusReason.TabFocusReason)
+        else:
+            super().keyPressEvent(event)

@@ -1,0 +1,141 @@
+"""Runs the node of a watch while it is being connected; what ran before comes back if unused."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from PySide6.QtCore import QObject, Signal
+
+from nep_core.errors import NepError
+from nep_studio.plan import PlannedNode
+from nep_studio.problems import Problem, problem_of
+from nep_studio.ui.running.runner import Runner
+
+State = Literal["off", "starting", "listening", "failed"]
+
+
+class WatchTrial(QObject):
+    """One node of one name, with the settings that were wanted last.
+
+    ``changed`` tells of a new ``state``; a failed one has a ``problem``. It outlives the dialog
+    when that is closed while the node starts, and goes by itself after ``end``.
+    """
+
+    changed = Signal()
+
+    def __init__(self, runner: Runner, name: str, parent: QObject) -> None:
+        super().__init__(parent)
+        self.name = name
+        self.state: State = "off"
+        self.problem: Problem | None = None
+        self.before = runner.local.planned.get(name) if _runs(runner, name) else None
+        """What ran under this name when it began."""
+        self._runner = runner
+        self._wanted: PlannedNode | None = None
+        self._started: PlannedNode | None = None
+        self._pid_before = 0
+        self._has_ended = False
+        runner.nodes_changed.connect(self._on_nodes_changed)
+        runner.node_failed.connect(self._on_node_failed)
+
+    def want(self, planned: PlannedNode) -> None:
+        """Let this node run from now on."""
+        self._wanted = planned
+        if self.state != "starting":
+            self._start()
+
+    def stop(self) -> None:
+        """Let it run no longer; what ran before comes back."""
+        self._wanted = None
+        if self.state == "starting":
+            return  # a node cannot be stopped before it is there: that follows
+        if self._started is not None:
+            if self.before is not None:
+                if not is_same(self.before, self._runner.local.planned.get(self.name)):
+                    self._runner.start_node(self.before)
+            else:
+                self._runner.stop_node(self.name)
+        self._started = None
+        self._set_state("off")
+
+    def end(self) -> None:
+        """Stop, and go."""
+        self._has_ended = True
+        if self.state == "starting":
+            self._wanted = None
+        else:
+            self.stop()
+            self.deleteLater()
+
+    def keep(self, planned: PlannedNode | None) -> None:
+        """Go, but let the node run on, as this one of the project's plan."""
+        if planned is not None and is_same(planned, self._runner.local.planned.get(self.name)):
+            self._runner.local.planned[self.name] = planned  # so that Run takes it over
+        self.deleteLater()
+
+    def _start(self) -> None:
+        wanted = self._wanted
+        if wanted is None:
+            return
+        if is_same(wanted, self._runner.local.planned.get(self.name)) and self._is_there:
+            self._started = wanted
+            self._set_state("listening")
+            return
+        status = self._runner.board.nodes.get(self.name)
+        self._pid_before = status.pid if status is not None else 0
+        self._started = wanted
+        self.problem = None
+        self._set_state("starting")
+        self._runner.start_node(wanted)
+
+    @property
+    def _is_there(self) -> bool:
+        return _runs(self._runner, self.name)
+
+    def _on_nodes_changed(self, names: list[str]) -> None:
+        status = self._runner.board.nodes.get(self.name)
+        if self.name not in names or status is None:
+            return
+        if self.state == "starting" and status.pid != self._pid_before:
+            if status.health in ("ready", "busy", "warning"):
+                self._go_on("listening")
+        elif self.state == "listening" and not status.is_there:
+            self.problem = Problem("", status.description)
+            self._set_state("failed")
+
+    def _on_node_failed(self, name: str, error: NepError) -> None:
+        if name == self.name and self.state == "starting":
+            self.problem = problem_of(error)
+            self._go_on("failed")
+
+    def _go_on(self, state: State) -> None:
+        """It has started, or failed to: do what was wanted meanwhile."""
+        self._set_state(state)
+        if self._wanted is None:
+            self.stop()
+            if self._has_ended:
+                self.deleteLater()
+        elif self._wanted is not self._started:
+            self._start()
+
+    def _set_state(self, state: State) -> None:
+        self.state = state
+        if not self._has_ended:
+            self.changed.emit()
+
+
+def _runs(runner: Runner, name: str) -> bool:
+    status, launched = runner.board.nodes.get(name), runner.local.launcher.nodes.get(name)
+    is_ended = launched is None or launched.ended.is_set()
+    return status is not None and status.is_there and not is_ended
+
+
+def is_same(one: PlannedNode, other: PlannedNode | None) -> bool:
+    """Whether two plans start the same process."""
+    if other is None:
+        return False
+    return (one.node, one.name, dict(one.parameters)) == (
+        other.node,
+        other.name,
+        dict(other.parameters),
+    )

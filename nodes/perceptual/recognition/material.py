@@ -1,0 +1,162 @@
+"""What gestures are learned from: a folder of recordings, made fit for each other."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+from nep_core.messages import Wrist
+from nodes.perceptual.recognition.everyday import simulated_everyday
+from nodes.perceptual.recognition.model import Model, Sensor
+from nodes.perceptual.recognition.passages import UNKNOWN, takes_of
+from nodes.perceptual.recognition.training import train
+from nodes.perceptual.recognition.wrist import mirrored
+from nodes.recordings import Recording, read_recordings
+
+EVERYDAY = "everyday"
+"""The folder, in a folder of recordings, for those of movement without gestures."""
+LEAST_TAKES = 3
+_MOST_SENSORS = 20
+
+
+@dataclass(frozen=True)
+class Material:
+    """Recordings of gestures and of everyday movement; ``remarks`` tell what is amiss with them.
+
+    ``wrist`` is where the sensors were worn, "" when nobody said.
+    """
+
+    recordings: tuple[Recording, ...]
+    everyday: tuple[Recording, ...]
+    wrist: Wrist
+    remarks: tuple[str, ...]
+
+    @property
+    def has_rotation(self) -> bool:
+        """Whether it is learned from the gyroscope too."""
+        return all(one.gyr is not None for one in self.recordings)
+
+    def with_everyday(self, more: Sequence[Recording]) -> Material:
+        """The same with more everyday movement."""
+        return replace(self, everyday=(*self.everyday, *more))
+
+
+def read_material(folder: Path, everyday: Path | None = None) -> Material:
+    """Read the recordings of a folder; RecordingError says which cannot be used.
+
+    Everyday movement is in the folder ``everyday`` within, or in another one.
+    """
+    own = everyday or folder / EVERYDAY
+    has_own = everyday is not None or (own.is_dir() and any(own.glob("*.[cC][sS][vV]")))
+    found = read_recordings(folder)
+    idle = [_without_gestures(one) for one in read_recordings(own)] if has_own else []
+    wrist = _usual_wrist(found)
+    used = [one for one in idle if _is_as_good(one, found)]
+    remarks = (*_remarks(found, wrist), *_about_left_out(len(idle) - len(used), len(idle)))
+    return Material(
+        tuple(_worn(one, wrist) for one in found),
+        tuple(_worn(one, wrist) for one in used),
+        wrist,
+        remarks,
+    )
+
+
+@cache
+def everybodys_movement() -> tuple[Recording, ...]:
+    """Everyday movement of simulated people; made once, as it takes a while."""
+    return tuple(simulated_everyday())
+
+
+def learn(
+    material: Material,
+    methods: Sequence[str],
+    tell: Callable[[str], None] = lambda progress: None,
+) -> Model:
+    """The model of the gestures in the material; RecordingError says why there can be none."""
+    model = train(material.recordings, material.everyday, methods, tell=tell)
+    return replace(model, wrist=material.wrist, sensors=_sensors(material.recordings))
+
+
+def _without_gestures(recording: Recording) -> Recording:
+    """Everyday recordings may name activities (sitting, walking), which are no gestures."""
+    if recording.labels is None or UNKNOWN not in recording.labels:
+        return replace(recording, labels=None)
+    labels = [UNKNOWN if label == UNKNOWN else "" for label in recording.labels]
+    return replace(recording, labels=labels)
+
+
+def _usual_wrist(recordings: Sequence[Recording]) -> Wrist:
+    counts = Counter(one.wrist for one in recordings if one.wrist)
+    return counts.most_common(1)[0][0] if counts else ""
+
+
+def _worn(recording: Recording, wrist: Wrist) -> Recording:
+    """The recording as the other wrist would have made it, if it was the other one."""
+    if {recording.wrist, wrist} != {"left", "right"}:
+        return recording
+    acc, gyr = mirrored(recording.acc, recording.gyr)
+    return replace(recording, acc=acc, gyr=gyr, wrist=wrist)
+
+
+def _is_as_good(idle: Recording, recordings: Sequence[Recording]) -> bool:
+    """Whether everyday movement has all that the gestures have: else they would lose it too."""
+    gyroscope = all(one.gyr is not None for one in recordings)
+    gravity = all(one.gravity_included for one in recordings)
+    return (idle.gyr is not None or not gyroscope) and (idle.gravity_included or not gravity)
+
+
+def _about_left_out(left_out: int, count: int) -> list[str]:
+    if not left_out:
+        return []
+    return [
+        f"{left_out} of {count} recordings of everyday movement are not used: their sensor tells"
+        " less than that of the gestures."
+    ]
+
+
+def _remarks(recordings: Sequence[Recording], wrist: Wrist) -> list[str]:
+    """What of the recordings makes the model worse than it could be."""
+    count = len(recordings)
+    silent = sum(one.gyr is None for one in recordings)
+    weightless = sum(not one.gravity_included for one in recordings)
+    others = sum(one.wrist not in ("", wrist) for one in recordings)
+    remarks = _few_takes(recordings)
+    if 0 < silent < count:
+        remarks.append(
+            f"{silent} of {count} recordings have no rotation (gyroscope), so the gestures are"
+            " learned without it. They are told apart better when all recordings have it."
+        )
+    if 0 < weightless < count:
+        remarks.append(
+            f"{weightless} of {count} recordings have no gravity in their acceleration, so the"
+            " gestures are learned without it. Record all of them with the same sensor."
+        )
+    if others:
+        remarks.append(
+            f"{others} of {count} recordings were not made on the {wrist} wrist as the others."
+            if wrist != "hand"
+            else f"{others} of {count} recordings were not made with the sensor in the hand."
+        )
+    return remarks
+
+
+def _few_takes(recordings: Sequence[Recording]) -> list[str]:
+    takes = Counter(take.gesture for one in recordings for take in takes_of(one))
+    return [
+        f"{name} was recorded {'once' if count == 1 else 'twice'} only: record it"
+        f" {LEAST_TAKES} times at least, better 5."
+        for name, count in sorted(takes.items())
+        if count < LEAST_TAKES
+    ]
+
+
+def _sensors(recordings: Sequence[Recording]) -> tuple[Sensor, ...]:
+    """The different sensors that the recordings were made with."""
+    found = dict.fromkeys(
+        Sensor(one.device, float(f"{one.rate_hz:.2g}"), one.gravity_included, one.gyr is not None)
+        for one in recordings
+    )
+    return tuple(found)[:_MOST_SENSORS]

@@ -1,0 +1,182 @@
+"""A process that learns gestures: it keeps warm, is asked by lines of JSON, and tells how it goes.
+
+It reads ``{"train": folder, "output": path, "methods": ["trees", "gmr"], "everyday": true}`` from
+its standard input and writes to its standard output
+
+    {"ready": true}
+    {"progress": 0.4, "step": "Learning the gestures…"}
+    {"done": path, "seconds": 1.9, "report": {...}, "remarks": [...]}
+    {"error": "What happened.", "checklist": ["What to do.", ...]}
+
+Training ends early when the process is killed. It ends when its standard input closes, or its
+parent is gone, whatever it does then.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import queue
+import sys
+import threading
+import time
+import traceback
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, BinaryIO, Literal
+
+import msgspec
+import psutil
+
+from nep_core.errors import NepError
+from nep_core.process import program_command
+from nodes.perceptual.recognition.material import everybodys_movement, learn, read_material
+from nodes.perceptual.recognition.model_file import check_writable, write_model
+
+READING = "Reading the recordings…"
+LEARNING = "Learning the gestures…"
+CHECKING = "Checking what it learned…"
+WRITING = "Keeping what it learned…"
+STEPS = (READING, LEARNING, CHECKING, WRITING)
+
+_LONGEST_LINE = 1_000_000
+_PARENT_S = 1.0
+_READ, _LEARNED = 0.15, 0.95  # of the progress
+
+
+class _Order(msgspec.Struct, forbid_unknown_fields=True):
+    train: str
+    output: str
+    methods: tuple[Literal["trees", "gmr"], ...] = ("trees", "gmr")
+    everyday: bool = True
+
+
+def command_line() -> list[str]:
+    """The command by which this program starts such a process, from source or frozen."""
+    parent = str(os.getpid())
+    if getattr(sys, "frozen", False):
+        return program_command("train-worker", parent)
+    return [sys.executable, "-m", "nodes.perceptual.recognition.worker", parent]
+
+
+def main(arguments: list[str]) -> int:
+    """Train what is ordered, one after the other, until nobody is there to order more.
+
+    The argument is the id of the process that orders it.
+    """
+    told = _Told(sys.stdout.buffer)
+    sys.stdout = sys.stderr  # what libraries print is no answer
+    orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    threading.Thread(target=_read, args=(sys.stdin.buffer, orders), daemon=True).start()
+    for parent in arguments[:1]:
+        threading.Thread(target=_watch_parent, args=(int(parent),), daemon=True).start()
+    importlib.import_module("sklearn.ensemble")  # takes longer than a training
+    told.tell({"ready": True})
+    everybodys_movement()
+    while True:
+        _do(orders.get(), told)
+
+
+def _do(line: bytes, told: _Told) -> None:
+    """Do one order, and tell how it ended."""
+    try:
+        order = msgspec.json.decode(line, type=_Order)
+        _train(order, told)
+    except NepError as error:
+        told.error(error.sentence, error.checklist)
+    except msgspec.MsgspecError as error:
+        told.error(f"The order to train cannot be read: {error}.", ("Train again.",))
+    except MemoryError:
+        told.error(
+            "The computer has too little memory free to learn from these recordings.",
+            ("Close other programs.", "Learn from fewer or shorter recordings."),
+        )
+    except Exception as error:  # a fault of ours must not end the process without a word
+        traceback.print_exc()
+        told.error(
+            f"The training failed: {error or type(error).__name__}.",
+            ("Train again.", "Leave out the recordings that you made last."),
+        )
+
+
+def _train(order: _Order, told: _Told) -> None:
+    started_s = time.monotonic()
+    output = Path(order.output)
+    told.progress(0.0, READING)
+    check_writable(output)
+    material = read_material(Path(order.train))
+    if order.everyday:
+        material = material.with_everyday(everybodys_movement())
+    learning = _Learning(told, len(order.methods) * (1 + material.has_rotation))
+    told.progress(_READ, LEARNING)
+    model = learn(material, order.methods, tell=learning.go_on)
+    told.progress(_LEARNED, WRITING)
+    write_model(output, model)
+    told.tell(
+        {
+            "done": str(output),
+            "seconds": round(time.monotonic() - started_s, 2),
+            "report": model.report,
+            "remarks": material.remarks,
+        }
+    )
+
+
+class _Learning:
+    """The progress of a training, which tells when each of its recognisers begins."""
+
+    def __init__(self, told: _Told, count: int) -> None:
+        self._told = told
+        self._count = max(1, count)
+        self._begun = 0
+
+    def go_on(self, _what: str) -> None:
+        """One recogniser more begins."""
+        part = min(self._begun / self._count, 1.0)
+        self._begun += 1
+        step = LEARNING if part < 0.5 else CHECKING
+        self._told.progress(_READ + part * (_LEARNED - _READ), step)
+
+
+class _Told:
+    """What is told, a line of JSON each."""
+
+    def __init__(self, out: BinaryIO) -> None:
+        self._out = out
+
+    def tell(self, message: dict[str, Any]) -> None:
+        """Tell it now; nobody to hear it ends the process."""
+        try:
+            self._out.write(msgspec.json.encode(message) + b"\n")
+            self._out.flush()
+        except OSError:
+            os._exit(0)
+
+    def progress(self, part: float, step: str) -> None:
+        """Tell how far the training is, from 0 to 1."""
+        self.tell({"progress": round(part, 3), "step": step})
+
+    def error(self, sentence: str, checklist: tuple[str, ...]) -> None:
+        """Tell why there is no model, and what to do."""
+        self.tell({"error": sentence, "checklist": list(checklist)})
+
+
+def _read(lines: BinaryIO, orders: queue.SimpleQueue[bytes]) -> None:
+    """Take orders; the end of them ends the process, even in the middle of a training."""
+    while line := lines.readline(_LONGEST_LINE):
+        if line.strip():
+            orders.put(line)
+    os._exit(0)
+
+
+def _watch_parent(number: int) -> None:
+    """End with a parent whose pipe somebody else holds open."""
+    with suppress(psutil.Error):
+        parent = psutil.Process(number)
+        while parent.is_running() and parent.status() != psutil.STATUS_ZOMBIE:
+            time.sleep(_PARENT_S)
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,1 @@
+"""Bluetooth devices that measure motion, each described by a file."""

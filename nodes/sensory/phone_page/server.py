@@ -1,0 +1,149 @@
+"""Serves the phone page by HTTPS from a thread of its own, while it is asked for."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import socket
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nep_core.errors import NodeStartError
+from nodes.sensory.addresses import lan_addresses
+from nodes.sensory.phone_page.certificate import Certificate, own_certificate
+from nodes.sensory.phone_page.page_files import PageFiles, page_files
+from nodes.sensory.phone_page.receiving import Receiving
+from nodes.sensory.phone_page.site import Site
+from nodes.sensory.phone_page.token import new_token
+from nodes.sensory.ways.background import Background
+from nodes.sensory.ways.doors import open_tcp
+from nodes.sensory.ways.way import Arrived, Settings
+
+if TYPE_CHECKING:
+    from aiohttp import web
+
+LOOPBACK = "127.0.0.1"
+MOST_CONNECTIONS = 32
+CLOSE_S = 0.2
+HANDSHAKE_S = 5.0
+IDLE_CONNECTION_S = 15.0
+
+
+def page_urls(port: int, token: str, addresses: Iterable[str] | None = None) -> list[str]:
+    """The links that open the page, the most likely one first.
+
+    ``addresses`` are this computer's; those of its networks when None.
+    """
+    found = lan_addresses() if addresses is None else addresses
+    return [f"https://{address}:{port}/{token}/" for address in found]
+
+
+class PhonePage:
+    """The page on one port of this computer, for who has the token in the link.
+
+    A token is made when the settings have none; ``folder`` is where the certificate is kept, this
+    user's settings when it is None. Port 0 is any free one.
+    """
+
+    def __init__(self, settings: Settings, folder: Path | None = None) -> None:
+        self.token = settings.token or new_token()
+        self.certificate: Certificate | None = None
+        self._settings, self._folder = settings, folder
+        self._background: Background | None = None
+        self._receiving: Receiving | None = None
+
+    @property
+    def port(self) -> int:
+        """The port that is served."""
+        return self._settings.port
+
+    @property
+    def urls(self) -> list[str]:
+        """The links to the page; on this computer only, that is one that works here."""
+        return page_urls(self.port, self.token, self._addresses() or [LOOPBACK])
+
+    @property
+    def hand(self) -> str:
+        """Where the followed phone is, as chosen on it: left, right, hand; empty: not known."""
+        return "" if self._receiving is None else self._receiving.hand
+
+    def start(self) -> str:
+        """Serve; the first link. Raises PortTaken, NodeStartError."""
+        files, self.certificate = self._prepared()
+        door = open_tcp(self._settings)
+        self._settings = dataclasses.replace(self._settings, port=door.getsockname()[1])
+        background = Background(lambda: self._serve(door, files))
+        self._receiving = Receiving(background.put)
+        self._background = background
+        background.start()
+        return self.urls[0]
+
+    def take(self, until_s: float = 0.0) -> list[Arrived]:
+        """What has arrived up to then (``time.monotonic()``)."""
+        return self._background.take(until_s) if self._background else []
+
+    def stop(self) -> None:
+        """Serve no more; also when it was never started."""
+        if self._background is not None:
+            self._background.stop()
+        self._background = None
+
+    def _addresses(self) -> list[str]:
+        return [] if self._settings.own_address == LOOPBACK else lan_addresses()
+
+    def _prepared(self) -> tuple[PageFiles, Certificate]:
+        try:
+            return page_files(), own_certificate(self._addresses(), self._folder)
+        except OSError as error:
+            raise NodeStartError(
+                f"The page for the phone cannot be made: {error.strerror or error}.",
+                checklist=(
+                    "Is there room on the disk, and may you write to your settings folder?",
+                    "Install NEP Studio again.",
+                ),
+                details=str(error),
+            ) from error
+
+    async def _serve(self, door: socket.socket, files: PageFiles) -> None:
+        from aiohttp import web
+
+        assert self._receiving is not None and self.certificate is not None
+        site = Site(self.token, files, self._receiving)
+        runner = web.AppRunner(
+            site.app(),
+            handle_signals=False,
+            access_log=None,  # the links have the token in them
+            keepalive_timeout=IDLE_CONNECTION_S,
+            shutdown_timeout=CLOSE_S,
+        )
+        await runner.setup()
+        server = await asyncio.get_running_loop().create_server(
+            lambda: _protocol(runner),
+            sock=door,
+            ssl=self.certificate.context(),
+            ssl_handshake_timeout=HANDSHAKE_S,
+            ssl_shutdown_timeout=CLOSE_S,
+        )
+        try:
+            await asyncio.Future()
+        finally:
+            server.close()
+            await runner.cleanup()
+
+
+def _protocol(runner: web.AppRunner) -> asyncio.BaseProtocol:
+    """Who speaks on a new connection; nobody when there are too many already."""
+    assert runner.server is not None
+    if len(runner.server.connections) >= MOST_CONNECTIONS:
+        return _TurnedAway()
+    return runner.server()
+
+
+class _TurnedAway(asyncio.Protocol):
+    """Closes a connection at once."""
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Close it."""
+        assert isinstance(transport, asyncio.Transport)
+        transport.abort()

@@ -1,0 +1,174 @@
+"""What the phone page's server answers: the page, its files, and the two ways to send batches."""
+
+from __future__ import annotations
+
+import json
+import logging
+import secrets
+import time
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING
+
+from nodes.sensory.phone_page.batch import MOST_BYTES, read_message
+from nodes.sensory.phone_page.guard import headers, is_our_host, is_our_origin
+from nodes.sensory.phone_page.page_files import PageFiles, content_type
+from nodes.sensory.phone_page.receiving import Receiving
+from nodes.sensory.phone_page.token import is_token
+from nodes.sensory.phone_page.turn import Allowance
+
+if TYPE_CHECKING:
+    from aiohttp import web
+
+IDLE_S = 10.0  # a page says each second that it is there
+ANSWER_S = 1.0
+REQUESTS_S, REQUESTS_AT_ONCE = 60.0, 200.0
+UNREADABLE, TOO_MUCH = 1007, 1008  # reasons for closing a WebSocket (RFC 6455)
+log = logging.getLogger(__name__)
+
+
+class Site:
+    """Serves the page to those who have the token; ``receiving`` gets what the page sends."""
+
+    def __init__(self, token: str, files: PageFiles, receiving: Receiving) -> None:
+        self._token, self._files, self._receiving = token, files, receiving
+        self._requests = Allowance(REQUESTS_S, REQUESTS_AT_ONCE)
+
+    def app(self) -> web.Application:
+        """The application for aiohttp."""
+        from aiohttp import web
+
+        guard = web.middleware(self._guard)
+        app = web.Application(client_max_size=MOST_BYTES, middlewares=[guard])
+        app.router.add_get("/{token}", self._home)
+        app.router.add_get("/{token}/alive", self._alive)
+        app.router.add_get("/{token}/motion", self._motion)
+        app.router.add_post("/{token}/batch", self._batch)
+        app.router.add_get("/{token}/{name:[a-z.]*}", self._file)
+        app.on_response_prepare.append(_protect)
+        return app
+
+    async def _guard(
+        self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
+    ) -> web.StreamResponse:
+        """Lets only those through who ask for our address with the token, and not too often."""
+        from aiohttp import web
+
+        own = request.transport.get_extra_info("sockname") if request.transport else None
+        if own is None or not is_our_host(request.host, own[:2]):
+            return _text(403, "Open the link that NEP Studio shows.")
+        if not self._requests.grants(request.remote or "", time.monotonic()):
+            return _text(429, "Too many requests. Wait a moment.")
+        if not is_token(request.path.strip("/").partition("/")[0], self._token):
+            return self._refuse(request)
+        try:
+            return await handler(request)
+        except web.HTTPException as error:
+            return _text(error.status, error.reason)
+
+    def _refuse(self, request: web.Request) -> web.Response:
+        from aiohttp import web
+
+        nonce = secrets.token_urlsafe(16)
+        page = self._files.refused(request.headers.get("Accept-Language", ""), nonce)
+        own = headers(request.host, nonce)
+        return web.Response(status=403, text=page, content_type="text/html", headers=own)
+
+    async def _home(self, request: web.Request) -> web.Response:
+        """The page's other files are beside it: its address must end with a slash."""
+        from aiohttp import web
+
+        return web.Response(status=308, headers={"Location": f"/{self._token}/"})
+
+    async def _alive(self, request: web.Request) -> web.Response:
+        return _text(200, "")
+
+    async def _file(self, request: web.Request) -> web.Response:
+        name = request.match_info["name"] or "index.html"
+        if name not in self._files.texts:
+            return _text(404, "There is no such page.")
+        return _text(200, self._files.texts[name], content_type(name))
+
+    async def _batch(self, request: web.Request) -> web.Response:
+        """One batch by POST, for phones that refuse WebSockets to a certificate of our own."""
+        address = request.remote or ""
+        if not is_our_origin(request.headers, request.host):
+            return _text(403, "Only the page itself may send.")
+        if not self._receiving.may_send(address):
+            return _text(429, "Too many messages.")
+        try:
+            message = read_message(await request.read())
+        except ValueError as error:
+            return _text(400, f"This is no batch of the page: {error}")
+        return _text(200, _answer(self._receiving.take(message, address)), "application/json")
+
+    async def _motion(self, request: web.Request) -> web.StreamResponse:
+        """Batches by WebSocket, until the phone leaves, is silent too long, or sends rubbish."""
+        from aiohttp import web
+
+        if not is_our_origin(request.headers, request.host):
+            return _text(403, "Only the page itself may send.")
+        socket = web.WebSocketResponse(
+            max_msg_size=MOST_BYTES, compress=False, receive_timeout=IDLE_S, timeout=1.0
+        )
+        if not socket.can_prepare(request):
+            return _text(400, "The page itself uses this.")
+        await socket.prepare(request)
+        talk = _Talk(self._receiving, socket, request.remote or "")
+        try:
+            await talk.go_on()
+        finally:
+            self._receiving.leave(talk.phone)
+        return socket
+
+
+class _Talk:
+    """What one page says on its WebSocket, and what it is told."""
+
+    def __init__(self, receiving: Receiving, socket: web.WebSocketResponse, address: str) -> None:
+        self._receiving, self._socket, self._address = receiving, socket, address
+        self.phone = ""
+        self._told, self._told_s = "", 0.0
+
+    async def go_on(self) -> None:
+        """Hear and answer until the end of the talk."""
+        from aiohttp import WSMsgType
+
+        try:
+            async for message in self._socket:
+                if not self._receiving.may_send(self._address):
+                    await self._socket.close(code=TOO_MUCH)
+                elif message.type is WSMsgType.TEXT:
+                    await self._hear(message.data)
+                else:
+                    await self._socket.close(code=UNREADABLE)
+        except (TimeoutError, ConnectionError):
+            await self._socket.close()
+
+    async def _hear(self, text: str) -> None:
+        try:
+            message = read_message(text)
+        except ValueError as error:
+            log.info("A batch of %s cannot be read: %s", self._address, error)
+            await self._socket.close(code=UNREADABLE)
+            return
+        self.phone = message.id
+        state, now_s = self._receiving.take(message, self._address), time.monotonic()
+        if state != self._told or now_s - self._told_s >= ANSWER_S:
+            self._told, self._told_s = state, now_s
+            await self._socket.send_str(_answer(state))
+
+
+async def _protect(request: web.Request, response: web.StreamResponse) -> None:
+    """Give every answer the headers of safety, unless it has its own."""
+    for name, value in headers(request.host).items():
+        response.headers.setdefault(name, value)
+
+
+def _answer(state: str) -> str:
+    return json.dumps({"state": state})
+
+
+def _text(status: int, text: str, kind: str = "text/plain") -> web.Response:
+    from aiohttp import web
+
+    return web.Response(status=status, text=text, content_type=kind)

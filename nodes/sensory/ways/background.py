@@ -1,0 +1,85 @@
+"""An asyncio program in a thread of its own, which hands what arrives over to the node."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from nodes.sensory.ways.way import Arrived
+
+_MOST_WAITING = 256  # arrivals that the node has not taken yet; the oldest go first
+_STOP_S = 0.9
+
+
+class Background:
+    """Runs ``serve`` until it is stopped; what it puts in is taken out in batches."""
+
+    def __init__(self, serve: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        self._serve = serve
+        self._arrived: deque[Arrived] = deque(maxlen=_MOST_WAITING)
+        self._has_news = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._lost = 0
+        self._fault: BaseException | None = None
+
+    def start(self) -> None:
+        """Start the thread; an error of ``serve`` is raised by the next ``take``."""
+        self._thread = threading.Thread(target=self._run, name="way", daemon=True)
+        self._thread.start()
+
+    def put(self, arrived: Arrived) -> None:
+        """Hand over, from ``serve``; the oldest is left out when nobody takes them."""
+        if len(self._arrived) == _MOST_WAITING:
+            self._lost += len(self._arrived[0].readings)
+        self._arrived.append(arrived)
+        self._has_news.set()
+
+    def take(self, until_s: float) -> list[Arrived]:
+        """What was put in up to then."""
+        while (left_s := until_s - time.monotonic()) > 0 and self._fault is None:
+            if self._has_news.wait(left_s):
+                break
+        if self._fault is not None:
+            raise self._fault
+        self._has_news.clear()
+        found: list[Arrived] = []
+        while self._arrived:
+            found.append(self._arrived.popleft())
+        if self._lost and found:
+            first = found[0]
+            found[0] = Arrived(
+                first.sender, first.readings, first.arrived_s, first.trouble, first.told,
+                first.number, first.dropped + self._lost,
+            )  # fmt: skip
+            self._lost = 0
+        return found
+
+    def stop(self) -> None:
+        """Cancel ``serve`` and wait for it, but not long."""
+        if self._thread is None:
+            return
+        loop, task = self._loop, self._task
+        if loop is not None and task is not None and not loop.is_closed():
+            loop.call_soon_threadsafe(task.cancel)
+        self._thread.join(_STOP_S)
+        self._thread = None
+
+    def _run(self) -> None:
+        try:
+            asyncio.run(self._main())
+        except asyncio.CancelledError:
+            pass
+        except BaseException as error:  # it must reach the node, whatever it is
+            self._fault = error
+            self._has_news.set()
+
+    async def _main(self) -> None:
+        self._loop = asyncio.get_running_loop()
+        self._task = asyncio.current_task()
+        await self._serve()
