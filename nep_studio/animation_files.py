@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import msgspec
@@ -27,6 +27,10 @@ class AnimationFiles:
 
     folder: Path
     texts: Mapping[str, str] = field(default_factory=dict)
+
+    def moved(self, folder: Path) -> AnimationFiles:
+        """The same in another folder."""
+        return replace(self, folder=folder)
 
     def write(self) -> None:
         """Write those files that are not there. Raises OSError."""

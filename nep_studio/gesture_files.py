@@ -10,7 +10,7 @@ from array import array
 from base64 import b64decode
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from nep_core.places import cache_folder
@@ -46,6 +46,10 @@ class RecogniserFile:
         """The model."""
         return self.folder / "recogniser.gestures"
 
+    def moved(self, folder: Path) -> RecogniserFile:
+        """The same in another folder."""
+        return replace(self, folder=folder)
+
     def write(self) -> None:
         """Write it if it is not there. Raises OSError."""
         if self.path.is_file():
@@ -58,7 +62,7 @@ class RecogniserFile:
         part = self.path.with_suffix(f".{os.getpid()}.part")
         part.write_bytes(data)
         part.replace(self.path)  # at once: another window may write the same one
-        _forget_old(self.folder.parent)
+        _forget_old(self.folder)
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,10 @@ class TakeFiles:
     folder: Path
     gestures: Mapping[str, OwnGesture]
     recordings: Mapping[str, OwnRecording]
+
+    def moved(self, folder: Path) -> TakeFiles:
+        """The same in another folder."""
+        return replace(self, folder=folder)
 
     def write(self) -> None:
         """Write them if they are not there. Raises OSError."""
@@ -80,7 +88,7 @@ class TakeFiles:
                 part.rename(self.folder)
         finally:
             shutil.rmtree(part, ignore_errors=True)
-        _forget_old(self.folder.parent)
+        _forget_old(self.folder)
 
 
 def recogniser_file(project: Project) -> RecogniserFile | None:
@@ -155,9 +163,11 @@ def _spans(
         yield start_s, end_s, NEITHER
 
 
-def _forget_old(folder: Path) -> None:
-    """Delete all but the newest folders: they are written again when they are needed."""
+def _forget_old(newest: Path) -> None:
+    """Delete all but the newest folders of the cache: they are written again when needed."""
+    if newest.parent != cache_folder() / FOLDER:
+        return  # somebody keeps these files for good
     with suppress(OSError):
-        found = sorted(folder.iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)
-        for old in found[MOST_KEPT:]:
+        found = newest.parent.iterdir()
+        for old in sorted(found, key=lambda path: path.stat().st_mtime)[:-MOST_KEPT]:
             shutil.rmtree(old, ignore_errors=True)

@@ -32,7 +32,14 @@ Setting = str | float | int | bool
 
 
 class KeptFiles(Protocol):
-    """What a node reads of what the project keeps."""
+    """What a node reads of what the project keeps, in a folder of its own."""
+
+    @property
+    def folder(self) -> Path:
+        """Where it is, or will be."""
+
+    def moved(self, folder: Path) -> KeptFiles:
+        """The same in another folder."""
 
     def write(self) -> None:
         """Write what is not there. Raises OSError."""

@@ -22,7 +22,7 @@ from nep_studio.blocks.own_gestures import (
     training_digest,
 )
 from nep_studio.blocks.packed_samples import packed_samples
-from nep_studio.gesture_files import RecogniserFile, recogniser_file, take_files
+from nep_studio.gesture_files import FOLDER, MOST_KEPT, RecogniserFile, recogniser_file, take_files
 from nep_studio.node_checks import all_problems
 from nep_studio.plan import Choices, PlannedNode, plan
 from nep_studio.studio_language import studio_language
@@ -117,9 +117,13 @@ def test_a_damaged_recogniser_is_told_when_it_is_written(tmp_path):
         RecogniserFile(tmp_path / "x", "no base64!").write()
 
 
-def test_only_the_newest_files_are_kept(tmp_path):
+def test_only_the_newest_files_are_kept_in_the_cache(tmp_path, monkeypatch):
+    monkeypatch.setattr("nep_studio.gesture_files.cache_folder", lambda: tmp_path / "cache")
     text = b64encode(MODEL).decode()
-    for number in range(25):
-        RecogniserFile(tmp_path / f"{number}", text).write()
 
-    assert len(list(tmp_path.iterdir())) == 20
+    for number in range(25):
+        for parent in (tmp_path / "cache" / FOLDER, tmp_path / "mine"):
+            RecogniserFile(parent / f"{number}", text).write()
+
+    assert len(list((tmp_path / "cache" / FOLDER).iterdir())) == MOST_KEPT
+    assert len(list((tmp_path / "mine").iterdir())) == 25

@@ -16,7 +16,7 @@ from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Subscriber
 from nep_studio import paths
 from nep_studio.blocks.files import load
-from nep_studio.python_file import python_file
+from nep_studio.python_file import python_file, write_kept
 from nep_studio.studio_language import studio_language
 from tests.blocks.block_building import B, build
 from tests.node_running import until
@@ -123,3 +123,18 @@ def test_a_name_cannot_break_out_of_the_comment() -> None:
 
     code = "\n".join(line for line in text.split("\n") if not line.startswith("#"))
     assert "import os" not in code
+
+
+def test_gestures_of_the_project_lie_beside_its_python(tmp_path: Path) -> None:
+    project = load(paths.examples() / "own_gestures.nep", LANGUAGE)
+
+    write_kept(project, LANGUAGE, tmp_path / "mine.py")
+
+    text = python_file(project, LANGUAGE, tmp_path, "mine.py")
+    settings = dict(word.split("=", 1) for line in commands(text) for word in line if "=" in word)
+    assert (tmp_path / settings["model"]).is_file()
+    assert sorted(path.stem for path in (tmp_path / settings["takes"]).glob("*.csv")) == [
+        "big_wave",
+        "circle",
+        "knock",
+    ]

@@ -9,7 +9,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 
 from nep_studio.blocks.errors import BlocksError
-from nep_studio.python_file import SUFFIX, python_file
+from nep_studio.python_file import SUFFIX, python_file, write_kept
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Message
 from nep_studio.ui.words import tr
@@ -41,6 +41,8 @@ def save_python(window: MainWindow, path: Path) -> bool:
         return False
     beside = path.with_name(f".{path.name}.part")
     try:
+        if document is not None:
+            write_kept(document.project, document.editor.language, path)
         beside.write_text(text, encoding="utf-8")
         beside.replace(path)
     except OSError as error:
