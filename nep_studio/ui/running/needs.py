@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import threading
+from queue import SimpleQueue
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
@@ -41,10 +42,11 @@ LOOKS = {
 }
 
 
+LOOK_MS = 50
+
+
 class NeedsDialog(QDialog):
     """Follows the program, its nodes and its robots as long as it is open."""
-
-    answered = Signal(str, bool)
 
     def __init__(self, window: MainWindow, control: RunControl) -> None:
         super().__init__(window)
@@ -53,6 +55,9 @@ class NeedsDialog(QDialog):
         self._window, self._control = window, control
         self._answers: dict[str, bool] = {}
         self._asked: set[tuple[str, str]] = set()
+        self._news: SimpleQueue[tuple[str, bool]] = SimpleQueue()
+        self._next_look = QTimer(self, interval=LOOK_MS)
+        self._next_look.timeout.connect(self._take_answers)
         self.needs: list[Need] = []
         line = self.fontMetrics().height()
         self._headline = QLabel()
@@ -77,7 +82,6 @@ class NeedsDialog(QDialog):
         box.addWidget(self._scroll, 1)
         box.addWidget(buttons)
         self.resize(line * 34, line * 26)
-        self.answered.connect(self._on_answered)
         window.workbench.checks.found.connect(self.refresh)
         control.runner.nodes_changed.connect(self.refresh)
         control.runner.connected.connect(self.refresh)
@@ -111,20 +115,17 @@ class NeedsDialog(QDialog):
             if is_real(node) and (node.name, address) not in self._asked:
                 self._asked.add((node.name, address))
                 self._answers.pop(node.name, None)
-                threading.Thread(
-                    target=self._look_for, args=(node.name, address), daemon=True
-                ).start()
+                told = (node.name, address, self._news)
+                threading.Thread(target=_look_for, args=told, daemon=True).start()
+                self._next_look.start()
 
-    def _look_for(self, name: str, address: str) -> None:
-        found = answers_at(address)
-        try:
-            self.answered.emit(name, found)
-        except RuntimeError:  # the dialog is gone
-            return
-
-    def _on_answered(self, name: str, is_there: bool) -> None:
-        self._answers[name] = is_there
-        self.refresh()
+    def _take_answers(self) -> None:
+        while not self._news.empty():
+            name, is_there = self._news.get()
+            self._answers[name] = is_there
+            self.refresh()
+        if len(self._answers) == len(self._asked):
+            self._next_look.stop()
 
     def _show(self) -> None:
         missing = [need for need in self.needs if need.state == "missing"]
@@ -220,3 +221,8 @@ class NeedsDialog(QDialog):
     def _on_run(self) -> None:
         self.accept()
         self._control.runner.run()
+
+
+def _look_for(name: str, address: str, news: SimpleQueue[tuple[str, bool]]) -> None:
+    """Tell whether a robot is there; the dialog may be gone by then, so that it is not touched."""
+    news.put((name, answers_at(address)))
