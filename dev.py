@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from dev_system import (
+    BROWSER,
     DISPLAY_PROGRAMS,
     QT_LIBRARIES,
     WINDOW_LIBRARIES,
@@ -138,6 +139,7 @@ def system_needs(
         return QT_LIBRARIES | WINDOW_LIBRARIES, {}
     wished = WINDOW_LIBRARIES if is_shown or command in ("test", "bench") else {}
     programs = DISPLAY_PROGRAMS if command in ("test", "bench") else {}
+    programs = programs | BROWSER if command == "test" else programs
     if command in ("setup", "test", "bench"):
         return QT_LIBRARIES, wished | programs
     return {}, QT_LIBRARIES | wished

@@ -45,7 +45,10 @@ WINDOW_LIBRARIES = {
 DISPLAY_PROGRAMS = {"xvfb": "Xvfb", "xauth": "xauth"}
 """What gives tests a display of their own: the Debian package and the program in it."""
 
-EVERYTHING = QT_LIBRARIES | WINDOW_LIBRARIES | DISPLAY_PROGRAMS
+BROWSER = {"chromium": "chromium"}
+"""What opens the phone's page in tests: the Debian package and the program in it."""
+
+EVERYTHING = QT_LIBRARIES | WINDOW_LIBRARIES | DISPLAY_PROGRAMS | BROWSER
 
 
 class SetupError(Exception):

@@ -91,17 +91,17 @@ class Node:
         description: str = "",
         *,
         measures: Mapping[str, float] | None = None,
-    ) -> None:
-        """Tell how the node is doing, and what it measures about itself.
+    ) -> bool:
+        """Tell how the node is doing, and what it measures about itself; whether it went out.
 
         The same state again with measures goes out as a heartbeat with them, at most twice a
         second, so that it can be told as often as the node likes.
         """
         if measures is not None and (event == "alive" or self._told == (event, description)):
-            self._measure(measures)
-            return
+            return self._measure(measures)
         self._told = (event, description)
         self._states.send(self._state(event, description, measures))
+        return True
 
     def ready(self, description: str = "") -> None:
         """Tell that the node is ready, and for what."""
@@ -151,10 +151,12 @@ class Node:
             signal.raise_signal(number)
         self.stop()
 
-    def _measure(self, measures: Mapping[str, float]) -> None:
-        if time.monotonic() >= self._next_measures_s:
-            self._next_measures_s = time.monotonic() + MEASURES_S
-            self._states.send(self._state("alive", measures=measures), latch=False)
+    def _measure(self, measures: Mapping[str, float]) -> bool:
+        if time.monotonic() < self._next_measures_s:
+            return False
+        self._next_measures_s = time.monotonic() + MEASURES_S
+        self._states.send(self._state("alive", measures=measures), latch=False)
+        return True
 
     def _state(
         self,

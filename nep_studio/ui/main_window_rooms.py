@@ -22,6 +22,7 @@ from nep_studio.ui.panels.sensors.panel import add_sensors_panel, show_topic
 from nep_studio.ui.show.mode import add_show_mode
 from nep_studio.ui.study.adding import add_study
 from nep_studio.ui.tour.tour import add_tour
+from nep_studio.ui.watches.adding import add_watches
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
@@ -60,6 +61,7 @@ def add_rooms(window: MainWindow) -> Iterator[None]:
     add_study(window)
     yield
     add_connecting(window)
+    add_watches(window)
     add_motion(window)
     yield
     add_command_palette(window)

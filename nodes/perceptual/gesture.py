@@ -6,35 +6,93 @@ import time
 from functools import partial
 from pathlib import Path
 
-from nep_core.errors import RecordingError
+from nep_core.errors import ParameterError, RecordingError
 from nep_core.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
 from nep_core.node import Node
-from nodes.perceptual.recognition.model import Model
+from nodes.perceptual.recognition.ear import SensorEar, Worn
+from nodes.perceptual.recognition.measures import Measures
+from nodes.perceptual.recognition.model import Model, with_triggers
 from nodes.perceptual.recognition.model_file import read_model
 from nodes.perceptual.recognition.peaks import Detection
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.resources import resource_folder
 
 _MOST_SENSORS = 8
+_FORGOTTEN_S = 10.0
+"""A sensor that is silent for so long may give way to another one."""
 _SILENCE_S = 0.3
 """After so long the movement of a sensor has ended: a gesture that waits for a better one fires."""
 
+_Sensor = tuple[str, bool, bool, str]
+"""Its source, whether its acceleration has gravity, whether it sends rotation, its wrist."""
 
-def run(node: Node, *, model: str, gesture: str, method: str, certainty: float) -> None:
+
+def run(
+    node: Node,
+    *,
+    model: str,
+    gesture: str,
+    method: str,
+    certainty: float,
+    certainties: str,
+    worn: Worn,
+) -> None:
     """Publish ``gesture_<name>`` on ``/human_behavior``, once for each gesture made.
 
-    Raises RecordingError when the model cannot be used or does not know the gesture.
+    Raises RecordingError when the model cannot be used or does not know the gesture, and
+    ParameterError when the certainties cannot be read.
     """
     path = Path(model) if model else resource_folder() / "gestures" / "paper.gestures"
-    ears = _Ears(node, read_model(path), method, gesture, certainty)
+    known = read_model(path)
+    names = read_names(gesture) or list(known.names)
+    triggers = dict.fromkeys(known.names, certainty) if certainty else {}
+    known = with_triggers(known, triggers | read_certainties(certainties))
+    measures = Measures(node, names)
+    ears = _Ears(node, known, partial(_spotter, known, method, names), worn, measures)
     movement = node.subscriber(IMU, Imu)
     publisher = node.publisher(HUMAN_BEHAVIOR)
-    node.ready(f"recognises {gesture or ', '.join(ears.model.names)}")
+    node.ready(f"recognises {', '.join(names)}")
     while not node.stopping:
         batch = movement.receive(timeout_s=_SILENCE_S)
-        found = ears.hear(batch) if batch else []
-        for one in found + ears.end_of_silent():
+        measures.arrived(movement.header.time_ns if batch and movement.header else None)
+        for one in (ears.hear(batch) if batch else []) + ears.end_of_silent():
             publisher.send(_message(node, one))
+            measures.triggered(one, batch)
+        measures.tell()
+
+
+def read_names(text: str) -> list[str]:
+    """The gestures of a text such as ``karate, katana``, each once."""
+    return list(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+
+
+def read_certainties(text: str) -> dict[str, float]:
+    """The certainties of a text such as ``karate 0.6, katana 0.8``; ParameterError names a part."""
+    found = {}
+    for part in text.split(","):
+        if not part.strip():
+            continue
+        name, _, certainty = part.strip().rpartition(" ")
+        try:
+            found[name.strip()] = float(certainty)
+        except ValueError:
+            name = ""
+        if not name.strip():
+            raise ParameterError(
+                f'The certainties have "{part.strip()}", which is not a gesture and its certainty.',
+                checklist=("Write them with commas between them: karate 0.6, katana 0.8.",),
+            )
+    return found
+
+
+def _spotter(model: Model, method: str, names: list[str], gravity_included: bool) -> Spotter:
+    return Spotter(
+        model,
+        method=method,
+        gestures=names,
+        trigger=model.triggers,
+        gravity_included=gravity_included,
+    )
 
 
 def _message(node: Node, found: Detection) -> HumanBehavior:
@@ -46,66 +104,87 @@ def _message(node: Node, found: Detection) -> HumanBehavior:
 
 
 class _Ears:
-    """A spotter for each sensor that is heard; what a sensor lacks is told once."""
+    """An ear for each sensor that is heard; what a sensor lacks is told once."""
 
     def __init__(
-        self, node: Node, model: Model, method: str, gesture: str, certainty: float
+        self,
+        node: Node,
+        model: Model,
+        make_spotter: partial[Spotter],
+        worn: Worn,
+        measures: Measures,
     ) -> None:
-        self.model = model
         self._node = node
-        self._make_spotter = partial(
-            Spotter,
-            model,
-            method=method,
-            gestures=[gesture] if gesture else [],
-            trigger=certainty,
-        )
-        self._make_spotter()  # what the model lacks is told at the start
-        self._spotters: dict[tuple[str, bool, bool], Spotter | None] = {}
-        self._heard_s: dict[tuple[str, bool, bool], float] = {}
+        self._model = model
+        self._make_spotter = make_spotter
+        self._worn = worn
+        self._measures = measures
+        make_spotter(gravity_included=True)  # what the model lacks is told at the start
+        self._ears: dict[_Sensor, SensorEar | None] = {}
+        self._heard_s: dict[str, float] = {}
+        self._waiting: set[_Sensor] = set()
+        self._is_full = False
 
     def hear(self, batch: Imu) -> list[Detection]:
         """The gestures that end in a batch of samples."""
-        sensor = (batch.source, batch.gravity_included, batch.gyr is not None)
-        if sensor not in self._spotters:
-            self._forget_oldest()
-            self._spotters[sensor] = self._listen_to(batch)
-        spotter = self._spotters[sensor]
+        sensor = (batch.source, batch.gravity_included, batch.gyr is not None, batch.wrist)
+        if sensor not in self._ears and not self._take_in(sensor, batch):
+            return []
+        self._heard_s[batch.source] = time.monotonic()
+        ear = self._ears[sensor]
         counts = {len(batch.t), len(batch.acc), len(batch.t if batch.gyr is None else batch.gyr)}
-        if spotter is None or counts == {0}:
+        if ear is None or counts == {0}:
             return []
         if len(counts) > 1:
-            self._spotters[sensor] = None
+            self._ears[sensor] = None
             self._node.warn(f"{batch.source} sends times and samples that do not belong together")
             return []
-        self._heard_s[sensor] = time.monotonic()
-        return spotter.push(batch.t, batch.acc, batch.gyr)
+        self._waiting.add(sensor)
+        found = ear.hear(batch)
+        self._measures.heard(ear.certainties)
+        return found
 
     def end_of_silent(self) -> list[Detection]:
         """What the sensors that have just fallen silent ended with."""
         before_s = time.monotonic() - _SILENCE_S
-        silent = [sensor for sensor, heard_s in self._heard_s.items() if heard_s < before_s]
         found: list[Detection] = []
-        for sensor in silent:
-            del self._heard_s[sensor]
-            spotter = self._spotters.get(sensor)
-            found += spotter.flush() if spotter else []
+        for sensor in [one for one in self._waiting if self._heard_s[one[0]] < before_s]:
+            self._waiting.remove(sensor)
+            ear = self._ears[sensor]
+            found += ear.flush() if ear else []
         return found
 
-    def _listen_to(self, batch: Imu) -> Spotter | None:
-        gyroscope = batch.gyr is not None
+    def _take_in(self, sensor: _Sensor, batch: Imu) -> bool:
+        """Begin to listen to a sensor; False when there are too many."""
+        is_new = batch.source not in self._heard_s
+        if is_new and len(self._heard_s) >= _MOST_SENSORS and not self._forget_silent():
+            if not self._is_full:
+                self._is_full = True
+                self._node.warn(
+                    f"{batch.source[:60]} is not heard: {_MOST_SENSORS} watches and phones send"
+                    " movement already. Switch off those that nobody wears."
+                )
+            return False
+        self._is_full = self._is_full and not is_new
+        self._ears[sensor] = self._listen_to(batch)
+        return True
+
+    def _listen_to(self, batch: Imu) -> SensorEar | None:
+        make = partial(self._make_spotter, gravity_included=batch.gravity_included)
         try:
-            spotter = self._make_spotter(gravity_included=batch.gravity_included)
-            spotter.listen(gyroscope)
+            ear = SensorEar(batch, self._model, make, self._worn, self._node.warn)
         except RecordingError as error:
             self._node.warn(" ".join([error.sentence, *error.checklist]))
             return None
-        if gyroscope:
-            self._node.state("running", f"listens to {batch.source}")
-        else:
-            self._node.state("running", f"listens to {batch.source}, which sends no rotation")
-        return spotter
+        self._node.state("running", ear.description)
+        return ear
 
-    def _forget_oldest(self) -> None:
-        if len(self._spotters) >= _MOST_SENSORS:
-            del self._spotters[next(iter(self._spotters))]
+    def _forget_silent(self) -> bool:
+        """Forget the sensor that has been silent for longest, if that was long."""
+        oldest = min(self._heard_s, key=lambda source: self._heard_s[source])
+        if time.monotonic() - self._heard_s[oldest] < _FORGOTTEN_S:
+            return False
+        del self._heard_s[oldest]
+        self._ears = {sensor: ear for sensor, ear in self._ears.items() if sensor[0] != oldest}
+        self._waiting = {sensor for sensor in self._waiting if sensor[0] != oldest}
+        return True

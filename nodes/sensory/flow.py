@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from itertools import pairwise
 from statistics import median
 
 _RATE_OVER = 200  # samples
@@ -24,16 +25,16 @@ class Flow:
         self._last_number: int | None = None
         self.gaps = 0
 
-    def add(self, t: float) -> None:
-        """A sample's time in s; times rise."""
-        if self._times:
+    def add(self, t: float, *, is_stamped: bool = True) -> None:
+        """A sample's time in s; times rise. Those of arrival tell nothing of losses."""
+        if self._times and is_stamped:
             self._note_step(t - self._times[-1])
         self._times.append(t)
         self._since_step += 1
         if self._since_step >= _FEW:
             self._since_step = 0
             times = list(self._times)
-            self._step_s = median([b - a for a, b in zip(times, times[1:], strict=False)] or [0.0])
+            self._step_s = median([after - before for before, after in pairwise(times)])
 
     def add_message(self, number: int) -> None:
         """A message's place in the sender's count; one that starts anew loses nothing."""

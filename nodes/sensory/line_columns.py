@@ -36,9 +36,7 @@ class Layout:
     def told(self) -> str:
         """The columns for a person: "t (ms), ax, ay, az (m/s²), gx, gy, gz (rad/s)"."""
         units = {"t": self.time_unit, "az": self.acc_unit, "gz": self.gyr_unit}
-        names = [
-            f"{role} ({units[role]})" if units.get(role) else role for role in self.roles
-        ]
+        names = [f"{role} ({units[role]})" if units.get(role) else role for role in self.roles]
         return ", ".join(names)
 
     def reading(self, values: Sequence[float]) -> Reading | None:

@@ -69,8 +69,7 @@ def _time_unit(column: Sequence[float], arrived_s: Sequence[float]) -> str:
     if arrived_span_s < _LONG_S:
         return "" if _is_counter(column) else _by_step(median(steps))
     errors = {
-        unit: abs(math.log(span * unit_s / arrived_span_s))
-        for unit, unit_s in TIME_UNITS_S.items()
+        unit: abs(math.log(span * unit_s / arrived_span_s)) for unit, unit_s in TIME_UNITS_S.items()
     }
     best = min(errors, key=errors.__getitem__)
     return best if errors[best] < _TWICE else ""

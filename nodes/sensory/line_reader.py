@@ -10,7 +10,13 @@ from dataclasses import dataclass, field
 from nep_core.errors import ParameterError
 from nodes.sensory.line_columns import Layout, named_columns
 from nodes.sensory.line_guess import Row, guess_columns, guess_units
-from nodes.sensory.lines import is_of_an_app, is_of_paper_watch, read_app, read_json, read_paper_watch
+from nodes.sensory.lines import (
+    is_of_an_app,
+    is_of_paper_watch,
+    read_app,
+    read_json,
+    read_paper_watch,
+)
 from nodes.sensory.reading import Reading, finite_number
 
 _LONGEST_LINE = 8_192
@@ -44,7 +50,7 @@ class Fault:
         beginning = "".join(sign if sign.isprintable() else "\ufffd" for sign in self.line[:60])
         if _NOT_A_NUMBER.search(self.line):
             return f"{sender} sends values that are not numbers: “{beginning}”."
-        return f"{sender} sends a line that cannot be read: “{beginning}”."
+        return f'{sender} sends a line that cannot be read: "{beginning}"'
 
 
 @dataclass(frozen=True)

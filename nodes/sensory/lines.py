@@ -69,7 +69,7 @@ def is_of_an_app(message: Mapping[str, object]) -> bool:
 
 
 def read_app(message: Mapping[str, object]) -> list[Reading] | None:
-    """The readings of a known app's object; none for a sensor that is not needed, None if broken."""
+    """The readings of a known app's object; none of a sensor that is not needed, None if broken."""
     if "sensordata" in message:
         return _read_zig_sim(message)
     if message.get("op") == "hyperimu":
@@ -81,11 +81,10 @@ def read_app(message: Mapping[str, object]) -> list[Reading] | None:
 
 def read_android(message: Mapping[str, object], kind: str = "") -> list[Reading] | None:
     """An Android sensor event; ``kind`` is its sensor where it does not say so itself."""
-    values = message["values"] if "values" in message else None
     kind = kind or str(message.get("type"))
     if kind not in ("android.sensor.accelerometer", "android.sensor.gyroscope"):
         return []
-    three, stamp = vector(values), finite_number(message.get("timestamp"))
+    three, stamp = vector(message.get("values")), finite_number(message.get("timestamp"))
     if three is None:
         return None
     if kind == "android.sensor.accelerometer":

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from nodes.recording_columns import guess_time_unit_s
-from nodes.sensory.lines import Reading, Vector
+from nodes.sensory.clock_fit import ClockFit
+from nodes.sensory.flow import Flow
+from nodes.sensory.reading import NS, Reading, Vector
 
 _GYRO_LASTS_S = 0.5  # a rotation rate older than this is not joined to an acceleration any more
 _LONGEST_GAP_S = 30.0  # a sender's clock that jumps further was started anew,
-_LATEST_S = 1.0  # and so was one that goes back by more than readings overtake each other
+_LATEST_S = 1.0  # so was one that goes back by more than readings overtake each other,
+_EARLIEST_S = 10.0  # and one whose readings come so long before they can have been measured
 _SHORT_S = 0.001
-_RATE_OVER = 200  # samples
+_SIZES_OVER = 200  # samples
 _EARTH_M_S2 = (6.0, 14.0)
 
 
@@ -32,17 +35,16 @@ class SampleStream:
         self._clock = _SenderClock()
         self._gyr: Vector | None = None
         self._gyr_t = 0.0
-        self._times: deque[float] = deque(maxlen=_RATE_OVER)
-        self._sizes: deque[float] = deque(maxlen=_RATE_OVER)
+        self._last_t: float | None = None
+        self._sizes: deque[float] = deque(maxlen=_SIZES_OVER)
         self._gravity_told = True
         self._arrived_s: float | None = None
+        self.flow = Flow()
 
     @property
     def rate_hz(self) -> float:
         """Samples a second as measured, 0 while too few have come."""
-        if len(self._times) < 10 or self._times[-1] <= self._times[0]:
-            return 0.0
-        return (len(self._times) - 1) / (self._times[-1] - self._times[0])
+        return self.flow.rate_hz
 
     @property
     def gravity_included(self) -> bool:
@@ -50,7 +52,24 @@ class SampleStream:
         usual = sorted(self._sizes)[len(self._sizes) // 2] if self._sizes else 9.81
         return self._gravity_told and _EARTH_M_S2[0] < usual < _EARTH_M_S2[1]
 
-    def samples(self, readings: list[Reading], arrived_s: float) -> list[Sample]:
+    @property
+    def measures(self) -> dict[str, float]:
+        """What a person wants to know of the flow; drift only when it is known."""
+        found = {
+            "rate_hz": round(self.flow.rate_hz, 2),
+            "loss": round(self.flow.loss, 4),
+            "gaps": float(self.flow.gaps),
+            "delay_ms": round(self._clock.fit.delay_s * 1000, 1),
+        }
+        drift_ppm = self._clock.fit.drift_ppm
+        return found if drift_ppm is None else found | {"drift_ppm": round(drift_ppm, 1)}
+
+    def take_jump_s(self) -> float:
+        """By how much the sender's clock has jumped since this was asked last."""
+        jump_s, self._clock.jump_s = self._clock.jump_s, 0.0
+        return jump_s
+
+    def samples(self, readings: Sequence[Reading], arrived_s: float) -> list[Sample]:
         """The samples that the readings of a packet make; late and repeated ones are left out.
 
         Readings without a time of their own are spread over the time since the packet before.
@@ -62,15 +81,18 @@ class SampleStream:
             self._sample(reading, before_s + step_s * number)
             for number, reading in enumerate(readings, start=1)
         ]
+        if readings and readings[-1].stamp is not None:  # the last one waited least
+            self._clock.note_arrival(arrived_s)
         return [sample for sample in made if sample is not None]
 
     def _sample(self, reading: Reading, arrived_s: float) -> Sample | None:
         t = self._clock.seconds(reading, arrived_s)
         if reading.gyr is not None:
             self._gyr, self._gyr_t = reading.gyr, t
-        if reading.acc is None or (self._times and t <= self._times[-1]):
+        if reading.acc is None or (self._last_t is not None and t <= self._last_t):
             return None
-        self._times.append(t)
+        self._last_t = t
+        self.flow.add(t, is_stamped=reading.stamp is not None)
         self._sizes.append(sum(axis * axis for axis in reading.acc) ** 0.5)
         self._gravity_told = reading.gravity_included
         fresh = self._gyr is not None and abs(t - self._gyr_t) < _GYRO_LASTS_S
@@ -81,6 +103,8 @@ class _SenderClock:
     """Seconds since the first reading: by the sender's stamps, else by when readings arrive."""
 
     def __init__(self) -> None:
+        self.fit = ClockFit()
+        self.jump_s = 0.0
         self._unit_s: float | None = None
         self._zero_s: float | None = None  # the sender's time at our time 0
         self._last_stamp = 0.0
@@ -96,19 +120,39 @@ class _SenderClock:
             return self._last_s
         stamp_s = reading.stamp * self._unit_of(reading.stamp, reading.stamp_unit_s)
         self._last_stamp = reading.stamp
-        if self._zero_s is None or not self._is_near(stamp_s - self._zero_s):
-            self._zero_s = stamp_s - self._last_s - max(since_s, _SHORT_S)
-        t = stamp_s - self._zero_s
+        if self._zero_s is None or not self._is_near(stamp_s - self._zero_s, arrived_s):
+            self._start_anew(stamp_s, since_s)
+        t = stamp_s - (self._zero_s or 0.0)
         self._last_s = max(self._last_s, t)
         return t
 
-    def _is_near(self, t: float) -> bool:
-        return -_LATEST_S < t - self._last_s < _LONGEST_GAP_S
+    def note_arrival(self, arrived_s: float) -> None:
+        """The reading that was timed last arrived then."""
+        self.fit.add(self._last_s, arrived_s)
+
+    def _start_anew(self, stamp_s: float, since_s: float) -> None:
+        if self._zero_s is not None:
+            step_s = stamp_s - self._zero_s - self._last_s
+            if abs(step_s - since_s) > _LATEST_S:  # else it was silent for so long
+                self.jump_s = step_s
+            self.fit = ClockFit()
+        self._zero_s = stamp_s - self._last_s - max(since_s, _SHORT_S)
+
+    def _is_near(self, t: float, arrived_s: float) -> bool:
+        if not -_LATEST_S < t - self._last_s < _LONGEST_GAP_S:
+            return False
+        return self.fit.lead_s(t, arrived_s) < _EARLIEST_S
 
     def _unit_of(self, stamp: float, told_s: float | None) -> float:
         if told_s is not None:
             return told_s
         if self._unit_s is None and self._zero_s is not None and stamp > self._last_stamp:
-            self._unit_s = guess_time_unit_s(stamp - self._last_stamp)
+            self._unit_s = _unit_of_step(stamp - self._last_stamp)
             self._zero_s = self._last_stamp * self._unit_s - self._last_s
         return self._unit_s or 1.0
+
+
+def _unit_of_step(step: float) -> float:
+    """The unit of stamps that are ``step`` apart, for sensors of about 1 to 1,000 Hz."""
+    limits = ((0.9, 1.0), (900, 1e-3), (9e5, 1e-6))
+    return next((unit_s for limit, unit_s in limits if step < limit), NS)

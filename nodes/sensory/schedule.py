@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from nep_core.errors import ParameterError
-from nodes.sensory.arm.gestures import Gesture, gesture_named
+from nodes.sensory.arm.gestures import gesture_named
+from nodes.sensory.own_takes import Movement
 
 PAUSE_S = 3.0
 
@@ -14,19 +16,19 @@ PAUSE_S = 3.0
 class Planned:
     """A gesture and when it is begun: at a second, or (None) a pause after the one before."""
 
-    gesture: Gesture
+    gesture: Movement
     at_s: float | None
 
 
-def read_schedule(text: str) -> list[Planned]:
-    """Read a schedule; ParameterError names the part that is wrong."""
+def read_schedule(text: str, find: Callable[[str], Movement] = gesture_named) -> list[Planned]:
+    """Read a schedule of gestures that can be found; ParameterError names a part that is wrong."""
     parts = [part.split() for part in text.split(",") if part.strip()]
-    return [_read_part(words) for words in parts]
+    return [_read_part(words, find) for words in parts]
 
 
-def _read_part(words: list[str]) -> Planned:
+def _read_part(words: list[str], find: Callable[[str], Movement]) -> Planned:
     if len(words) == 1:
-        return Planned(gesture_named(words[0]), None)
+        return Planned(find(words[0]), None)
     try:
         at_s, name = float(words[0]), words[1]
     except ValueError:
@@ -39,7 +41,7 @@ def _read_part(words: list[str]) -> Planned:
                 "Or with the second at which each begins: 3 karate, 8 hand_up.",
             ),
         )
-    return Planned(gesture_named(name), at_s)
+    return Planned(find(name), at_s)
 
 
 class Schedule:
@@ -52,7 +54,7 @@ class Schedule:
         self._round_began_s = 0.0
         self._idle_since_s = 0.0
 
-    def due(self, now_s: float, *, is_busy: bool) -> Gesture | None:
+    def due(self, now_s: float, *, is_busy: bool) -> Movement | None:
         """The gesture to begin at ``now_s``, if any; asked again and again as time goes on."""
         if is_busy:
             self._idle_since_s = now_s

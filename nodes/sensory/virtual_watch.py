@@ -7,10 +7,10 @@ import time
 from nep_core.errors import ParameterError
 from nep_core.messages import GESTURE_REQUEST, IMU, GestureRequest, Imu
 from nep_core.node import Node
-from nodes.sensory.arm.gestures import Gesture, gesture_named
-from nodes.sensory.arm.live import LivePerson
 from nodes.sensory.batches import rows
+from nodes.sensory.own_takes import Movement, Repertoire, read_repertoire
 from nodes.sensory.schedule import Schedule, read_schedule
+from nodes.sensory.wearer import Wearer
 
 _BATCH_S = 0.03
 _MOST_LATE_S = 0.2  # after a longer hold-up (a computer that slept) time is left out, not caught up
@@ -26,13 +26,17 @@ def run(
     repeat: bool,
     seed: int,
     speed: float,
+    takes: str,
 ) -> None:
     """Publish ``/imu`` in real time until the node stops; ParameterError for a wrong schedule.
 
-    ``speed``: how many times faster than real time the person lives and the watch's clock goes.
+    ``takes``: a folder of recordings whose gestures can be asked for too; RecordingError when it
+    cannot be read. ``speed``: how many times faster than real time the person lives and the
+    watch's clock goes.
     """
-    schedule = Schedule(read_schedule(gestures), repeat=repeat)
-    watch = _Watch(node, rate_hz, person, seed)
+    repertoire = read_repertoire(takes)
+    schedule = Schedule(read_schedule(gestures, repertoire.find), repeat=repeat)
+    watch = _Watch(node, rate_hz, person, seed, repertoire)
     publisher = node.publisher(IMU)
     requests = node.subscriber(GESTURE_REQUEST, GestureRequest)
     if speed == 1.0:
@@ -69,17 +73,20 @@ class _Pace:
 class _Watch:
     """The watch on somebody's wrist, who may hand it to somebody else."""
 
-    def __init__(self, node: Node, rate_hz: float, person: int, seed: int) -> None:
+    def __init__(
+        self, node: Node, rate_hz: float, person: int, seed: int, repertoire: Repertoire
+    ) -> None:
+        self._repertoire = repertoire
         self._node = node
         self._rate_hz = rate_hz
         self._seed = seed
-        self._wearer = LivePerson(person, rate_hz, seed)
+        self._wearer = Wearer(person, rate_hz, seed)
         self._told = ""
 
     def hear(self, request: GestureRequest) -> None:
         """Let the wearer, or the person asked for, make a gesture."""
         try:
-            gesture = gesture_named(request.gesture)
+            gesture = self._repertoire.find(request.gesture)
         except ParameterError as error:
             self._node.warn(" ".join([error.sentence, *error.checklist]))
             return
@@ -105,13 +112,13 @@ class _Watch:
             simulated=True,
         )
 
-    def _ask(self, gesture: Gesture) -> None:
+    def _ask(self, gesture: Movement) -> None:
         if not self._wearer.ask(gesture):
             self._node.warn(f"Too many gestures are waiting: {gesture.name} is left out.")
 
     def _hand_to(self, person: int) -> None:
         start_s = self._wearer.now_s + _HANDED_OVER_S
-        self._wearer = LivePerson(person, self._rate_hz, self._seed, start_s)
+        self._wearer = Wearer(person, self._rate_hz, self._seed, start_s)
         self._node.state("running", f"simulated person {person} puts the watch on")
 
     def _tell(self, gesture: str) -> None:

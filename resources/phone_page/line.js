@@ -24,7 +24,8 @@ export class Line {
     this.isPosting = false;     // by POST: iOS refuses WebSockets to a certificate of our own
     this.isBusy = false;
     this.isOver = false;        // the computer does not know this link
-    this.heardAt = this.sentAt = 0;
+    this.heardAt = 0;
+    this.sentAt = -ALIVE_MS;
     setInterval(() => this.flush(), BATCH_MS);
     this.open();
   }
@@ -38,6 +39,11 @@ export class Line {
     if (sample.t - this.waiting[0].t >= BATCH_MS / 1000) this.flush();
   }
 
+  /** What was not sent yet is not sent any more. */
+  drop() {
+    this.waiting = [];
+  }
+
   open() {
     if (this.isPosting) return;
     const socket = new WebSocket(`${location.origin.replace(/^http/, "ws")}${location.pathname}motion`);
@@ -49,6 +55,8 @@ export class Line {
       wasOpen = true;
       this.failures = 0;
       this.heardAt = performance.now();
+      this.sentAt = this.heardAt - ALIVE_MS; // so that it is heard of at once
+      this.flush();
     };
     socket.onmessage = (message) => this.heard(message.data);
     socket.onclose = () => {

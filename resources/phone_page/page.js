@@ -5,6 +5,7 @@ import { Line } from "./line.js";
 import { Sign, allowMotion, sampleOf } from "./motion.js";
 
 const NO_SENSORS_MS = 2500;
+const EMPTY_MS = 400;           // after an event without values, which says that there are no sensors
 const RATE_OVER = 60;           // samples
 const HAND = "nep-studio-hand";
 const element = (id) => document.getElementById(id);
@@ -60,7 +61,10 @@ function rateHz() {
 function onMotion(event) {
   if (motion !== "on") return;
   const sample = sampleOf(event, sign);
-  if (!sample) return;
+  if (!sample) {
+    if (!times.length) expectSensors(EMPTY_MS);
+    return;
+  }
   clearTimeout(noSensors);
   if (times.length && sample.t <= times[times.length - 1]) return; // one event, told twice
   times.push(sample.t);
@@ -79,7 +83,7 @@ async function start() {
     times.length = 0;
     window.addEventListener("devicemotion", onMotion);
     window.addEventListener("deviceorientation", onTurn);
-    noSensors = setTimeout(() => { stop("none"); }, NO_SENSORS_MS);
+    expectSensors(NO_SENSORS_MS);
     keepAwake();
   } else {
     motion = "denied";
@@ -87,8 +91,14 @@ async function start() {
   show();
 }
 
+function expectSensors(within) {
+  clearTimeout(noSensors);
+  noSensors = setTimeout(() => stop("none"), within);
+}
+
 function stop(next) {
   motion = next;
+  line.drop();
   clearTimeout(noSensors);
   window.removeEventListener("devicemotion", onMotion);
   window.removeEventListener("deviceorientation", onTurn);

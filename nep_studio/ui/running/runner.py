@@ -69,6 +69,8 @@ class Runner(QObject):
         self.local.listen(self._on_message)
         self.local.on_open = self._came_up.emit
         self.local.on_master = self.master_changed.emit
+        self.told_elsewhere: set[str] = set()
+        """Nodes of which a dialog tells what becomes of them: no message is needed."""
         self.play: Play | None = None
         self._is_closed = False
         self._looked_s = 0.0

@@ -104,6 +104,13 @@ class OfferCard(QPushButton):
         label.setFixedWidth(size.width())
         return label
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter opens it too."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.click()
+        else:
+            super().keyPressEvent(event)
+
     def heightForWidth(self, width: int) -> int:
         """The height that its words need."""
         layout = self.layout()
@@ -140,14 +147,3 @@ class ChoosingPage(QWidget):
             card.clicked.connect(lambda _=False, way=way: self.chosen.emit(way))
             box.addWidget(card)
         box.addStretch(1)
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """The arrow keys go from card to card."""
-        steps = {Qt.Key.Key_Down: 1, Qt.Key.Key_Up: -1}
-        cards = list(self.cards.values())
-        focused = next((at for at, card in enumerate(cards) if card.hasFocus()), None)
-        key = Qt.Key(event.key())
-        if key in steps and focused is not None:
-            cards[(focused + steps[key]) % len(cards)].setFocus(Qt.FocusReason.TabFocusReason)
-        else:
-            super().keyPressEvent(event)

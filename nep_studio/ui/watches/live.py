@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLay
 
 from nep_core.messages import Imu
 from nep_studio.problems import Problem
+from nep_studio.ui.messages import announce
 from nep_studio.ui.theme import Look, icon
 from nep_studio.ui.words import tr
 
@@ -34,6 +35,7 @@ class LiveView(QFrame):
         self.advice = QLabel()
         self.advice_card = QFrame()
         self.rows = [(QLabel(), QLabel(), QLabel(), QLabel()) for _ in range(MOST_FIGURES)]
+        self._understood: list[str] = []
         self._grades: list[str] = [""] * MOST_FIGURES
         self._lay_out()
         ear.heard.connect(self._on_heard)
@@ -103,9 +105,19 @@ class LiveView(QFrame):
             self._show("still", tr("It sends. Now move it"), words)
         self._advise(advice)
         self._show_figures(figures(self._ear.flow) if self._ear.is_sending else [])
-        status = self._ear.status
-        self.understood.setText(tr(status.description) if status is not None else "")
+        self.understood.setText("\n".join(self._told()))
         self.understood.setVisible(bool(self.understood.text()))
+
+    def _told(self) -> list[str]:
+        """How the node understands what arrives, and what it warns of."""
+        status = self._ear.status
+        if status is None or not status.description:
+            return []
+        told = tr(status.description)
+        if status.event == "warning":
+            return [*self._understood, told]
+        self._understood = [told]
+        return self._understood
 
     def _counted(self) -> str:
         receiving = self._ear.receiving
@@ -116,7 +128,9 @@ class LiveView(QFrame):
     def _show(self, state: Moving, title: str, sentence: str) -> None:
         is_there = state in ("still", "moved")
         self.dot.show_movement(state, self._ear.receiving.movement_m_s2 if is_there else 0.0)
-        self.title.setText(title)
+        if title != self.title.text():
+            self.title.setText(title)
+            announce(self, title)
         self.sentence.setText(sentence)
         self.sentence.setVisible(bool(sentence))
         self.curve.setVisible(is_there)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
@@ -19,8 +19,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.plan import Setting
 from nep_studio.ui.start_page_flow import Flow
 from nep_studio.ui.words import tr
+
+from .ways import Way
 
 LARGEST_PORT = 65_535
 
@@ -113,41 +116,78 @@ class WornQuestion(QWidget):
 
 
 class MoreSettings(QWidget):
-    """The port, and which columns lines have: hidden until somebody wants them."""
+    """The port, which columns lines have, and how an app counts: hidden until they are wanted."""
 
     changed = Signal()
 
-    def __init__(self, port: int, asks_columns: bool, parent: QWidget | None = None) -> None:
+    def __init__(self, way: Way, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._way = way
         self.toggle = QCheckBox(tr("More settings"))
         self.port = QSpinBox()
         self.port.setRange(1, LARGEST_PORT)
-        self.port.setValue(port)
+        self.port.setValue(way.port or 1)
         self.port.setKeyboardTracking(False)
         self.columns = QLineEdit()
         self.columns.setPlaceholderText("t,ax,ay,az,gx,gy,gz")
         self.columns.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        self.units = QComboBox()
+        for units, words in units_words().items():
+            self.units.addItem(words, units)
         self.fields = QWidget()
-        form = QFormLayout(self.fields)
-        form.setContentsMargins(0, 0, 0, 0)
-        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
-        if port:
-            form.addRow(label_of(tr("Port"), self.port), self.port)
-        if asks_columns:
-            form.addRow(label_of(tr("Columns"), self.columns), self.columns)
-            words = tr(
-                "Empty: they are guessed. t is the time, ax ay az the acceleration, gx gy gz the"
-                " rotation, - a column that is passed over."
-            )
-            form.addRow("", hint(words))
-        box = column_in(self)
-        box.addWidget(self.toggle)
-        box.addWidget(self.fields)
-        self.setVisible(bool(port) or asks_columns)
-        self.fields.hide()
+        self._lay_out()
         self.toggle.toggled.connect(self.fields.setVisible)
         self.port.valueChanged.connect(self.changed)
         self.columns.editingFinished.connect(self.changed)
+        self.units.activated.connect(self.changed)
+
+    def _lay_out(self) -> None:
+        form = QFormLayout(self.fields)
+        form.setContentsMargins(0, 0, 0, 0)
+        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
+        if self._way.listens:
+            form.addRow(label_of(tr("Port"), self.port), self.port)
+        if self._way.asks_columns:
+            form.addRow(label_of(tr("Columns"), self.columns), self.columns)
+            words = tr(
+                "Empty: they are guessed. t is the time, ax ay az the acceleration, gx gy gz the"
+                " rotation; units may follow, as in t(ms),ax(g),gx(deg/s); a - is left out."
+            )
+            form.addRow(hint(words))
+        if self._way.asks_units:
+            form.addRow(label_of(tr("How it counts"), self.units), self.units)
+        box = column_in(self)
+        box.addWidget(self.toggle)
+        box.addWidget(self.fields)
+        self.setVisible(form.rowCount() > 0)
+        self.fields.hide()
+
+    @property
+    def settings(self) -> dict[str, Setting]:
+        """The parameters that differ from what is usual; the port is its own."""
+        found: dict[str, Setting] = {}
+        if self._way.asks_columns and self.columns.text().strip():
+            found["columns"] = self.columns.text().strip()
+        if self._way.asks_units and self.units.currentIndex():
+            found["units"] = str(self.units.currentData())
+        return found
+
+    def show_settings(self, settings: Mapping[str, Setting]) -> None:
+        """Begin with what was chosen before."""
+        self.port.setValue(int(settings.get("port") or self._way.port or 1))
+        self.columns.setText(str(settings.get("columns", "")))
+        self.units.setCurrentIndex(max(0, self.units.findData(settings.get("units", "guess"))))
+        is_unusual = bool(self.settings) or self.port.value() != (self._way.port or 1)
+        self.toggle.setChecked(is_unusual)
+
+
+def units_words() -> dict[str, str]:
+    """How an app counts, by the name of the setting."""
+    return {
+        "guess": tr("Guess"),
+        "standard": tr("As Android: m/s²"),
+        "apple": tr("As Apple: g, axes the other way"),
+    }
 
 
 def hint(words: str) -> QLabel:

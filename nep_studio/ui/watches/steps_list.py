@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from nep_studio.ui.theme import Look, icon
 from nep_studio.ui.words import tr
 
-from .ways import Step
+from .ways import UNKNOWN, Step
 
 COPIED_MS = 2000
 
@@ -64,6 +64,8 @@ class CopyLine(QWidget):
         self._words = words
         self.button = QPushButton(icon("copy", look.theme), words)
         self.button.setAutoDefault(False)
+        line = self.fontMetrics().height()
+        self.button.setIconSize(QSize(line, line))
         self._again = QTimer(self, singleShot=True, interval=COPIED_MS)
         self._again.timeout.connect(lambda: self.button.setText(self._words))
         row = QHBoxLayout(self)
@@ -78,6 +80,7 @@ class CopyLine(QWidget):
             self.text.setText(text)
             self.text.setCursorPosition(0)
             self.text.setToolTip(text)
+            self.setEnabled(UNKNOWN not in text)
 
     def _on_copy(self) -> None:
         QGuiApplication.clipboard().setText(self.text.text())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Literal
 
 from PySide6.QtCore import QObject, Signal
@@ -35,6 +36,7 @@ class WatchTrial(QObject):
         self._started: PlannedNode | None = None
         self._pid_before = 0
         self._has_ended = False
+        runner.told_elsewhere.add(name)
         runner.nodes_changed.connect(self._on_nodes_changed)
         runner.node_failed.connect(self._on_node_failed)
 
@@ -65,12 +67,16 @@ class WatchTrial(QObject):
             self._wanted = None
         else:
             self.stop()
-            self.deleteLater()
+            self._leave()
 
     def keep(self, planned: PlannedNode | None) -> None:
         """Go, but let the node run on, as this one of the project's plan."""
         if planned is not None and is_same(planned, self._runner.local.planned.get(self.name)):
             self._runner.local.planned[self.name] = planned  # so that Run takes it over
+        self._leave()
+
+    def _leave(self) -> None:
+        self._runner.told_elsewhere.discard(self.name)
         self.deleteLater()
 
     def _start(self) -> None:
@@ -105,7 +111,13 @@ class WatchTrial(QObject):
 
     def _on_node_failed(self, name: str, error: NepError) -> None:
         if name == self.name and self.state == "starting":
-            self.problem = problem_of(error)
+            problem = problem_of(error)
+            launched = self._runner.local.launcher.nodes.get(name)
+            outcome = launched.outcome if launched is not None else None
+            if outcome is not None and outcome.last_words:
+                # its own words are plainer than those about its process
+                problem = replace(problem, sentence=outcome.last_words)
+            self.problem = problem
             self._go_on("failed")
 
     def _go_on(self, state: State) -> None:
@@ -114,7 +126,7 @@ class WatchTrial(QObject):
         if self._wanted is None:
             self.stop()
             if self._has_ended:
-                self.deleteLater()
+                self._leave()
         elif self._wanted is not self._started:
             self._start()
 

@@ -9,6 +9,8 @@ from nep_studio.plan import REPLAY, VIRTUAL_WATCH
 from nep_studio.ui.words import tr
 
 SMARTWATCH = "sensory/smartwatch"
+UNKNOWN = "…"
+"""Stands where an address is not known."""
 Worn = Literal["left", "right", "hand"]
 Extra = Literal["", "network", "warning", "address", "gestures", "recording"]
 
@@ -18,7 +20,7 @@ class Way:
     """``name`` is the parameter ``through`` of the node, or the name of a simulated source.
 
     ``listens``: devices come to this computer; else it goes to the device, at the ``address``
-    that a person writes. ``port`` is the usual one, 0 where there is none.
+    that a person writes. ``port`` is the usual one here, 0 where none is opened.
     """
 
     name: str
@@ -30,6 +32,7 @@ class Way:
     worn: Worn = "hand"
     asks_address: bool = False
     asks_columns: bool = False
+    asks_units: bool = False
     asks_wrist: bool = True
 
 
@@ -56,15 +59,16 @@ class Place:
         return f"{self.address}:{self.port}"
 
 
-PHONE_PAGE = Way("phone_page", "qr-code", port=8443, listens=True, protocol="TCP")
+PHONE_PAGE = Way("phone_page", "qr-code", port=8443, listens=True, protocol="TCP", asks_wrist=False)
+"""Where the phone is, is asked on the page itself."""
 PAPER_WATCH = Way("paper_watch", "watch", port=8080, listens=True, protocol="TCP", worn="left")
 BLUETOOTH = Way("bluetooth", "bluetooth", worn="left", asks_address=True)
 VIRTUAL = Way("virtual_watch", "user", VIRTUAL_WATCH, asks_wrist=False)
 RECORDING = Way("recording", "circle-play", REPLAY, asks_wrist=False)
 APPS = (
-    Way("sensor_logger", "smartphone", port=8000, listens=True, protocol="TCP"),
-    Way("phyphox", "smartphone", port=8080, protocol="TCP", asks_address=True),
-    Way("sensor_server", "smartphone", port=8080, protocol="TCP", asks_address=True),
+    Way("sensor_logger", "smartphone", port=8000, listens=True, protocol="TCP", asks_units=True),
+    Way("phyphox", "smartphone", protocol="TCP", asks_address=True, asks_units=True),
+    Way("sensor_server", "smartphone", protocol="TCP", asks_address=True),
     Way(
         "udp", "smartphone", port=8085, listens=True, protocol="UDP", asks_columns=True
     ),
@@ -79,17 +83,12 @@ def way_title(way: Way) -> str:
     """What the page of a way is headed."""
     titles = {
         "phone_page": tr("A phone, without installing anything"),
-        "sensor_logger": "Sensor Logger",
-        "phyphox": "phyphox",
-        "sensor_server": "SensorServer",
-        "udp": tr("Another app, by UDP"),
-        "tcp": tr("Another app, by TCP"),
         "paper_watch": tr("The watch of the paper"),
         "bluetooth": tr("A Bluetooth sensor"),
         "virtual_watch": tr("A simulated person"),
         "recording": tr("A recording"),
     }
-    return titles[way.name]
+    return titles.get(way.name) or tr("A watch or phone with an app")
 
 
 def app_words(way: Way) -> str:
@@ -130,7 +129,9 @@ def _phone_page(place: Place) -> list[Step]:
         "The phone warns once: it does not know this computer. That is expected, for the page"
         " comes from here and not from the internet. Let it go on."
     )
-    start = tr("On the page, press Start and allow motion. Leave the page open, the screen on.")
+    start = tr(
+        "On the page, press “Allow motion”, and say where the phone is. Leave the page open."
+    )
     return [_same_network(), Step(scan, place.url), Step(warned, extra="warning"), Step(start)]
 
 
@@ -215,7 +216,7 @@ def silence_steps(way: Way, place: Place, is_open: bool, address: str) -> tuple[
         return (tr("Look into the log of the node in the panel Nodes."),)
     found.append(tr("Is the screen of the device on, and is it sending?"))
     if way.asks_address:
-        found.append(tr("Is {address} still what the app shows?", address=address or "…"))
+        found.append(tr("Is {address} still what the app shows?", address=address or UNKNOWN))
         found.append(tr("Are both in the same Wi-Fi? A guest network often keeps devices apart."))
         return tuple(found)
     where = place.url.partition("?")[0] or place.both

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,11 +29,16 @@ class Detection:
 
 
 class PeakPicker:
-    """Fires once when the best certainty is over its peak."""
+    """Fires once when the best certainty is over its peak.
 
-    def __init__(self, gestures: Sequence[Gesture], trigger: float) -> None:
+    ``trigger`` is the certainty that it takes, one for all gestures or by their names.
+    """
+
+    def __init__(self, gestures: Sequence[Gesture], trigger: float | Mapping[str, float]) -> None:
         self._gestures = gestures
-        self._trigger = trigger
+        self._triggers = [
+            trigger[one.name] if isinstance(trigger, Mapping) else trigger for one in gestures
+        ]
         self._best: Detection | None = None
         self._waited = 0
         self._silent_until_s = self._free_from_s = float("-inf")
@@ -45,7 +50,7 @@ class PeakPicker:
         certainty, start_s = float(certainties[column]), end_s - float(lengths_s[column])
         better = self._best is None or certainty > self._best.certainty
         may_fire = end_s >= self._silent_until_s and start_s >= self._free_from_s
-        if certainty >= self._trigger and better and may_fire:
+        if certainty >= self._triggers[column] and better and may_fire:
             self._best = Detection(self._gestures[column].name, certainty, start_s, end_s)
             self._waited = 0
             return None

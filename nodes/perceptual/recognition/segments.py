@@ -11,30 +11,36 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nodes.perceptual.recognition.stream import Floats
 
 Fault = Literal["", "short", "still", "long", "gap"]
 """Why a movement is no good example: too short, too weak, too long, samples are missing in it."""
 
-SHORTEST_S, LONGEST_S = 0.25, 5.0
-PAUSE_S = 0.25
+SHORTEST_S, LONGEST_S = 0.25, 8.0
+PAUSE_S = 0.3
 """A shorter rest is part of the movement."""
-CALM_F, CALM_C = 1.5, .15
-LONGEST_PAUSE_S=0.8
-SETTLED_S = 0.35
-"""After so long a rest a movement is over."""
+LONGEST_PAUSE_S = 0.7
+"""So long a weak stretch parts two movements even if it is no rest."""
 ENDLESS_S = 12.0
 """A movement without any rest is given up after so long."""
 GAP_S = 0.3
 WEAK = 0.35
 """A movement with less than this part of the usual energy is too weak."""
-_EDGE, _CORE = 0.18, 0.35
+_EDGE, _CORE = 0.12, 0.35
 """How far above rest, as a part of the strongest energy, movement begins, and surely is one."""
 _SLOW_S, _SMOOTH_S = 0.9, 0.15
 _ACC_M_S2, _GYR_RAD_S = 1.0, 0.5
 """So much acceleration, or turning, is an energy of 1: what rest never reaches."""
 _REST_QUANTILE = 0.2
+_REMEMBERED = 6000
+_LEAST_EDGE, _LEAST_CORE = 0.6, 1.0
+_CALM_TIMES, _CALM_ABOVE = 1.5, 0.15
+"""With less than so many times the energy of rest, and a little, a hand is at rest."""
+
+Span = tuple[int, int]
+"""The first and the last of some samples, by their place."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +79,7 @@ class MovementFinder:
         self._measured = 0
         """Of how many of these samples the energy is known."""
         self._energies: list[float] = []
-        """All energies there ever were: what rest is, is learned from them."""
+        """The last of them: what rest is, is learned from them."""
         self._open_t: Floats = np.empty(0)
         self._open: Floats = np.empty(0)
         """Times and energies of what is not told of yet."""
@@ -104,10 +110,8 @@ class MovementFinder:
         """Give what is not over yet: the stream ends here."""
         if len(self._t) >= 3:
             self._measure(len(self._t))
-        if not len(self._open):
-            return []
         found = self._judged(self._open_t, self._open)
-        self._drop(len(self._open))
+        self._open_t, self._open = np.empty(0), np.empty(0)
         return found
 
     def _measure(self, until: int) -> None:
@@ -115,7 +119,7 @@ class MovementFinder:
         if until <= self._measured:
             return
         energy = energy_of(self._t, self._acc, self._gyr)[self._measured : until]
-        self._energies += energy.tolist()
+        self._energies = (self._energies + energy.tolist())[-_REMEMBERED:]
         self._open = np.concatenate([self._open, energy])
         self._open_t = np.concatenate([self._open_t, self._t[self._measured : until]])
         kept = max(0, until - round(_SLOW_S * _rate_hz(self._t)))
@@ -131,40 +135,41 @@ class MovementFinder:
         return float(np.median(self._strengths)) if self._strengths else 0.0
 
     def _edge(self, strength: float = 0.0) -> float:
-        """Above which energy a movement of this strength goes on."""
-        rest = min(self._rest(), strength or self._usual() or np.inf)
-        return max(
-            0.6, rest + _EDGE * (max(strength, self._usual()) - rest), 1.5 * rest * (not strength)
-        )
+        """Above which energy a movement of this strength goes on; 0: of the usual strength."""
+        strength, rest = max(strength, self._usual()), self._rest()
+        if not strength:
+            return max(_LEAST_EDGE, 1.5 * rest)
+        return max(_LEAST_EDGE, rest + _EDGE * max(strength - rest, 0.0))
 
     def _take_over(self) -> list[Movement]:
         """Take what is over from what is open."""
-        t, is_moving = self._open_t, self._open > self._edge()
+        t, energy = self._open_t, self._open
         found: list[Movement] = []
-        for first, last in self._merged(t, self._open, _spans(is_moving)):
+        for first, last in self._merged(t, energy, _spans(energy > self._edge())):
             is_endless = t[last] - t[first] > ENDLESS_S
-            if t[-1] - t[last] < SETTLED_S and not is_endless:
-                self._drop(int(np.searchsorted(self._open_t, t[first])))
+            if not is_endless and not self._is_over(t[last:], energy[last:]):
+                self._forget_before(float(t[first]))
                 return found
-            window = (self._open_t >= t[first]) & (self._open_t <= t[last])
-            found += self._judged(self._open_t[window], self._open[window])
-            self._drop(int(np.searchsorted(self._open_t, t[last], side="right")))
-        self._drop(len(self._open) - 1)
+            found += self._judged(t[first : last + 1], energy[first : last + 1])
+        if len(t):
+            self._forget_before(float(t[-1]))
         return found
 
-    def _drop(self, count: int) -> None:
-        self._open_t, self._open = self._open_t[count:], self._open[count:]
+    def _is_over(self, t: Floats, energy: Floats) -> bool:
+        """Whether nothing that follows can still be part of a movement that ended at ``t[0]``."""
+        is_late = t[-1] - t[0] > LONGEST_PAUSE_S
+        return bool(is_late or self._rested_s(t, energy) > PAUSE_S)
+
+    def _forget_before(self, time_s: float) -> None:
+        kept = int(np.searchsorted(self._open_t, time_s))
+        self._open_t, self._open = self._open_t[kept:], self._open[kept:]
 
     def _judged(self, t: Floats, energy: Floats) -> list[Movement]:
         """The movements in a stretch without a rest: one, or more where one is much stronger."""
-        if not len(energy):
-            return []
-        strongest = float(energy.max())
-        usual = self._usual()
-        edge = self._edge(strongest)
-        core = max(1.0, self._rest() + _CORE * (strongest - self._rest()))
+        strongest, usual, rest = float(energy.max(initial=0.0)), self._usual(), self._rest()
+        core = max(_LEAST_CORE, rest + _CORE * (strongest - rest))
         found: list[Movement] = []
-        for first, last in self._merged(t, energy, _spans(energy > edge)):
+        for first, last in self._merged(t, energy, _spans(energy > self._edge(strongest))):
             peak = float(energy[first : last + 1].max())
             if peak < core:
                 continue
@@ -174,20 +179,22 @@ class MovementFinder:
                 self._strengths.append(peak)
         return found
 
-    def _merged(self, t: Floats, energy: Floats, spans: list[tuple[int, int]]) -> list[tuple[int, int]]:
-        """The spans with those made one that no rest parts."""
-        calm = CALM_F * self._rest() + CALM_C
-        merged: list[tuple[int, int]] = []
+    def _merged(self, t: Floats, energy: Floats, spans: list[Span]) -> list[Span]:
+        """The spans, with those made one that no rest parts."""
+        merged: list[Span] = []
         for first, last in spans:
-            before = merged[-1][1] if merged else 0
-            if merged and t[first] - t[before] < LONGEST_PAUSE_S and self._rested(t[before:first+1], energy[before:first+1] < calm) < PAUSE_S:
+            pause = slice(merged[-1][1], first + 1) if merged else slice(0)
+            is_short = merged and t[first] - t[merged[-1][1]] < LONGEST_PAUSE_S
+            if is_short and self._rested_s(t[pause], energy[pause]) < PAUSE_S:
                 merged[-1] = (merged[-1][0], last)
             else:
                 merged.append((first, last))
         return merged
 
-    def _rested(self, t, is_calm):
-        return max((float(t[b]-t[a]) for a,b in _spans(is_calm)), default=0.0)
+    def _rested_s(self, t: Floats, energy: Floats) -> float:
+        """The longest rest in a stretch, in s."""
+        calm = _CALM_TIMES * self._rest() + _CALM_ABOVE
+        return max((float(t[last] - t[first]) for first, last in _spans(energy < calm)), default=0)
 
 
 def find_movements(t: Floats, acc: Floats, gyr: Floats | None) -> list[Movement]:
@@ -230,7 +237,7 @@ def _averaged(values: Floats, samples: float) -> Floats:
     return averaged
 
 
-def _spans(is_in: np.ndarray) -> list[tuple[int, int]]:
+def _spans(is_in: NDArray[np.bool_]) -> list[Span]:
     """First and last place of each run of True."""
     edges = np.diff(np.concatenate([[0], is_in.astype(int), [0]]))
     firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)

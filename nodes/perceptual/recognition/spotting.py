@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.features import cut_windows, describe
-from nodes.perceptual.recognition.model import TRIGGER, Model, Recogniser
+from nodes.perceptual.recognition.model import TRIGGER, Model, Recogniser, unknown_gesture
 from nodes.perceptual.recognition.peaks import Detection, PeakPicker, best_lengths
 from nodes.perceptual.recognition.scans import HOP
 from nodes.perceptual.recognition.stream import RATE_HZ, EvenStream, Floats, Memory
@@ -19,8 +18,9 @@ from nodes.perceptual.recognition.stream import RATE_HZ, EvenStream, Floats, Mem
 class Spotter:
     """Tells, soon after its end, which gesture was made.
 
-    ``gestures`` limits what it looks for (then it does less work); ``gravity_included`` says what
-    the sensor's acceleration is. RecordingError when the model lacks the method or a gesture, or
+    ``gestures`` limits what it looks for (then it does less work); ``trigger`` is the certainty
+    that it takes, one for all or by gesture; ``gravity_included`` says what the sensor's
+    acceleration is. RecordingError when the model lacks the method or a gesture, or
     the sensor lacks what the model needs.
     """
 
@@ -30,7 +30,7 @@ class Spotter:
         *,
         method: str = "trees",
         gestures: Collection[str] = (),
-        trigger: float = TRIGGER,
+        trigger: float | Mapping[str, float] = TRIGGER,
         gravity_included: bool = True,
     ) -> None:
         self._model = model
@@ -43,6 +43,18 @@ class Spotter:
         self._fits = model.fits[useful] & wanted
         self._memory = Memory(int(self._lengths[-1]))
         self._gyroscope: bool | None = None
+        self._certainties = np.zeros(len(model.gestures))
+        self.looked: Callable[[float, Floats, Floats], object] = lambda *_: None
+        """Called at each look: its end in s, each gesture's certainty and length of window in s."""
+        self._sought = [
+            name for name, is_sought in zip(model.names, wanted, strict=True) if is_sought
+        ]
+
+    @property
+    def certainties(self) -> dict[str, float]:
+        """How certain it was of each gesture that it looks for, when it looked last."""
+        known = dict(zip(self._model.names, self._certainties.tolist(), strict=True))
+        return {name: known[name] for name in self._sought}
 
     def listen(self, gyroscope: bool) -> None:
         """Begin with a sensor; RecordingError when it lacks what the model needs."""
@@ -75,6 +87,7 @@ class Spotter:
         """A new movement: what was before it does not matter."""
         self._picker = PeakPicker(self._model.gestures, self._trigger)
         self._memory.clear()
+        self._certainties = np.zeros(len(self._model.gestures))
         self._since_look = 0
 
     def _take(self, end_s: float, row: Floats) -> list[Detection]:
@@ -94,14 +107,14 @@ class Spotter:
         windows = describe(raw, lengths, self._recogniser.channels)
         certainties = self._recogniser.certainties(windows)
         best, which = best_lengths(certainties, self._fits[full])
-        return self._picker.look(end_s, best, lengths[which] / RATE_HZ)
+        self._certainties = best
+        lengths_s = lengths[which] / RATE_HZ
+        self.looked(end_s, best, lengths_s)
+        return self._picker.look(end_s, best, lengths_s)
 
 
 def _wanted(model: Model, gestures: Collection[str]) -> NDArray[np.bool_]:
     unknown = sorted(set(gestures) - set(model.names))
     if unknown:
-        raise RecordingError(
-            f'The gesture model does not know "{unknown[0]}".',
-            checklist=(f"Choose one of: {', '.join(model.names)}.", "Or train it and try again."),
-        )
+        raise unknown_gesture(model, unknown[0])
     return np.array([not gestures or name in gestures for name in model.names])

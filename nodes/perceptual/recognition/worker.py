@@ -70,11 +70,16 @@ def main(arguments: list[str]) -> int:
     threading.Thread(target=_read, args=(sys.stdin.buffer, orders), daemon=True).start()
     for parent in arguments[:1]:
         threading.Thread(target=_watch_parent, args=(int(parent),), daemon=True).start()
-    importlib.import_module("sklearn.ensemble")  # takes longer than a training
+    _train_without_delay()
     told.tell({"ready": True})
     everybodys_movement()
     while True:
         _do(orders.get(), told)
+
+
+def _train_without_delay() -> None:
+    """Import the library of learning now: that takes as long as a training."""
+    importlib.import_module("sklearn.ensemble")
 
 
 def _do(line: bytes, told: _Told) -> None:

@@ -103,6 +103,7 @@ def _make(key_file: Path, chain_file: Path, names: Sequence[str]) -> None:
     from cryptography import x509
     from cryptography.hazmat.primitives import hashes, serialization
     from cryptography.hazmat.primitives.asymmetric import ec
+    from cryptography.x509.oid import ExtendedKeyUsageOID
 
     key = ec.generate_private_key(ec.SECP256R1())
     subject = x509.Name(
@@ -114,7 +115,7 @@ def _make(key_file: Path, chain_file: Path, names: Sequence[str]) -> None:
     builder = builder.not_valid_before(now - _CLOCKS_DIFFER)
     builder = builder.not_valid_after(now - _CLOCKS_DIFFER + timedelta(days=VALID_DAYS))
     alternatives = x509.SubjectAlternativeName([_general_name(name) for name in names])
-    usage = x509.ExtendedKeyUsage([x509.ExtendedKeyUsageOID.SERVER_AUTH])
+    usage = x509.ExtendedKeyUsage([ExtendedKeyUsageOID.SERVER_AUTH])
     builder = builder.add_extension(alternatives, critical=False)
     builder = builder.add_extension(usage, critical=False)
     builder = builder.add_extension(x509.BasicConstraints(False, None), critical=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ipaddress
 from collections.abc import Mapping
 
+SERVER = "NEP Studio"
 COMMON_HEADERS = {
     "Cache-Control": "no-store",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -12,7 +13,6 @@ COMMON_HEADERS = {
     "Permissions-Policy": "accelerometer=(self), gyroscope=(self), screen-wake-lock=(self), "
     "camera=(), microphone=(), geolocation=()",
     "Referrer-Policy": "no-referrer",  # the link has the token in it
-    "Server": "NEP Studio",
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
 }

@@ -1,4 +1,4 @@
-"""Takes the messages of all pages that are open, and gives on those of the phone that is followed."""
+"""Takes the messages of all open pages, and gives on those of the phone that is followed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ MESSAGES_S, MESSAGES_AT_ONCE = 60.0, 120.0
 SAMPLES_S, SAMPLES_AT_ONCE = 500.0, 1500.0  # twice what the fastest phone sends
 TOLD_EVERY_S = 5.0
 
-WORN = {"left": "on the left wrist", "right": "on the right wrist", "hand": "in the hand"}
 FOLLOWED, BUSY = "followed", "busy"
 """What a phone is told: that its samples are used, or that another phone is followed."""
 
@@ -52,7 +51,6 @@ class Receiving:
             sender=self._followed,
             readings=readings_of(message) if is_granted else (),
             arrived_s=now_s,
-            told=WORN[message.hand],
             dropped=message.lost + (0 if is_granted else len(message.t)),
         )
         self._give(arrived)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import dataclasses
 import socket
-from collections.abc import Iterable
+import threading
+from collections.abc import AsyncIterator, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,7 +27,8 @@ if TYPE_CHECKING:
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 32
-CLOSE_S = 0.2
+START_S = 5.0
+CLOSE_S = 0.1  # for saying goodbye; then a connection is given up
 HANDSHAKE_S = 5.0
 IDLE_CONNECTION_S = 15.0
 
@@ -73,10 +76,12 @@ class PhonePage:
         files, self.certificate = self._prepared()
         door = open_tcp(self._settings)
         self._settings = dataclasses.replace(self._settings, port=door.getsockname()[1])
-        background = Background(lambda: self._serve(door, files))
+        ready = threading.Event()
+        background = Background(lambda: self._serve(door, files, ready))
         self._receiving = Receiving(background.put)
         self._background = background
         background.start()
+        ready.wait(START_S)
         return self.urls[0]
 
     def take(self, until_s: float = 0.0) -> list[Arrived]:
@@ -105,39 +110,67 @@ class PhonePage:
                 details=str(error),
             ) from error
 
-    async def _serve(self, door: socket.socket, files: PageFiles) -> None:
+    async def _serve(self, door: socket.socket, files: PageFiles, ready: threading.Event) -> None:
+        try:
+            async with self._serving(door, files):
+                ready.set()
+                await asyncio.Future()
+        finally:
+            ready.set()
+            door.close()
+
+    @contextlib.asynccontextmanager
+    async def _serving(self, door: socket.socket, files: PageFiles) -> AsyncIterator[None]:
         from aiohttp import web
 
         assert self._receiving is not None and self.certificate is not None
-        site = Site(self.token, files, self._receiving)
         runner = web.AppRunner(
-            site.app(),
+            Site(self.token, files, self._receiving).app(),
             handle_signals=False,
             access_log=None,  # the links have the token in them
             keepalive_timeout=IDLE_CONNECTION_S,
             shutdown_timeout=CLOSE_S,
         )
         await runner.setup()
+        connections = _Connections(runner)
         server = await asyncio.get_running_loop().create_server(
-            lambda: _protocol(runner),
+            connections.protocol,
             sock=door,
             ssl=self.certificate.context(),
             ssl_handshake_timeout=HANDSHAKE_S,
             ssl_shutdown_timeout=CLOSE_S,
         )
         try:
-            await asyncio.Future()
+            yield
         finally:
             server.close()
-            await runner.cleanup()
+            await connections.close()
 
 
-def _protocol(runner: web.AppRunner) -> asyncio.BaseProtocol:
-    """Who speaks on a new connection; nobody when there are too many already."""
-    assert runner.server is not None
-    if len(runner.server.connections) >= MOST_CONNECTIONS:
-        return _TurnedAway()
-    return runner.server()
+class _Connections:
+    """All connections to the page: not too many, and all closed in the end."""
+
+    def __init__(self, runner: web.AppRunner) -> None:
+        self._runner = runner
+        self._open: list[web.RequestHandler] = []
+
+    def protocol(self) -> asyncio.BaseProtocol:
+        """Who speaks on a new connection; nobody when there are too many already."""
+        assert self._runner.server is not None
+        if len(self._runner.server.connections) >= MOST_CONNECTIONS:
+            return _TurnedAway()
+        handler = self._runner.server()
+        self._open = [one for one in self._open if one.transport is not None] + [handler]
+        return handler
+
+    async def close(self) -> None:
+        """End what is going on; those who do not say goodbye are not waited for."""
+        transports = [one.transport for one in self._open]
+        await self._runner.cleanup()
+        for transport in filter(None, transports):
+            transport.abort()
+        if self._open:
+            await asyncio.sleep(2 * CLOSE_S)
 
 
 class _TurnedAway(asyncio.Protocol):

@@ -10,7 +10,7 @@ from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING
 
 from nodes.sensory.phone_page.batch import MOST_BYTES, read_message
-from nodes.sensory.phone_page.guard import headers, is_our_host, is_our_origin
+from nodes.sensory.phone_page.guard import SERVER, headers, is_our_host, is_our_origin
 from nodes.sensory.phone_page.page_files import PageFiles, content_type
 from nodes.sensory.phone_page.receiving import Receiving
 from nodes.sensory.phone_page.token import is_token
@@ -18,6 +18,8 @@ from nodes.sensory.phone_page.turn import Allowance
 
 if TYPE_CHECKING:
     from aiohttp import web
+
+    _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 IDLE_S = 10.0  # a page says each second that it is there
 ANSWER_S = 1.0
@@ -37,7 +39,10 @@ class Site:
         """The application for aiohttp."""
         from aiohttp import web
 
-        guard = web.middleware(self._guard)
+        @web.middleware
+        async def guard(request: web.Request, handler: _Handler) -> web.StreamResponse:
+            return await self._guard(request, handler)
+
         app = web.Application(client_max_size=MOST_BYTES, middlewares=[guard])
         app.router.add_get("/{token}", self._home)
         app.router.add_get("/{token}/alive", self._alive)
@@ -47,9 +52,7 @@ class Site:
         app.on_response_prepare.append(_protect)
         return app
 
-    async def _guard(
-        self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
-    ) -> web.StreamResponse:
+    async def _guard(self, request: web.Request, handler: _Handler) -> web.StreamResponse:
         """Lets only those through who ask for our address with the token, and not too often."""
         from aiohttp import web
 
@@ -162,6 +165,7 @@ async def _protect(request: web.Request, response: web.StreamResponse) -> None:
     """Give every answer the headers of safety, unless it has its own."""
     for name, value in headers(request.host).items():
         response.headers.setdefault(name, value)
+    response.headers["Server"] = SERVER
 
 
 def _answer(state: str) -> str:

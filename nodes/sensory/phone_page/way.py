@@ -17,8 +17,10 @@ class PhonePageWay:
 
     @property
     def where(self) -> str:
-        """What the node is ready for: the link, which is a secret of this user's network."""
-        return f"waits for a phone that opens {self.page.urls[0]} ({self._settings.who})"
+        """What the node is ready for; the link is told only where nobody else knows its token."""
+        is_known = bool(self._settings.token)
+        told = f"its page on port {self.page.port}" if is_known else self.page.urls[0]
+        return f"waits for a phone that opens {told} ({self._settings.who})"
 
     @property
     def missing(self) -> str:

@@ -7,11 +7,13 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Coroutine
+from dataclasses import replace
 from typing import Any
 
 from nodes.sensory.ways.way import Arrived
 
 _MOST_WAITING = 256  # arrivals that the node has not taken yet; the oldest go first
+_ENOUGH = 64  # arrivals that are taken at once, without waiting for the end of a batch
 _STOP_S = 0.9
 
 
@@ -21,7 +23,7 @@ class Background:
     def __init__(self, serve: Callable[[], Coroutine[Any, Any, None]]) -> None:
         self._serve = serve
         self._arrived: deque[Arrived] = deque(maxlen=_MOST_WAITING)
-        self._has_news = threading.Event()
+        self._has_enough = threading.Event()
         self._thread: threading.Thread | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._task: asyncio.Task[None] | None = None
@@ -38,25 +40,20 @@ class Background:
         if len(self._arrived) == _MOST_WAITING:
             self._lost += len(self._arrived[0].readings)
         self._arrived.append(arrived)
-        self._has_news.set()
+        if len(self._arrived) >= _ENOUGH:
+            self._has_enough.set()
 
     def take(self, until_s: float) -> list[Arrived]:
         """What was put in up to then."""
-        while (left_s := until_s - time.monotonic()) > 0 and self._fault is None:
-            if self._has_news.wait(left_s):
-                break
+        self._has_enough.wait(max(0.0, until_s - time.monotonic()))
         if self._fault is not None:
             raise self._fault
-        self._has_news.clear()
+        self._has_enough.clear()
         found: list[Arrived] = []
         while self._arrived:
             found.append(self._arrived.popleft())
         if self._lost and found:
-            first = found[0]
-            found[0] = Arrived(
-                first.sender, first.readings, first.arrived_s, first.trouble, first.told,
-                first.number, first.dropped + self._lost,
-            )  # fmt: skip
+            found[0] = replace(found[0], dropped=found[0].dropped + self._lost)
             self._lost = 0
         return found
 
@@ -77,7 +74,7 @@ class Background:
             pass
         except BaseException as error:  # it must reach the node, whatever it is
             self._fault = error
-            self._has_news.set()
+            self._has_enough.set()
 
     async def _main(self) -> None:
         self._loop = asyncio.get_running_loop()

@@ -37,7 +37,9 @@ class Settings:
     @property
     def who(self) -> str:
         """Who may send, for a sentence."""
-        return "from this computer only" if self.listen_on == "this computer" else "from the network"
+        return (
+            "from this computer only" if self.listen_on == "this computer" else "from the network"
+        )
 
 
 @dataclass(frozen=True)
@@ -48,8 +50,9 @@ class Arrived:
     ``arrived_s`` is ``time.monotonic()``; ``readings`` are in the order of their stamps. A
     ``trouble`` is a whole sentence about what could not be used; the node warns of it at most
     every few seconds. ``told`` is how its numbers are understood, without words that need
-    translating ("t (ms), ax, ay, az (m/s²)"): the node adds it to "connected". ``number`` counts the sender's messages, where it does, so
-    that a lost one is noticed; messages are then handed over in this order.
+    translating ("t (ms), ax, ay, az (m/s²)"): the node adds it to "connected". ``number`` counts
+    the sender's messages, where it does, so that a lost one is noticed; messages are then handed
+    over in this order. ``dropped`` are readings that were left out because too many came.
     An arrival with neither readings nor trouble says: the sender is there, but silent.
     """
 
@@ -59,7 +62,7 @@ class Arrived:
     trouble: str = ""
     told: str = ""
     number: int | None = None
-    dropped: int = 0  # readings left out on purpose, because too many came
+    dropped: int = 0
 
 
 class Way(Protocol):

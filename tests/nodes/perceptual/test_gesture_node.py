@@ -7,7 +7,7 @@ from nep_core.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
 from nep_core.pubsub import Publisher, Subscriber
 from nodes.perceptual.recognition.model_file import write_model
 from nodes.perceptual.recognition.passages import takes_of
-from tests.node_running import WAIT_S, NodeRunner
+from tests.node_running import WAIT_S, NodeRunner, until
 
 
 class Program(NodeRunner):
@@ -25,6 +25,10 @@ class Program(NodeRunner):
         found = [self.behaviors.receive(WAIT_S) for _ in range(count)]
         assert None not in found
         return found
+
+    def measures(self, name):
+        """The next measures that have this one among them."""
+        return until(self.states, lambda state: name in state.measures)[-1].measures
 
     def send(self, recording, listeners=1, **changes):
         """All samples of a recording, in batches of 30 ms."""
@@ -87,6 +91,22 @@ def test_a_process_for_each_gesture_tells_that_gesture_only(program, file, stran
     assert sources == {("hand_up", "gesture_hand_up"), ("karate", "gesture_karate")}
 
 
+def test_a_process_for_a_set_of_gestures_tells_how_certain_quick_and_busy_it_is(
+    program, file, stranger
+):
+    program.start(model=file, gesture="karate, hand_up", certainties="karate 0.6")
+    assert program.state("ready").description == "recognises karate, hand_up"
+
+    program.send(stranger)
+    program.told(len(takes_of(stranger)))
+    measures = program.measures("latency_ms")
+
+    assert set(measures) == {"certainty.karate", "certainty.hand_up", "latency_ms", "load"}
+    assert 0 <= measures["certainty.karate"] <= 1
+    assert 0 < measures["latency_ms"] < 5000
+    assert 0 < measures["load"] < 8
+
+
 def test_without_a_model_of_its_own_it_knows_the_five_of_the_paper(program):
     program.start()
 
@@ -99,16 +119,37 @@ def test_without_a_model_of_its_own_it_knows_the_five_of_the_paper(program):
     [
         ({"gesture": "jump"}, 'The gesture model does not know "jump".'),
         ({"model": "nowhere.gestures"}, "There is no gesture model nowhere.gestures."),
+        ({"gesture": "karate, jump"}, 'The gesture model does not know "jump".'),
+        ({"certainties": "jump 0.5"}, 'The gesture model does not know "jump".'),
+        ({"certainties": "karate"}, 'The certainties have "karate", which is not a gesture and'),
+        ({"certainties": "karate 7"}, "The certainty of karate is 7, which is not possible."),
     ],
 )
 def test_what_it_cannot_do_is_told_at_the_start(program, file, parameters, sentence):
     node = program.start(**{"model": file} | parameters)
 
-    assert program.state("crashed").description == sentence
+    assert sentence in program.state("crashed").description
     _, told = node.communicate(timeout=5)
     assert node.returncode == 1
     assert sentence in told
     assert "Traceback" not in told
+
+
+def test_of_very_many_sensors_the_first_are_heard_and_that_is_told_once(program, file, stranger):
+    program.start(model=file)
+    program.state("ready")
+
+    publisher = Publisher(IMU, network=program.network)
+    assert publisher.wait_for_subscribers(1, WAIT_S)
+    rows = {"t": [0.0], "acc": [(0.0, 0.0, 9.8)], "rate_hz": 50.0}
+    for number in range(200):
+        publisher.send(Imu(source=f"watch {number}", **rows))
+    program.state("warning", "watch 8 is not heard: 8 watches and phones send movement already")
+    program.send(stranger, source="watch 0")
+
+    assert len(program.told(4)) == 4
+    warnings = [one for one in iter(lambda: program.states.receive(0), None) if one]
+    assert [one for one in warnings if one.event == "warning"] == []
 
 
 def test_a_sensor_that_lacks_something_is_told_and_another_is_still_heard(program, file, stranger):

@@ -3,14 +3,19 @@
 import json
 import pickle
 import zipfile
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from nep_core.errors import RecordingError
+from nodes.perceptual.recognition.model import TRIGGER, Sensor, with_triggers
 from nodes.perceptual.recognition.model_file import model_bytes, read_model, write_model
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.training import train
+
+
+SENSOR = {"device": "watch", "rate_hz": 50.0, "gravity": True, "gyroscope": True}
 
 
 @pytest.fixture
@@ -51,6 +56,53 @@ def test_a_model_that_was_written_recognises_as_before(file, model, stranger):
         assert [one.gesture for one in found[0]] == [one.gesture for one in found[1]]
         certainties = [[one.certainty for one in each] for each in found]
         assert certainties[0] == pytest.approx(certainties[1], abs=1e-3)
+
+
+def test_triggers_wrist_and_sensors_are_kept(tmp_path, model):
+    path = tmp_path / "mine.gestures"
+    sensors = (Sensor("Pixel Watch", 50.0, True, True), Sensor("", 33.3, False, False))
+
+    write_model(path, replace(with_triggers(model, {"karate": 0.6}), wrist="left", sensors=sensors))
+    again = read_model(path)
+
+    assert again.triggers == {"hand_up": 0.75, "karate": 0.6}
+    assert (again.wrist, again.sensors) == ("left", sensors)
+
+
+def test_a_model_of_version_1_is_still_read(file, model):
+    def be_old(about):
+        about["version"] = 1
+        del about["wrist"], about["sensors"]
+        for gesture in about["gestures"]:
+            del gesture["trigger"]
+
+    again = read_model(rewritten(file, be_old))
+
+    assert again.names == model.names
+    assert set(again.triggers.values()) == {TRIGGER}
+    assert (again.wrist, again.sensors) == ("", ())
+
+
+@pytest.mark.parametrize("triggers", [{"jump": 0.5}, {"karate": 0.0}, {"karate": 1.2}])
+def test_a_trigger_that_makes_no_sense_is_told(model, triggers):
+    with pytest.raises(RecordingError) as told:
+        with_triggers(model, triggers)
+    assert told.value.checklist
+
+
+def test_the_report_of_a_training_tells_what_each_certainty_catches(model):
+    report = model.report["trees"]
+
+    curve = report["curves"]["karate"]
+    assert [point["certainty"] for point in curve] == [round(0.05 * n, 2) for n in range(1, 20)]
+    assert set(curve[0]) == {"certainty", "caught", "false_everyday_per_hour", "false_in_others"}
+    caught = [point["caught"] for point in curve]
+    assert caught == sorted(caught, reverse=True)
+    take = report["left_out"][0]
+    assert set(take) == {"gesture", "source", "start_s", "certainty", "recognised"}
+    assert len(report["left_out"]) == sum(report["takes"].values())
+    assert len(report["people"]) == 3
+    assert all(one["right"] <= one["made"] for one in report["people"].values())
 
 
 def test_the_same_recordings_give_the_same_bytes(sessions):
@@ -120,6 +172,15 @@ def test_any_flipped_byte_is_noticed_or_harmless(file):
         lambda about: about["gestures"][0].update(name="\x1b[2Jkarate"),
         lambda about: about["gestures"][0].update(name="two\nlines"),
         lambda about: about["gestures"][0].update(name=about["gestures"][1]["name"]),
+        lambda about: about["gestures"][0].update(trigger=0),
+        lambda about: about["gestures"][0].update(trigger=1.5),
+        lambda about: about["gestures"][0].update(trigger="often"),
+        lambda about: about.update(wrist="foot"),
+        lambda about: about.update(sensors="a watch"),
+        lambda about: about.update(sensors=[SENSOR] * 101),
+        lambda about: about.update(sensors=[SENSOR | {"device": "\x1b[2J"}]),
+        lambda about: about.update(sensors=[SENSOR | {"device": "x" * 201}]),
+        lambda about: about.update(sensors=[SENSOR | {"rate_hz": None}]),
         lambda about: about.update(format="something else"),
         lambda about: about.pop("gestures"),
     ],

@@ -1,10 +1,13 @@
 """The virtual watch as a process of its own."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 
 from nep_core.messages import GESTURE_REQUEST, GestureRequest
+from nodes.recordings import write_recording
+from nodes.sensory.arm.simulate import simulate_session
 
 
 def test_it_sends_small_batches_in_real_time_and_says_that_it_is_simulated(listener):
@@ -86,3 +89,17 @@ def test_a_wrong_schedule_ends_the_node_with_a_sentence(listener):
     assert node.returncode == 1
     assert 'knows no gesture "wave"' in said
     assert "Traceback" not in said
+
+
+def test_recorded_gestures_are_made_too_and_are_still_called_simulated(listener, tmp_path):
+    session = simulate_session(7, ("karate",), 2)
+    labels = ["wave" if label else "" for label in session.labels]
+    write_recording(tmp_path / "ann.csv", replace(session, labels=labels))
+    listener.start("virtual_watch", gestures="0 wave", takes=str(tmp_path), person=103)
+
+    listener.state("running", "makes the gesture wave (simulated person 103)")
+    listener.publisher(GESTURE_REQUEST).send(GestureRequest(gesture="wave"))
+    listener.state("running", "goes on with everyday movement")
+    listener.state("running", "makes the gesture wave (simulated person 103)")
+
+    assert listener.imu.receive(2).simulated

@@ -44,14 +44,16 @@ def spans_of(recording: Recording) -> list[tuple[str, float, float]]:
     ]
 
 
-def put_session(desk: TrainerDesk, recording: Recording, key: str = "s1") -> None:
+def put_session(
+    desk: TrainerDesk, recording: Recording, key: str = "s1", *, has_rotation: bool = True
+) -> None:
     """Let the project have a recorded session, with a take for each label."""
-    measured = samples_of(recording)
+    measured = Samples(recording.t, recording.acc, recording.gyr if has_rotation else None)
     own = OwnRecording(
         seconds=measured.seconds,
         rate_hz=measured.rate_hz,
         samples=packed(measured),
-        has_rotation=True,
+        has_rotation=has_rotation,
         person="Ann Lee",
         simulated=True,
     )
@@ -80,7 +82,7 @@ def takes_of(name: str, count: int) -> tuple[OwnTake, ...]:
 
 
 def curve(shift: float = 0.0, rate: float = 12.0) -> list[dict[str, float]]:
-    """A curve as a training reports it: the higher the point, the less is caught and let through."""
+    """A curve as a training reports it: the higher the point, the less is caught."""
     return [
         {
             "certainty": c,

@@ -12,7 +12,6 @@ from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.own_gestures import keep_gesture, own_recogniser
-from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.trainer.desk import TrainerDesk
 from nep_studio.ui.trainer.results.findings import findings_of
 from nep_studio.ui.trainer.results.training import Training
@@ -20,7 +19,10 @@ from nep_studio.ui.trainer.results.training_folder import TrainingFolder
 from nep_studio.ui.trainer.results.worker_lines import Done, Failed, Progress, Ready, read_line
 from nodes.perceptual.recognition.passages import UNKNOWN
 from nodes.recordings import read_recordings
+from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import put_session, report, session, spans_of
+
+__all__ = ["desk", "look"]
 
 SPEAKS = """
 import json, pathlib, sys
@@ -62,7 +64,7 @@ def recorded(desk: TrainerDesk) -> TrainerDesk:
 def test_the_real_process_learns_two_gestures_and_the_project_keeps_them(
     desk: TrainerDesk, qtbot: QtBot
 ) -> None:
-    put_session(desk, session(["karate", "katana"], 3))
+    put_session(desk, session(["karate", "katana"], 3), has_rotation=False)
     training = Training(desk)
     steps: list[str] = []
     training.changed.connect(lambda: steps.append(training.step))
@@ -102,7 +104,7 @@ def test_what_was_learned_is_one_step_and_stale_after_a_change(
 def test_a_cancelled_training_keeps_nothing_and_a_new_process_gets_warm(
     recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
 ) -> None:
-    training = make_training('    print(\'{"progress": 0.4}\', flush=True)\n')
+    training = make_training("    print('{\"progress\": 0.4}', flush=True)\n")
     training.train()
     qtbot.waitUntil(lambda: training.progress > 0.4)
 
@@ -195,12 +197,12 @@ def test_what_takes_long_is_not_done_by_itself(
 
 
 def test_another_project_gets_nothing_of_a_training(
-    recorded: TrainerDesk, make_training: MakeTraining, window: MainWindow, qtbot: QtBot
+    recorded: TrainerDesk, make_training: MakeTraining
 ) -> None:
     training = make_training("    pass\n")
     training.train()
 
-    window.files.new()
+    recorded.files.new()
     recorded.refresh()
 
     assert not training.is_training
@@ -261,5 +263,3 @@ def test_lines_of_the_process_are_read_and_others_are_left_out() -> None:
     assert read_line(b'{"error": "No.", "checklist": ["Do."]}') == Failed("No.", ("Do.",))
     for noise in (b"", b"a warning", b"[1, 2]", b"3", b"{}", b'{"progress": "much"}', b"\xff"):
         assert read_line(noise) is None
-
-

@@ -133,7 +133,9 @@ class NodeTelling(QObject):
         return is_over or self._runner.state == "stopping"
 
     def tell(self, notice: Notice) -> None:
-        """Tell it, unless it was told and is there still."""
+        """Tell it, unless it was told and is there still, or somebody else tells it."""
+        if notice.node in self._runner.told_elsewhere:
+            return
         told = self._told.get(notice.node)
         if told is not None and told[0] == notice.key:
             return

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterator
 
 from nep_studio.blocks.own_gestures import OwnGesture
+from nep_studio.ui.trainer.results.advice_parts import (
+    ENOUGH_TAKES,
+    MORE_TAKES,
+    Advice,
+    Known,
+    takes_of_pair,
+)
+from nep_studio.ui.trainer.results.advice_tips import (
+    all_good,
+    on_few_takes,
+    on_nothing_to_confuse,
+    on_people,
+)
 from nep_studio.ui.trainer.results.findings import (
     HOUR_S,
     NOTHING,
@@ -17,8 +27,6 @@ from nep_studio.ui.trainer.results.findings import (
 )
 from nep_studio.ui.words import count_words, tr
 
-ENOUGH_TAKES = 5
-MORE_TAKES = 3
 _OFTEN = 0.15
 """A mistake in so many of the takes is worth recording more."""
 _FAR_BELOW = 0.4
@@ -26,36 +34,6 @@ _FAR_BELOW = 0.4
 _MOSTLY_FOUND = 0.6
 _FALSE_PER_HOUR = 2.0
 """More false triggers of a gesture in everyday movement disturb."""
-_ENOUGH_EVERYDAY_S = 60.0
-_PERSON_FOUND, _PERSON_MISSED = 0.8, 0.6
-
-Kind = Literal["problem", "tip", "good"]
-What = Literal["", "record", "everyday", "gesture", "point", "takes", "try"]
-
-
-@dataclass(frozen=True)
-class Advice:
-    """One sentence; ``what`` helps, with this gesture or these takes (ids)."""
-
-    kind: Kind
-    words: str
-    what: What = ""
-    gesture: str = ""
-    takes: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Known:
-    """What the project has: its gestures by name, people, seconds of everyday movement."""
-
-    gestures: Mapping[str, OwnGesture]
-    people: Collection[str] = ()
-    everyday_s: float = 0.0
-
-    def title(self, name: str) -> str:
-        """What a gesture is called."""
-        gesture = self.gestures.get(name)
-        return gesture.title if gesture is not None else name
 
 
 def advice_on(findings: Findings, known: Known) -> list[Advice]:
@@ -66,12 +44,13 @@ def advice_on(findings: Findings, known: Known) -> list[Advice]:
         *_mistaken(findings, known),
         *_missed(findings, known),
         *_false_alarms(findings, known),
-        *_outliers(findings, known),
-        *_people(findings, known),
+        *on_people(findings, known),
     ]
+    told = {take for one in found for take in one.takes}
+    found += [one for one in _outliers(findings, known) if not told.issuperset(one.takes)]
     if not found:
-        found = [_all_good(findings)]
-    return [*found, *_few_takes(findings, known), *_nothing_to_confuse(findings, known)]
+        found = [all_good(findings)]
+    return [*found, *on_few_takes(findings, known), *on_nothing_to_confuse(findings, known)]
 
 
 def headline(findings: Findings) -> str:
@@ -230,86 +209,8 @@ def _is_outlier(one: LeftOut, findings: Findings) -> bool:
     return one.recognised != one.gesture or one.certainty < _FAR_BELOW
 
 
-def _people(findings: Findings, known: Known) -> Iterator[Advice]:
-    found = [name for name, one in findings.people.items() if one.share >= _PERSON_FOUND]
-    missed = [name for name, one in findings.people.items() if one.share < _PERSON_MISSED]
-    for name in missed:
-        person = _as_written(name, known.people)
-        if found:
-            other = _as_written(found[0], known.people)
-            words = tr(
-                "The gestures of {other} are recognised, those of {person} are not:"
-                " record more with {person}.",
-                other=other,
-                person=person,
-            )
-        else:
-            words = tr(
-                "The gestures of {person} are seldom recognised: record more with {person}.",
-                person=person,
-            )
-        yield Advice("problem", words, "record")
-
-
-def _few_takes(findings: Findings, known: Known) -> Iterator[Advice]:
-    few = {name: count for name, count in findings.takes.items() if count < ENOUGH_TAKES}
-    if len(few) == 1:
-        [(name, count)] = few.items()
-        words = count_words(
-            ENOUGH_TAKES - count,
-            "Record “{gesture}” once more: {enough} takes are recognised better.",
-            "Record “{gesture}” {n} more times: {enough} takes are recognised better.",
-            gesture=known.title(name),
-            enough=ENOUGH_TAKES,
-        )
-        yield Advice("tip", words, "record", name)
-    elif few:
-        words = tr(
-            "Record each gesture {enough} times: {count} of them have fewer takes.",
-            enough=ENOUGH_TAKES,
-            count=len(few),
-        )
-        yield Advice("tip", words, "record", next(iter(few)))
-
-
-def _nothing_to_confuse(findings: Findings, known: Known) -> Iterator[Advice]:
-    if len(findings.takes) == 1:
-        [name] = findings.names
-        words = tr(
-            "Nothing could be mistaken for “{gesture}” yet: add a second gesture.",
-            gesture=known.title(name),
-        )
-        yield Advice("tip", words, "gesture")
-    if known.everyday_s < _ENOUGH_EVERYDAY_S:
-        words = tr("Record a minute of everyday movement: false alarms become fewer.")
-        yield Advice("tip", words, "everyday")
-
-
-def _all_good(findings: Findings) -> Advice:
-    words = count_words(
-        len(findings.takes),
-        "The gesture is recognised well. Try it out.",
-        "All {n} gestures are told apart well. Try them out.",
-    )
-    return Advice("good", words, "try")
-
-
-def takes_of_pair(
-    findings: Findings, gestures: Mapping[str, OwnGesture], made: str, found: str
-) -> tuple[str, ...]:
-    """The ids of the takes of one gesture that were taken for another, or for nothing."""
-    concerned = (one for one in findings.left_out if (one.gesture, one.recognised) == (made, found))
-    ids = (id_of_take(one, gestures) for one in concerned)
-    return tuple(take for take in ids if take)
-
-
 def _number_of(take: str, gesture: OwnGesture) -> int:
     return [one.id for one in gesture.takes].index(take) + 1
-
-
-def _as_written(name: str, people: Collection[str]) -> str:
-    """A person's name as it is in the project: files have no spaces in names."""
-    return next((one for one in people if re.sub(r"[\s,;\"]+", "_", one) == name), name)
 
 
 def _rounded(rate: float) -> str:

@@ -15,7 +15,7 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -33,7 +33,8 @@ from nep_studio.ui.trainer.results.shades import legible, mixed
 from nep_studio.ui.words import tr
 
 SLANT_DEGREES = 50.0
-CELL_LINES = 1.9
+CELL_LINES, LEAST_CELL_LINES = 1.9, 1.4
+"""How wide a cell is, in lines of text; narrower before the table has to be scrolled."""
 MOST_HEADING_LINES = 7.0
 MOST_ROWS_SHOWN = 12
 _WEAKEST, _STRONGEST = 0.12, 0.85
@@ -91,15 +92,29 @@ class ConfusionView(QTableView):
         if event.type() == QEvent.Type.FontChange:
             self._fit()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Make the columns as wide as there is room."""
+        super().resizeEvent(event)
+        self._fit_columns()
+
     def _cell(self) -> int:
         return round(self.fontMetrics().height() * CELL_LINES)
+
+    def _fit_columns(self) -> None:
+        line, count = self.fontMetrics().height(), max(1, self.confusion.columnCount())
+        room = (self.viewport().width() - line) / count
+        wide = round(min(max(room, line * LEAST_CELL_LINES), line * CELL_LINES))
+        if self.headings.defaultSectionSize() != wide:
+            self.headings.setMinimumSectionSize(wide)
+            self.headings.setDefaultSectionSize(wide)
 
     def _fit(self, _theme: object = None) -> None:
         cell, rows = self._cell(), self.verticalHeader()
         for header in (self.headings, rows):
             header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-            header.setMinimumSectionSize(cell)
-            header.setDefaultSectionSize(cell)
+        rows.setMinimumSectionSize(cell)
+        rows.setDefaultSectionSize(cell)
+        self._fit_columns()
         widest = round(self.fontMetrics().height() * MOST_HEADING_LINES)
         rows.setMaximumWidth(widest)
         rows.setTextElideMode(Qt.TextElideMode.ElideRight)

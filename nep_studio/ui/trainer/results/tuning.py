@@ -59,6 +59,11 @@ class Tuning(QObject):
         gesture = self.desk.gestures.get(name)
         return self._dragged.get(name, gesture.certainty if gesture is not None else TRIGGER)
 
+    @property
+    def moved(self) -> frozenset[str]:
+        """The gestures whose recognition point is shown elsewhere than the project has it."""
+        return frozenset(self._dragged)
+
     def preview(self, name: str, certainty: float) -> None:
         """Show what another recognition point would do; the project stays as it is."""
         certainty = min(max(round(certainty, 2), LOWEST), HIGHEST)

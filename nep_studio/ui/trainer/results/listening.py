@@ -1,0 +1,148 @@
+"""Looks for the project's gestures in what the sensor measures, in a thread of its own."""
+
+from __future__ import annotations
+
+import logging
+import tempfile
+import threading
+from base64 import b64decode
+from dataclasses import dataclass
+from pathlib import Path
+from queue import SimpleQueue
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_core.errors import RecordingError
+from nep_studio.ui.trainer.live import Samples
+from nep_studio.ui.trainer.results.looks import LookedAt
+from nodes.perceptual.recognition.model import Model
+from nodes.perceptual.recognition.model_file import read_model
+from nodes.perceptual.recognition.spotting import Spotter
+
+log = logging.getLogger(__name__)
+
+NEWS_MS = 40
+MOST_WAITING = 100
+"""A computer that cannot follow leaves batches out, rather than being late for ever."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What to listen for: a model in base64, by which method, on what kind of sensor."""
+
+    file: str
+    method: str
+    gravity_included: bool
+
+
+class Listening(QObject):
+    """``model_read`` gives the Model, ``looked`` a list of LookedAt, ``failed`` an error."""
+
+    model_read = Signal(object)
+    looked = Signal(object)
+    failed = Signal(object)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._wanted: Wanted | None = None
+        self._orders: SimpleQueue[Wanted | Samples | None] = SimpleQueue()
+        self._news: SimpleQueue[object] = SimpleQueue()
+        self._thread: threading.Thread | None = None
+        self._take_soon = QTimer(self, interval=NEWS_MS)
+        self._take_soon.timeout.connect(self._take_news)
+        parent.destroyed.connect(_ender(self._orders))
+
+    def listen_for(self, wanted: Wanted) -> None:
+        """Listen for this from now on."""
+        if wanted != self._wanted:
+            self._wanted = wanted
+            self._start()
+            self._orders.put(wanted)
+
+    def hear(self, samples: Samples) -> None:
+        """Look into these samples, if it can follow."""
+        if self._thread is not None and self._orders.qsize() < MOST_WAITING:
+            self._orders.put(samples)
+
+    def stop(self) -> None:
+        """Listen no more."""
+        self._wanted = None
+        self._take_soon.stop()
+        if self._thread is not None:
+            self._orders.put(None)
+            self._thread.join(timeout=2.0)
+            self._thread = None
+        self._orders, self._news = SimpleQueue(), SimpleQueue()
+
+    def _start(self) -> None:
+        self._take_soon.start()
+        if self._thread is None:
+            told = (self._orders, self._news)
+            self._thread = threading.Thread(target=_listen, args=told, daemon=True)
+            self._thread.start()
+
+    def _take_news(self) -> None:
+        looks: list[LookedAt] = []
+        news = self._news
+        while not news.empty() and news is self._news:
+            told = news.get()
+            if isinstance(told, LookedAt):
+                looks.append(told)
+                continue
+            looks.clear()  # they were by another model
+            (self.failed if isinstance(told, RecordingError) else self.model_read).emit(told)
+        if looks:
+            self.looked.emit(looks)
+
+
+def _ender(orders: SimpleQueue[Wanted | Samples | None]) -> object:
+    """What lets the thread end when its owner is gone."""
+    return lambda *_: orders.put(None)
+
+
+def _listen(orders: SimpleQueue[Wanted | Samples | None], news: SimpleQueue[object]) -> None:
+    """What the thread does."""
+    spotter: Spotter | None = None
+    while (order := orders.get()) is not None:
+        try:
+            if isinstance(order, Wanted):
+                spotter = None  # what comes until the model is read is not looked at
+                spotter = _spotter(order, news)
+            elif spotter is not None:
+                spotter.push(order.t, order.acc, order.gyr)
+        except RecordingError as error:
+            spotter = None
+            news.put(error)
+        except Exception as error:  # the try-out must not fall silent without a word
+            log.exception("listening for gestures")
+            spotter = None
+            news.put(RecordingError("The gestures cannot be tried out.", details=str(error)))
+
+
+def _spotter(wanted: Wanted, news: SimpleQueue[object]) -> Spotter:
+    model = _read(wanted.file)
+    made = Spotter(model, method=wanted.method, gravity_included=wanted.gravity_included)
+    made.looked = lambda end_s, certainties, lengths_s: news.put(
+        LookedAt(end_s, certainties.copy(), lengths_s)
+    )
+    news.put(model)
+    return made
+
+
+def _read(text: str) -> Model:
+    """The model in a text; read_model takes it from a file."""
+    with tempfile.TemporaryDirectory(prefix="nep-gestures-") as folder:
+        path = Path(folder) / "recogniser.gestures"
+        try:
+            path.write_bytes(b64decode(text, validate=True))
+        except ValueError as error:
+            raise RecordingError(
+                "What was learned is damaged.", checklist=("Train the gestures again.",)
+            ) from error
+        except OSError as error:
+            raise RecordingError(
+                "The recogniser cannot be written to a temporary file.",
+                checklist=("Is there room on the disk?",),
+                details=str(error),
+            ) from error
+        return read_model(path)

@@ -1,0 +1,182 @@
+"""What came of a training: in words first, then what was taken for what, then the points."""
+
+from __future__ import annotations
+
+import re
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QComboBox, QFrame, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+
+from nep_studio.problems import Problem
+from nep_studio.ui.messages import Message
+from nep_studio.ui.messages_card import MessageText
+from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.trainer.results.advice import advice_on, headline
+from nep_studio.ui.trainer.results.advice_list import AdviceList
+from nep_studio.ui.trainer.results.advice_parts import Advice, Known, takes_of_pair
+from nep_studio.ui.trainer.results.confusion_view import ConfusionView
+from nep_studio.ui.trainer.results.labels import Words, card
+from nep_studio.ui.trainer.results.point_panel import PointPanel
+from nep_studio.ui.trainer.results.train_bar import TrainBar
+from nep_studio.ui.trainer.results.training import Training
+from nep_studio.ui.trainer.results.tuning import METHODS, method_words
+from nep_studio.ui.words import tr
+
+_TOLD_BY_ADVICE = re.compile(r" was recorded (once|twice) only")
+
+
+class ResultsView(QWidget):
+    """Trains, and shows what came of it.
+
+    What a person asks for here is done elsewhere: ``takes_asked`` gives the ids of takes that are
+    to be shown, ``record_asked`` the gesture to be recorded ("" for any), ``everyday_asked`` wants
+    everyday movement, ``gesture_asked`` a new gesture, ``trial_asked`` the try-out.
+    """
+
+    takes_asked = Signal(object)
+    record_asked = Signal(str)
+    everyday_asked = Signal()
+    gesture_asked = Signal()
+    trial_asked = Signal()
+
+    def __init__(
+        self, desk: TrainerDesk, training: Training, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.desk, self.training, self.tuning = desk, training, training.tuning
+        self.bar = TrainBar(training, desk.look)
+        self.headline = Words(role="heading")
+        self.advice = AdviceList(desk.look)
+        self.method = QComboBox()
+        self.table = ConfusionView(self._title, desk.look)
+        self.points = PointPanel(self.tuning, desk.look)
+        self.failure = card()
+        self._told_problem: Problem | None = None
+        self._lay_out()
+        self._connect()
+        self.refresh()
+
+    def _lay_out(self) -> None:
+        inner = QWidget()
+        box = QVBoxLayout(inner)
+        self.found = QWidget()
+        below = QVBoxLayout(self.found)
+        below.setContentsMargins(0, 0, 0, 0)
+        self.method.setAccessibleName(tr("Recogniser"))
+        self.method.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        for method in METHODS:
+            self.method.addItem(method_words(method), method)
+        legend = tr(
+            "Rows are what was made, columns what was recognised. Press a number to see its takes."
+        )
+        parts: tuple[QWidget, ...] = (
+            self.headline,
+            self.advice,
+            Words(tr("What was taken for what"), "heading"),
+            self.method,
+            self.table,
+            Words(legend, "hint"),
+            Words(tr("Recognition point"), "heading"),
+            Words(tr("How certain it must be before a gesture counts as made."), "hint"),
+            self.points,
+        )
+        for part in parts:
+            below.addWidget(part)
+        for widget in (self.bar, self.failure, self.found):
+            box.addWidget(widget)
+        box.addStretch(1)
+        self.area = QScrollArea()
+        self.area.setWidgetResizable(True)
+        self.area.setFrameShape(QFrame.Shape.NoFrame)
+        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.area.setWidget(inner)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self.area)
+        QVBoxLayout(self.failure)
+
+    def _connect(self) -> None:
+        self.method.currentIndexChanged.connect(self._on_method_chosen)
+        self.advice.asked.connect(self._on_asked)
+        self.advice.takes_asked.connect(self.takes_asked)
+        self.table.cell_chosen.connect(self._on_cell_chosen)
+        self.training.changed.connect(self.refresh)
+        self.desk.changed.connect(self.refresh)
+        self.tuning.method_changed.connect(self.refresh)
+        self.tuning.point_changed.connect(self._show_advice)
+
+    def refresh(self) -> None:
+        """Show what there is now."""
+        self._show_failure()
+        findings = self.tuning.findings
+        self.found.setVisible(findings is not None)
+        self.method.setCurrentIndex(self.method.findData(self.tuning.method))
+        self._show_advice()
+        self.table.show_findings(findings)
+        self.points.fill()
+
+    def _show_advice(self) -> None:
+        findings = self.tuning.findings
+        if findings is None:
+            self.advice.show_advice(())
+            return
+        self.headline.setText(headline(findings))
+        remarks = [one for one in self.training.remarks if not _TOLD_BY_ADVICE.search(one)]
+        told = [Advice("tip", tr(remark)) for remark in remarks]
+        self.advice.show_advice([*advice_on(findings, self._known()), *told])
+
+    def _known(self) -> Known:
+        everyday = (one.seconds for one in self.desk.recordings.values() if one.everyday)
+        return Known(self.desk.gestures, self.desk.people, sum(everyday))
+
+    def _title(self, name: str) -> str:
+        return self._known().title(name)
+
+    def _show_failure(self) -> None:
+        problem = self.training.problem
+        self.failure.setVisible(problem is not None)
+        if problem is self._told_problem:
+            return
+        self._told_problem = problem
+        box = self.failure.layout()
+        while box is not None and (item := box.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.deleteLater()
+        if problem is not None and box is not None:
+            steps = tuple(map(tr, problem.checklist))
+            told = Message("error", tr(problem.title), tr(problem.sentence), steps, problem.details)
+            box.addWidget(MessageText(told))
+
+    def _on_method_chosen(self) -> None:
+        self.tuning.use_method(str(self.method.currentData()))
+
+    def _on_cell_chosen(self, made: str, found: str) -> None:
+        findings = self.tuning.findings
+        if findings is not None:
+            takes = takes_of_pair(findings, self.desk.gestures, made, found)
+            if takes:
+                self.takes_asked.emit(takes)
+
+    def _on_asked(self, advice: Advice) -> None:
+        match advice.what:
+            case "record":
+                self.record_asked.emit(advice.gesture)
+            case "everyday":
+                self.everyday_asked.emit()
+            case "gesture":
+                self.gesture_asked.emit()
+            case "takes":
+                self.takes_asked.emit(advice.takes)
+            case "try":
+                self.trial_asked.emit()
+            case "point":
+                self.points.choose(advice.gesture)
+                self.area.ensureWidgetVisible(self.points)
+                self.points.slider.setFocus()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Somebody may want to train soon."""
+        super().showEvent(event)
+        self.training.warm()

@@ -1,0 +1,135 @@
+"""The last half minute: how certain the recogniser was, and what it would have recognised."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from nep_studio.ui.theme import Look, Theme
+from nep_studio.ui.trainer.results.looks import KEPT_S, Looks
+from nep_studio.ui.words import count_words, tr
+from nodes.perceptual.recognition.peaks import Detection
+
+LINES_HIGH = 6.0
+_EVERY_S = 5.0
+
+
+class TriggerTimeline(QWidget):
+    """Now is at the right. A flag with a name is a gesture that would count as made."""
+
+    def __init__(
+        self, title: Callable[[str], str], look: Look, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._title, self._look = title, look
+        self._looks = Looks()
+        self._triggers: Sequence[Detection] = ()
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as the live curves are
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(tr("The last 30 seconds"))
+        look.theme_changed.connect(self.update)
+
+    def show_looks(self, looks: Looks, triggers: Sequence[Detection]) -> None:
+        """Show these."""
+        if len(triggers) != len(self._triggers):
+            words = count_words(
+                len(triggers), "1 gesture would count as made", "{n} gestures would count as made"
+            )
+            self.setAccessibleDescription(words)
+        self._looks, self._triggers = looks, triggers
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """Some lines high."""
+        line = self.fontMetrics().height()
+        return QSize(line * 16, round(line * LINES_HIGH))
+
+    def minimumSizeHint(self) -> QSize:
+        """Rather narrow, and as high."""
+        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
+
+    def area(self) -> QRectF:
+        """Where the curve is."""
+        line = self.fontMetrics().height()
+        return QRectF(1, line * 0.4, self.width() - 2, self.height() - line * 1.8)
+
+    def x_of(self, time_s: float) -> float:
+        """Where a moment is."""
+        area = self.area()
+        return area.right() - (self._looks.now_s - time_s) / KEPT_S * area.width()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint everything."""
+        theme, area = self._look.theme, self.area()
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        painter.fillRect(area, theme.colour("field"))
+        self._paint_scale(painter, theme)
+        self._paint_curve(painter, theme)
+        edge = area.left()
+        for one in self._triggers:
+            edge = self._paint_flag(painter, theme, one, edge)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(theme.colour("line"), 1))
+        painter.drawRect(area)
+        painter.end()
+
+    def _paint_scale(self, painter: QPainter, theme: Theme) -> None:
+        area, line = self.area(), self.fontMetrics().height()
+        seconds = 0.0
+        while seconds < KEPT_S:
+            x = area.right() - seconds / KEPT_S * area.width()
+            painter.setPen(QPen(theme.colour("line"), 1))
+            painter.drawLine(QLineF(x, area.top(), x, area.bottom()))
+            words = tr("now") if not seconds else tr("{seconds} s ago", seconds=f"{seconds:.0f}")
+            wide = self.fontMetrics().horizontalAdvance(words)
+            if not seconds or (seconds % (2 * _EVERY_S) == 0 and x - wide / 2 > 0):
+                painter.setPen(theme.colour("muted"))
+                left = min(x - wide / 2, self.width() - wide - 1)
+                room = QRectF(left, area.bottom() + line * 0.1, wide + 1, line * 1.1)
+                painter.drawText(room, Qt.AlignmentFlag.AlignCenter, words)
+            seconds += _EVERY_S
+
+    def _paint_curve(self, painter: QPainter, theme: Theme) -> None:
+        area, line = self.area(), self.fontMetrics().height()
+        high = area.height() - line * 1.4  # above it is room for flags
+        points = [
+            QPointF(
+                self.x_of(look.end_s),
+                area.bottom() - min(float(look.certainties.max()), 1.0) * high,
+            )
+            for look in self._looks.kept
+        ]
+        painter.setPen(QPen(theme.colour("plot_1"), max(1.5, line / 10)))
+        painter.drawPolyline(QPolygonF(points))
+
+    def _paint_flag(self, painter: QPainter, theme: Theme, one: Detection, edge: float) -> float:
+        """Paint a flag; its words only where they hide no others. Gives where they end."""
+        area, line = self.area(), self.fontMetrics().height()
+        x = self.x_of(one.t_end)
+        painter.setPen(QPen(theme.colour("success"), max(2.0, line / 8)))
+        painter.drawLine(QLineF(x, area.top(), x, area.bottom()))
+        painter.setBrush(theme.colour("success"))
+        painter.drawPolygon(
+            QPolygonF(
+                [
+                    QPointF(x, area.top()),
+                    QPointF(x + line * 0.6, area.top() + line * 0.3),
+                    QPointF(x, area.top() + line * 0.6),
+                ]
+            )
+        )
+        words = self._title(one.gesture)
+        wide = float(self.fontMetrics().horizontalAdvance(words))
+        left = x + line * 0.8
+        if left + wide > area.right():
+            left = x - wide - line * 0.3
+        if left < edge:
+            return edge
+        painter.setPen(theme.colour("text"))
+        painter.drawText(QPointF(left, area.top() + self.fontMetrics().ascent()), words)
+        return max(left + wide, x + line * 0.8)

@@ -1,0 +1,272 @@
+"""Tries the gestures out: what the recogniser sees now, and what it would recognise."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_core.errors import RecordingError
+from nep_studio.ui.messages import announce
+from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.trainer.live import Samples
+from nep_studio.ui.trainer.results.band_panel import BandPanel
+from nep_studio.ui.trainer.results.correction_bar import CorrectionBar
+from nep_studio.ui.trainer.results.gesture_bar import GestureBar
+from nep_studio.ui.trainer.results.labels import Sign, Words
+from nep_studio.ui.trainer.results.listening import Listening, Wanted
+from nep_studio.ui.trainer.results.looks import KEPT_S, LookedAt, Looks
+from nep_studio.ui.trainer.results.training import Training
+from nep_studio.ui.trainer.results.trigger_timeline import TriggerTimeline
+from nep_studio.ui.words import tr
+from nodes.perceptual.recognition.model import Model
+from nodes.perceptual.recognition.peaks import Detection
+
+FLASH_MS = 1400
+ANNOUNCE_MS = 500
+"""A screen reader says the last of several gestures that follow each other so soon."""
+SOON_S = 1.0
+"""A trigger that is older is none that somebody has just caused."""
+_HEARING_MS = 500
+_BATCH_S = 1.0
+
+
+class TryOut(QWidget):
+    """``recognised`` gives the Detection of each gesture that was just made."""
+
+    recognised = Signal(object)
+
+    def __init__(
+        self, desk: TrainerDesk, training: Training, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.desk, self.training, self.tuning = desk, training, training.tuning
+        self.looks = Looks()
+        self.model: Model | None = None
+        self.problem: RecordingError | None = None
+        self.listening = Listening(self)
+        self._told_s = 0.0
+        self._flashing: Detection | None = None
+        self._make()
+        self._lay_out()
+        self._connect()
+        self._fill_bars()
+
+    def _make(self) -> None:
+        look = self.desk.look
+        self.sign = Sign(look)
+        self.said = Words(role="title")
+        self.steps = Words(role="hint")
+        self.bars: dict[str, GestureBar] = {}
+        self.timeline = TriggerTimeline(self._title, look)
+        self.corrections = CorrectionBar(self.desk, lambda: self.looks)
+        self.band = BandPanel(self.desk, self._title)
+        self._flash_over = QTimer(self, singleShot=True, interval=FLASH_MS)
+        self._say_soon = QTimer(self, singleShot=True, interval=ANNOUNCE_MS)
+        self._is_heard = QTimer(self, interval=_HEARING_MS)
+
+    def _lay_out(self) -> None:
+        inner = QWidget()
+        box = QVBoxLayout(inner)
+        head = QHBoxLayout()
+        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
+        head.addWidget(self.said, 1)
+        box.addLayout(head)
+        box.addWidget(self.steps)
+        self._bars_box = QVBoxLayout()
+        self._bars_box.setSpacing(0)
+        self.live = QWidget()
+        below = QVBoxLayout(self.live)
+        below.setContentsMargins(0, 0, 0, 0)
+        below.addLayout(self._bars_box)
+        below.addWidget(self.timeline)
+        below.addWidget(self.corrections)
+        below.addWidget(Words(tr("Expected curve"), "heading"))
+        below.addWidget(self.band)
+        box.addWidget(self.live)
+        box.addStretch(1)
+        self.area = QScrollArea()
+        self.area.setWidgetResizable(True)
+        self.area.setFrameShape(QFrame.Shape.NoFrame)
+        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.area.setWidget(inner)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self.area)
+
+    def _connect(self) -> None:
+        self.desk.heard.connect(self._on_heard)
+        self.desk.changed.connect(self._on_changed)
+        self.desk.sources_changed.connect(self._on_source_changed)
+        self.tuning.method_changed.connect(self._on_changed)
+        self.tuning.point_changed.connect(self._on_point_changed)
+        self.listening.model_read.connect(self._on_model_read)
+        self.listening.looked.connect(self._on_looked)
+        self.listening.failed.connect(self._on_failed)
+        self._flash_over.timeout.connect(self._on_flash_over)
+        self._say_soon.timeout.connect(self._announce)
+        self._is_heard.timeout.connect(self._show_state)
+
+    # What is listened for
+
+    def _on_changed(self) -> None:
+        self._listen()
+        self._fill_bars()
+        self._show_state()
+
+    def _on_source_changed(self) -> None:
+        """Another sensor has another clock."""
+        self._begin(self.model)
+        self._listen()
+
+    def _listen(self) -> None:
+        """Listen for what the project has learned, while somebody looks."""
+        recogniser = self.desk.recogniser
+        if recogniser is None or not self.isVisible():
+            self.listening.stop()
+            if recogniser is None:
+                self._begin(None)
+            return
+        gravity = self.desk.live.gravity_included if self.desk.live is not None else True
+        self.listening.listen_for(Wanted(recogniser.file, self.tuning.method, gravity))
+
+    def _begin(self, model: Model | None) -> None:
+        """Forget what was looked at by another model."""
+        self.model = model
+        self.looks = Looks(model.gestures if model is not None else ())
+        self.looks.set_points(self.tuning.points)
+        self.band.use_model(model)
+        self._fill_bars()
+        self._show_looks()
+
+    def _on_model_read(self, model: Model) -> None:
+        """A new recogniser looks at the last half minute too: its effect is seen at once."""
+        self.problem = None
+        self._begin(model)
+        live = self.desk.live
+        if live is None:
+            return
+        samples, begin_s = live.last(), live.last_t - KEPT_S
+        self._told_s = live.last_t
+        while begin_s < live.last_t:  # in parts: the thread can be stopped in between
+            self.listening.hear(samples.between(begin_s, begin_s + _BATCH_S))
+            begin_s += _BATCH_S
+
+    def _on_failed(self, error: RecordingError) -> None:
+        self.problem = error
+        self._begin(None)
+        self._show_state()
+
+    def _on_heard(self, samples: Samples) -> None:
+        if self.isVisible():
+            self._listen()  # what the sensor sends may be different by now
+            self.listening.hear(samples)
+
+    # What is seen
+
+    def _on_looked(self, looks: list[LookedAt]) -> None:
+        if self.model is None:
+            return
+        for look in looks:
+            self.looks.add(look)
+        last = self.looks.triggers[-1] if self.looks.triggers else None
+        if last is not None and last.t_end > self._told_s:
+            self._told_s = last.t_end
+            if last.t_end >= self.looks.now_s - SOON_S:
+                self._flash(last)
+        self._show_looks()
+        self.band.follow(self.looks)
+
+    def _show_looks(self) -> None:
+        certainties = self.looks.certainties()
+        flashing = self._flashing.gesture if self._flashing is not None else ""
+        for name, bar in self.bars.items():
+            bar.show_certainty(certainties.get(name, 0.0), is_flashing=name == flashing)
+        self.timeline.show_looks(self.looks, tuple(self.looks.triggers))
+
+    def _flash(self, found: Detection) -> None:
+        self._flashing = found
+        self._flash_over.start()
+        self._say_soon.start()
+        self._show_state()
+        self.recognised.emit(found)
+
+    def _on_flash_over(self) -> None:
+        self._flashing = None
+        self._show_state()
+        self._show_looks()
+
+    def _announce(self) -> None:
+        triggers = self.looks.triggers
+        if triggers:
+            announce(self, self._title(triggers[-1].gesture))
+
+    def _on_point_changed(self, name: str) -> None:
+        self.looks.set_points(self.tuning.points)
+        if name in self.bars:
+            self.bars[name].show_gesture(name)
+        self._show_looks()
+
+    def _show_state(self) -> None:
+        icon, colour, words, step = self._state()
+        self.sign.show_icon(icon, colour)
+        self.said.setText(words)
+        self.steps.setText(step)
+        self.steps.setVisible(bool(step))
+        self.live.setVisible(self.model is not None)
+        self.corrections.setEnabled(self.model is not None and self.desk.live is not None)
+
+    def _state(self) -> tuple[str, str, str, str]:
+        """An icon, its colour, what is the case, and what to do."""
+        if self._flashing is not None:
+            return "circle-check", "success", self._title(self._flashing.gesture), ""
+        if self.problem is not None:
+            checklist = "\n".join(map(tr, self.problem.checklist))
+            return "triangle-alert", "warning", tr(self.problem.sentence), checklist
+        if self.desk.recogniser is None:
+            first = tr("Record each gesture a few times, then train: the try-out begins by itself.")
+            return "info", "info", tr("Nothing to try out yet"), first
+        if not self.desk.is_hearing:
+            connect = tr("Connect a watch or phone, and move it.")
+            return "watch", "info", tr("No movement is heard"), connect
+        return "ear", "muted", tr("Make a gesture"), ""
+
+    def _title(self, name: str) -> str:
+        gesture = self.desk.gestures.get(name)
+        return gesture.title if gesture is not None else name
+
+    def _fill_bars(self) -> None:
+        """A bar for each gesture that is listened for."""
+        known = self.model.names if self.model is not None else ()
+        wanted = [name for name in self.desk.gestures if name in known]
+        if wanted == list(self.bars):
+            for name, bar in self.bars.items():
+                bar.show_gesture(name)
+            return
+        for bar in self.bars.values():
+            bar.hide()
+            bar.deleteLater()
+        self.bars = {name: GestureBar(self.tuning, name, self.desk.look) for name in wanted}
+        for bar in self.bars.values():
+            self._bars_box.addWidget(bar)
+
+    # Only while somebody looks
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Listen."""
+        super().showEvent(event)
+        self._is_heard.start()
+        self._on_changed()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Listen no more."""
+        super().hideEvent(event)
+        self._is_heard.stop()
+        self.listening.stop()

@@ -1,0 +1,148 @@
+"""Who wears the sensor, and where: chosen here before something is recorded."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, QSignalBlocker, QSize
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
+
+from nep_studio.blocks.own_gestures import WRISTS
+from nep_studio.blocks.values import why_not_name
+from nep_studio.ui.palette.asking import Asking
+from nep_studio.ui.theme import icon
+from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.trainer.keeping import Keeping
+from nep_studio.ui.words import tr
+
+
+def wrist_words() -> dict[str, str]:
+    """Where a sensor can be, in words."""
+    return {
+        "left": tr("on the left wrist"),
+        "right": tr("on the right wrist"),
+        "hand": tr("in the hand"),
+    }
+
+
+class WearerBox(QWidget):
+    """A list of people with a menu, a list of wrists, and the sensor if there are several."""
+
+    def __init__(self, desk: TrainerDesk, keeping: Keeping) -> None:
+        super().__init__()
+        self._desk, self._keeping = desk, keeping
+        self.asking: Asking | None = None
+        self.sign = QLabel()
+        self.person, self.wrist, self.source = QComboBox(), QComboBox(), QComboBox()
+        self.more = QToolButton()
+        self._lay_out()
+        for key, words in wrist_words().items():
+            self.wrist.addItem(words, key)
+        self.person.activated.connect(self._on_person_chosen)
+        self.wrist.activated.connect(self._on_wrist_chosen)
+        self.source.activated.connect(self._on_source_chosen)
+        self.more.clicked.connect(self.show_menu)
+        for signal in (desk.changed, desk.wearer_changed, desk.sources_changed):
+            signal.connect(self.refresh)
+        desk.look.theme_changed.connect(self._dress)
+        self._dress()
+        self.refresh()
+
+    def _lay_out(self) -> None:
+        self.person.setAccessibleName(tr("Who records"))
+        self.person.setToolTip(tr("Who records: each take belongs to a person"))
+        self.wrist.setAccessibleName(tr("Where the watch or phone is"))
+        self.wrist.setToolTip(tr("Where the watch or phone is while it is recorded"))
+        self.source.setAccessibleName(tr("Which watch or phone"))
+        self.more.setAccessibleName(tr("Change people"))
+        self.more.setToolTip(tr("Change people"))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(self.fontMetrics().height() // 3)
+        for box in (self.person, self.wrist, self.source):
+            box.setSizeAdjustPolicy(
+                QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+            )
+            box.setMinimumContentsLength(7)
+        for widget in (self.sign, self.person, self.more, self.wrist, self.source):
+            row.addWidget(widget)
+
+    def refresh(self) -> None:
+        """Show who is there."""
+        desk = self._desk
+        _fill(self.person, {name: name for name in desk.people}, desk.person)
+        with QSignalBlocker(self.wrist):
+            self.wrist.setCurrentIndex(WRISTS.index(desk.wrist))
+        in_use = desk.live.source if desk.live is not None else ""
+        _fill(self.source, {name: name for name in desk.streams}, in_use)
+        self.source.setVisible(len(desk.streams) > 1)
+
+    # The menu
+
+    def menu(self) -> QMenu:
+        """New person, another name, delete."""
+        menu, theme = QMenu(self), self._desk.look.theme
+        menu.addAction(icon("plus", theme), tr("New person…"), self.ask_for_new)
+        words = tr("Another name for {person}…", person=self._desk.person)
+        menu.addAction(icon("pencil", theme), words, self.ask_for_name)
+        words = tr("Delete {person} with all takes", person=self._desk.person)
+        menu.addAction(icon("trash-2", theme), words, self.delete_person)
+        return menu
+
+    def show_menu(self) -> None:
+        """Show it below its button."""
+        menu = self.menu()
+        menu.aboutToHide.connect(menu.deleteLater)
+        menu.popup(self.more.mapToGlobal(QPoint(0, self.more.height())))
+
+    def ask_for_new(self) -> None:
+        """Ask for the name of somebody who has not recorded yet."""
+        self._ask(tr("Name of the new person"), tr("Add"), self.add_person, "")
+
+    def ask_for_name(self) -> None:
+        """Ask for another name."""
+        self._ask(
+            tr("Another name for {person}", person=self._desk.person),
+            tr("Rename"),
+            lambda name: self._keeping.rename_person(self._desk.person, name),
+            self._desk.person,
+        )
+
+    def add_person(self, name: str) -> None:
+        """Record for somebody else from now on."""
+        if why_not_name(name.strip()) is None:
+            self._desk.set_wearer(name)
+
+    def delete_person(self) -> None:
+        """Delete all that the person in use recorded; it can be undone."""
+        self._keeping.delete_person(self._desk.person)
+
+    def _ask(self, words: str, yes: str, answer: object, name: str) -> None:
+        assert callable(answer)
+        self.asking = Asking(self, self._desk.look.theme, words, yes, answer, name=name)
+        self.asking.show_at(self.person.mapToGlobal(QPoint(0, self.person.height())))
+
+    # What is chosen
+
+    def _on_person_chosen(self, row: int) -> None:
+        self._desk.set_wearer(str(self.person.itemData(row)))
+
+    def _on_wrist_chosen(self, row: int) -> None:
+        self._desk.set_wearer(wrist=WRISTS[row])
+
+    def _on_source_chosen(self, row: int) -> None:
+        self._desk.use_source(str(self.source.itemData(row)))
+
+    def _dress(self) -> None:
+        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        self.sign.setPixmap(icon("user", theme).pixmap(QSize(line, line), self.devicePixelRatioF()))
+        self.more.setIcon(icon("ellipsis", theme))
+        self.more.setIconSize(QSize(line, line))
+
+
+def _fill(box: QComboBox, entries: dict[str, str], current: str) -> None:
+    """Offer these, if they are others than before."""
+    with QSignalBlocker(box):
+        if [box.itemData(row) for row in range(box.count())] != list(entries):
+            box.clear()
+            for key, words in entries.items():
+                box.addItem(words, key)
+        box.setCurrentIndex(max(0, box.findData(current)))

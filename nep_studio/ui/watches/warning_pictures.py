@@ -1,0 +1,131 @@
+"""The one warning of the phone page: how it looks on each kind of phone, and what to press."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPixmap
+from PySide6.QtWidgets import QButtonGroup, QLabel, QPushButton, QSizePolicy, QWidget
+
+from nep_studio import paths
+from nep_studio.ui.start_page_flow import Flow
+from nep_studio.ui.theme import Look
+from nep_studio.ui.words import tr
+
+from .questions import column_in
+
+SUFFIXES = (".svg", ".png", ".webp", ".jpg")
+LINES_WIDE = 22.0
+
+
+def picture_path(phone: str, is_dark: bool) -> Path | None:
+    """The picture of the warning on a phone; None where there is none."""
+    folder = paths.resources() / "phone_page"
+    shade = "dark" if is_dark else "light"
+    names = [folder / f"warning_{phone}_{shade}{suffix}" for suffix in SUFFIXES]
+    return next((path for path in names if path.is_file()), None)
+
+
+class Picture(QWidget):
+    """A picture from a file, as wide as there is room, sharp on every screen."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._picture = QPixmap()
+        policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
+
+    def show_file(self, path: Path | None, words: str) -> None:
+        """Show it, with words for those who do not see it; without a file it is hidden."""
+        self._picture = QPixmap() if path is None else _read(path, self._sharp_width)
+        self.setAccessibleName(words)
+        self.setVisible(not self._picture.isNull())
+        self.updateGeometry()
+        self.update()
+
+    @property
+    def _sharp_width(self) -> int:
+        return round(self.fontMetrics().height() * LINES_WIDE * self.devicePixelRatioF())
+
+    def sizeHint(self) -> QSize:
+        """A part of a page wide."""
+        width = round(self.fontMetrics().height() * LINES_WIDE)
+        return QSize(width, self.heightForWidth(width))
+
+    def heightForWidth(self, width: int) -> int:
+        """As the picture is."""
+        if self._picture.isNull():
+            return 0
+        wide = min(width, round(self.fontMetrics().height() * LINES_WIDE))
+        return round(wide * self._picture.height() / self._picture.width())
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw it where reading begins."""
+        if self._picture.isNull():
+            return
+        ratio = self.devicePixelRatioF()
+        size = QSize(round(self.width() * ratio), round(self.height() * ratio))
+        scaled = self._picture.scaled(
+            size, Qt.AspectRatioMode.KeepAspectRatio, Qt.TransformationMode.SmoothTransformation
+        )
+        scaled.setDevicePixelRatio(ratio)
+        is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
+        left = self.width() - round(scaled.width() / ratio) if is_mirrored else 0
+        with QPainter(self) as painter:
+            painter.drawPixmap(left, 0, scaled)
+
+
+def _read(path: Path, width: int) -> QPixmap:
+    """A picture; drawings as large as they will be shown."""
+    if path.suffix != ".svg":
+        return QPixmap(str(path))
+    from PySide6.QtSvg import QSvgRenderer
+
+    drawing = QSvgRenderer(str(path))
+    if not drawing.isValid():
+        return QPixmap()
+    usual = drawing.defaultSize()
+    picture = QPixmap(width, round(width * usual.height() / max(1, usual.width())))
+    picture.fill(Qt.GlobalColor.transparent)
+    with QPainter(picture) as painter:
+        drawing.render(painter)
+    return picture
+
+
+class WarningHelp(QWidget):
+    """Two buttons for the kinds of phone; below, the picture of its warning and what to press."""
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self.buttons = {"android": QPushButton("Android"), "ios": QPushButton("iPhone")}
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.picture = Picture()
+        self._group = QButtonGroup(self)
+        row = QWidget()
+        flow = Flow(row, spacing=self.fontMetrics().height() // 3)
+        for phone, button in self.buttons.items():
+            button.setCheckable(True)
+            button.setAutoDefault(False)
+            button.clicked.connect(lambda _=False, phone=phone: self.show_phone(phone))
+            self._group.addButton(button)
+            flow.addWidget(button)
+        box = column_in(self)
+        for widget in (row, self.words, self.picture):
+            box.addWidget(widget)
+        self.words.hide()
+        self.picture.hide()
+
+    def show_phone(self, phone: str) -> None:
+        """Show how it is on this kind of phone."""
+        told = {
+            "android": tr("In Chrome: press “Advanced”, then “Proceed to …”."),
+            "ios": tr("In Safari: press “Show Details”, then “visit this website”, and confirm."),
+        }
+        self.buttons[phone].setChecked(True)
+        self.words.setText(told[phone])
+        self.words.show()
+        self.picture.show_file(picture_path(phone, self._look.theme.is_dark), told[phone])

@@ -1,0 +1,182 @@
+"""Listening to one sensor: as it is worn, at the rate that it has, and telling what is amiss."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from nep_core.messages import Imu
+from nodes.perceptual.recognition.model import Model
+from nodes.perceptual.recognition.peaks import Detection
+from nodes.perceptual.recognition.spotting import Spotter
+from nodes.perceptual.recognition.stream import MAX_GAP_S, Floats
+from nodes.perceptual.recognition.wrist import mirrored
+
+Worn = Literal["as recorded", "turned", "automatic"]
+"""How a watch sits: as in the recordings, the strap the other way round, or either."""
+
+SLOWEST_HZ = 10.0
+_TURNED = np.array([-1.0, -1.0, 1.0])  # half a turn about the axis out of the screen
+_LONGEST_NAME = 60
+_ENOUGH_PROOFS = 3
+_LOOK_AT_BATCHES = 50
+_MOST_BREAKS = 0.5
+
+
+@dataclass
+class _Way:
+    """A way to wear the watch: what it makes of samples, who listens, how often it was right."""
+
+    is_turned: bool
+    spotter: Spotter
+    proofs: int = 0
+
+    def push(self, t: Floats, acc: Floats, gyr: Floats | None) -> list[Detection]:
+        if self.is_turned:
+            acc, gyr = acc * _TURNED, None if gyr is None else gyr * _TURNED
+        return self.spotter.push(t, acc, gyr)
+
+
+class SensorEar:
+    """Spots gestures in the samples of one sensor; ``tell`` gets a sentence once a trouble.
+
+    RecordingError when the sensor lacks what the model needs.
+    """
+
+    def __init__(
+        self,
+        first: Imu,
+        model: Model,
+        make_spotter: Callable[[], Spotter],
+        worn: Worn,
+        tell: Callable[[str], None],
+    ) -> None:
+        self.source = first.source[:_LONGEST_NAME]
+        self._tell = tell
+        self._mirrors = {first.wrist, model.wrist} == {"left", "right"}
+        turns = {"as recorded": [False], "turned": [True], "automatic": [False, True]}[worn]
+        self._ways = [_Way(is_turned, make_spotter()) for is_turned in turns]
+        self._last: Detection | None = None
+        for way in self._ways:
+            way.spotter.listen(first.gyr is not None)
+        self._troubles = _Troubles(self.source, tell)
+        self.description = self._description(first, model)
+
+    @property
+    def certainties(self) -> Mapping[str, float]:
+        """How certain it is of each gesture now, whichever way the watch is worn."""
+        first, *others = (way.spotter.certainties for way in self._ways)
+        return {name: max(value, *(o[name] for o in others), 0.0) for name, value in first.items()}
+
+    def hear(self, batch: Imu) -> list[Detection]:
+        """The gestures that end in a batch of samples."""
+        t, acc = np.array(batch.t, float), np.array(batch.acc, float)
+        gyr = None if batch.gyr is None else np.array(batch.gyr, float)
+        self._troubles.look(t, acc)
+        if self._mirrors:
+            acc, gyr = mirrored(acc, gyr)
+        return self._agreed([way.push(t, acc, gyr) for way in self._ways])
+
+    def flush(self) -> list[Detection]:
+        """What waits for something better, when the sensor has fallen silent."""
+        return self._agreed([way.spotter.flush() for way in self._ways])
+
+    def _agreed(self, found: list[list[Detection]]) -> list[Detection]:
+        """What was found, each movement in one way only: the one that is more certain of it."""
+        if len(self._ways) == 1:
+            return found[0]
+        every = [(one, way) for way, each in zip(self._ways, found, strict=True) for one in each]
+        kept = []
+        for one, way in sorted(every, key=lambda pair: -pair[0].certainty):
+            if self._last is None or not _overlap(one, self._last):
+                self._last = one
+                way.proofs += 1
+                kept.append(one)
+        self._decide()
+        return kept
+
+    def _decide(self) -> None:
+        """Listen in one way only, once it was right often enough."""
+        fewest, most = sorted(self._ways, key=lambda way: way.proofs)
+        if most.proofs - fewest.proofs >= _ENOUGH_PROOFS:
+            self._ways = [most]
+            how = "turned round" if most.is_turned else "as in the recordings"
+            self._tell(f"{self.source} is worn {how}, as its gestures show")
+
+    def _description(self, first: Imu, model: Model) -> str:
+        told = f"listens to {self.source}"
+        if first.gyr is None:
+            told += ", which sends no rotation"
+        if self._mirrors:
+            told += (
+                f"; it is worn on the {first.wrist} wrist and the gestures were recorded on the"
+                f" {model.wrist} one, so they are mirrored"
+            )
+        return told
+
+
+def _overlap(one: Detection, other: Detection) -> bool:
+    return one.t_start < other.t_end and other.t_start < one.t_end
+
+
+class _Troubles:
+    """What a stream of samples lacks to be understood; each is told once."""
+
+    def __init__(self, source: str, tell: Callable[[str], None]) -> None:
+        self._source = source
+        self._tell = tell
+        self._told: set[str] = set()
+        self._batches = self._breaks = self._samples = self._numbers = self._steps = 0
+        self._moving_s = 0.0
+        self._last_s = np.nan
+
+    def look(self, t: Floats, acc: Floats) -> None:
+        """Take n samples into account."""
+        usable = np.isfinite(t) & np.isfinite(acc).all(axis=1)
+        self._samples += len(t)
+        self._numbers += int(usable.sum())
+        self._batches += 1
+        if usable.any():
+            self._follow(t[usable])
+        if self._batches >= _LOOK_AT_BATCHES:
+            self._judge()
+
+    def _follow(self, t: Floats) -> None:
+        steps_s = np.diff(t) if np.isnan(self._last_s) else np.diff(t, prepend=self._last_s)
+        is_break = (steps_s < -MAX_GAP_S) | (steps_s > MAX_GAP_S)
+        self._breaks += bool(is_break.any())
+        self._steps += int((~is_break).sum())
+        self._moving_s += float(steps_s[~is_break].clip(0).sum())
+        self._last_s = float(t[-1])
+
+    def _judge(self) -> None:
+        source = self._source
+        rate_hz = self._steps / max(self._moving_s, 1e-9)
+        if self._numbers < self._samples / 2:
+            self._once(
+                "numbers", f"{source} sends numbers that no sensor can measure. Restart its app."
+            )
+        elif self._breaks > _MOST_BREAKS * self._batches:
+            self._once(
+                "times",
+                f"The times of {source} jump: do two watches send under this name, or does it"
+                " send less than twice a second? Give each a name of its own, and a faster rate.",
+            )
+        elif not self._moving_s:
+            self._once("clock", f"The clock of {source} stands still. Restart its app.")
+        elif rate_hz < SLOWEST_HZ:
+            self._once(
+                "rate",
+                f"{source} sends {rate_hz:.1f} samples a second, too few to tell gestures apart."
+                " Choose a faster rate in its app, better 50.",
+            )
+        self._batches = self._breaks = self._samples = self._numbers = self._steps = 0
+        self._moving_s = 0.0
+
+    def _once(self, trouble: str, sentence: str) -> None:
+        if trouble not in self._told:
+            self._told.add(trouble)
+            self._tell(sentence)

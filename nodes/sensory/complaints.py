@@ -1,0 +1,31 @@
+"""Warnings of a node that may have cause for them a thousand times a second."""
+
+from __future__ import annotations
+
+from nep_core.node import Node
+
+_EVERY_S = 5.0
+_SAME_EVERY_S = 30.0
+_REMEMBERED = 16
+
+
+class Complaints:
+    """Warns at most every few seconds, and of the same thing seldom."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._warned_s = -_EVERY_S
+        self._last: dict[str, float] = {}
+
+    def tell(self, words: str, now_s: float) -> None:
+        """Warn, unless it was just told."""
+        if now_s - self._warned_s < _EVERY_S:
+            return
+        if now_s - self._last.get(words, -_SAME_EVERY_S) < _SAME_EVERY_S:
+            return
+        self._warned_s = now_s
+        self._last.pop(words, None)
+        self._last[words] = now_s
+        if len(self._last) > _REMEMBERED:
+            del self._last[next(iter(self._last))]
+        self._node.warn(words)

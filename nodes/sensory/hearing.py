@@ -1,0 +1,176 @@
+"""Follows one sender until it falls silent, and tells how that goes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+from nep_core.messages import Imu, Wrist
+from nep_core.node import Node
+from nodes.sensory.complaints import Complaints
+from nodes.sensory.sample_stream import Sample, SampleStream
+from nodes.sensory.thinning import USEFUL_HZ, Thinning
+from nodes.sensory.ways.way import Arrived
+
+_SILENT_S = 3.0
+_MISSING_S = 10.0
+_TOLD_AGAIN_S = 5.0
+_LARGE_LOSS = 0.03
+_RATE_CHANGE = 0.15
+
+
+class Hearing:
+    """Makes messages of what arrives, and says who sends, how fast, and what is wrong."""
+
+    def __init__(self, node: Node, missing: str) -> None:
+        self._node = node
+        self._missing = missing
+        self.wrist: Wrist = ""
+        self._complaints = Complaints(node)
+        self._began_s = time.monotonic()
+        self._ever_heard = False
+        self._is_connected = False
+        self._told: tuple[float, float, str, float] = (0.0, 0.0, "", 0.0)
+        self._follow("", 0.0)
+
+    def hear(self, arrivals: Sequence[Arrived], now_s: float) -> Imu | None:
+        """The samples of these arrivals as a message, None where there are none."""
+        samples: list[Sample] = []
+        for arrived in arrivals:
+            if arrived.trouble:
+                self._ever_heard = True
+                self._complaints.tell(arrived.trouble, now_s)
+            if self._is_followed(arrived, now_s):
+                samples += self._samples(arrived, now_s)
+        kept = self._thinning.kept(samples, now_s)
+        self._tell(now_s, has_samples=bool(samples))
+        return self._message(kept) if kept and self._is_connected else None
+
+    def _follow(self, sender: str, now_s: float) -> None:
+        self._sender, self._since_s = sender, now_s
+        self._heard_s = 0.0  # a usable reading
+        self._felt_s = now_s  # an acceleration
+        self._stream, self._thinning = SampleStream(), Thinning()
+        self._columns = ""
+        self._is_connected = False
+
+    def _is_followed(self, arrived: Arrived, now_s: float) -> bool:
+        if arrived.sender == self._sender:
+            return True
+        is_busy = bool(self._sender) and now_s - self._heard_s < _SILENT_S
+        if is_busy:
+            if arrived.readings:
+                told = f"A second watch sends from {arrived.sender}; {self._sender} is followed."
+                self._complaints.tell(told, now_s)
+            return False
+        if arrived.trouble and not arrived.readings:
+            return False
+        self._follow(arrived.sender, now_s)
+        return True
+
+    def _samples(self, arrived: Arrived, now_s: float) -> list[Sample]:
+        if arrived.readings:
+            self._heard_s = now_s
+            self._ever_heard = True
+        self._columns = arrived.told or self._columns
+        if arrived.number is not None:
+            self._stream.flow.add_message(arrived.number)
+        samples = self._stream.samples(arrived.readings, arrived.arrived_s)
+        if samples:
+            self._felt_s = now_s
+        self._tell_troubles(arrived, now_s)
+        return samples
+
+    def _tell_troubles(self, arrived: Arrived, now_s: float) -> None:
+        if jump_s := self._stream.take_jump_s():
+            how = "ahead" if jump_s > 0 else "back"
+            self._complaints.tell(
+                f"The clock of {self._sender} jumped {how} by {abs(jump_s):.0f} seconds; "
+                "its time goes on from there.",
+                now_s,
+            )
+        if arrived.dropped:
+            self._complaints.tell(
+                f"{self._sender} sends more than can be taken in; {arrived.dropped} values were "
+                "left out.",
+                now_s,
+            )
+
+    def _tell(self, now_s: float, *, has_samples: bool) -> None:
+        if has_samples and self._stream.rate_hz:
+            self._tell_flow(now_s)
+        elif self._is_connected and now_s - self._heard_s >= _SILENT_S:
+            self._is_connected = False
+            self._node.state("disconnected", f"{self._sender} has sent nothing for 3 seconds")
+            self._since_s = now_s
+        self._tell_silence(now_s)
+
+    def _tell_flow(self, now_s: float) -> None:
+        if not self._is_connected or self._has_changed(now_s):
+            self._is_connected = True
+            self._told = (self._stream.rate_hz, self._stream.flow.loss, self._columns, now_s)
+            self._tell_connected(self._stream.rate_hz, self._stream.flow.loss)
+        else:
+            self._node.state("alive", measures=self._stream.measures)
+        if self._thinning.every > 1:
+            self._complaints.tell(
+                f"{self._sender} sends {self._thinning.arriving_hz:.0f} samples a second, more "
+                f"than a movement needs; about {USEFUL_HZ} of them are kept.",
+                now_s,
+            )
+
+    def _tell_connected(self, rate_hz: float, loss: float) -> None:
+        sender, columns, measures = self._sender, self._columns, self._stream.measures
+        state = self._node.state
+        if loss >= _LARGE_LOSS:
+            state(
+                "connected",
+                f"{sender} sends {rate_hz:.0f} samples a second, {loss * 100:.0f} % get lost",
+                measures=measures,
+            )
+        elif columns:
+            state(
+                "connected",
+                f"{sender} sends {rate_hz:.0f} samples a second: {columns}",
+                measures=measures,
+            )
+        else:
+            state("connected", f"{sender} sends {rate_hz:.0f} samples a second", measures=measures)
+
+    def _has_changed(self, now_s: float) -> bool:
+        rate_hz, loss, columns, told_s = self._told
+        if columns != self._columns:
+            return True
+        if now_s - told_s < _TOLD_AGAIN_S:
+            return False
+        is_other_rate = abs(self._stream.rate_hz - rate_hz) > _RATE_CHANGE * max(rate_hz, 1.0)
+        now_loses = self._stream.flow.loss >= _LARGE_LOSS
+        return is_other_rate or now_loses != (loss >= _LARGE_LOSS)
+
+    def _tell_silence(self, now_s: float) -> None:
+        """Tell once when nothing ever came, when a sender is there but silent, or feels nothing."""
+        if not self._ever_heard and not self._sender and now_s - self._began_s >= _MISSING_S:
+            self._ever_heard = True
+            self._complaints.tell(self._missing, now_s)
+        if not self._sender or self._is_connected or now_s - self._since_s < _MISSING_S:
+            return
+        self._since_s = float("inf")
+        if not self._heard_s:
+            told = f"{self._sender} is connected but sends nothing. Start the measuring in its app."
+            self._complaints.tell(told, now_s)
+        elif now_s - self._heard_s < _SILENT_S:
+            told = f"{self._sender} sends no acceleration. Switch the accelerometer on in its app."
+            self._complaints.tell(told, now_s)
+
+    def _message(self, samples: list[Sample]) -> Imu:
+        gyr = [sample.gyr for sample in samples if sample.gyr is not None]
+        rate_hz = self._stream.rate_hz / self._thinning.every
+        return Imu(
+            source=self._sender,
+            rate_hz=rate_hz,
+            t=[sample.t for sample in samples],
+            acc=[sample.acc for sample in samples],
+            gyr=gyr if len(gyr) == len(samples) else None,
+            gravity_included=self._stream.gravity_included,
+            wrist=self.wrist,
+        )

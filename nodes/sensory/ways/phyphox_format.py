@@ -1,0 +1,163 @@
+"""What phyphox on a phone tells: which buffers its sensors fill, and what is new in them.
+
+Source: phyphox/phyphox-android, RemoteServer.java, and the phyphox wiki, "Remote-interface
+communication". ``/config`` has ``inputs``: ``{"source": "accelerometer", "outputs": [{"x":
+"accX"}, ..., {"t": "acc_time"}]}``; the names differ by experiment. ``/get?acc_time=T&accX=T|
+acc_time`` has the values where ``acc_time`` is above T: ``{"buffer": {"accX": {"updateMode":
+"partial", "buffer": [...]}}, "status": {"session": ..., "measuring": true}}``, null for no value.
+Times are s since the start, accelerations m/s², rotations rad/s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import msgspec
+
+from nodes.sensory.reading import Reading, finite_number, scaled, vector
+from nodes.sensory.ways.joining import Timed, nearest
+
+_WITHIN_S = 0.1
+_SOURCES = ("accelerometer", "linear_acceleration", "gyroscope")
+_USUAL = {
+    "accelerometer": ("acc_time", "accX", "accY", "accZ"),
+    "gyroscope": ("gyr_time", "gyrX", "gyrY", "gyrZ"),
+    "linear_acceleration": ("lin_acc_time", "lin_accX", "lin_accY", "lin_accZ"),
+}
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """The buffers that one sensor fills: its times, and three axes."""
+
+    source: str
+    time: str
+    axes: tuple[str, str, str]
+
+
+@dataclass
+class Experiment:
+    """What is open in phyphox, and up to which time each sensor was read."""
+
+    title: str
+    acc: Sensor | None
+    gyr: Sensor | None
+    session: str = ""
+    measuring: bool = True
+    read_to: dict[str, float | None] = field(default_factory=dict)
+
+    @property
+    def sensors(self) -> list[Sensor]:
+        """Those that are read."""
+        return [one for one in (self.acc, self.gyr) if one is not None]
+
+    def query(self) -> list[tuple[str, str]]:
+        """What to ask ``/get`` for: all that is new; at first, only the last times."""
+        asked: list[tuple[str, str]] = []
+        for sensor in self.sensors:
+            last = self.read_to.get(sensor.time)
+            if last is None:
+                asked.append((sensor.time, ""))
+                continue
+            asked.append((sensor.time, repr(last)))
+            asked += [(axis, f"{last!r}|{sensor.time}") for axis in sensor.axes]
+        return asked
+
+    def take(self, answer: Mapping[str, object], *, is_apple: bool) -> list[Reading]:
+        """The new readings of an answer of ``/get``."""
+        buffers, status = answer.get("buffer"), answer.get("status")
+        if isinstance(status, dict):
+            self.session = str(status.get("session", ""))
+            self.measuring = status.get("measuring") is True
+        if not isinstance(buffers, dict):
+            return []
+        found = {sensor: self._new(sensor, buffers) for sensor in self.sensors}
+        if self.acc is None:
+            return []
+        turning = found[self.gyr] if self.gyr else []
+        has_gravity = self.acc.source == "accelerometer"
+        sign = -1.0 if is_apple else 1.0
+        return [
+            Reading(scaled(acc, sign), nearest(turning, t, _WITHIN_S), t, 1.0, has_gravity)
+            for t, acc in found[self.acc]
+        ]
+
+    def _new(self, sensor: Sensor, buffers: Mapping[str, object]) -> list[Timed]:
+        """The new values of a sensor; a buffer that was cleared begins anew."""
+        before = self.read_to.get(sensor.time)
+        mode, times = _buffer(buffers, sensor.time)
+        numbers = [one for time in times if (one := finite_number(time)) is not None]
+        if before is None:
+            self.read_to[sensor.time] = numbers[-1] if numbers else -1.0
+            return []
+        if mode == "full" or numbers:
+            self.read_to[sensor.time] = numbers[-1] if numbers else -1.0
+        axes = [_buffer(buffers, name)[1] for name in sensor.axes]
+        rows = zip(times, *axes, strict=False)
+        return [
+            (time, values)
+            for t, *axis in rows
+            if (time := finite_number(t)) is not None and (values := vector(axis)) is not None
+        ]
+
+
+def read_config(body: bytes) -> Experiment | None:
+    """The experiment of an answer of ``/config``; None when it is none."""
+    try:
+        config = msgspec.json.decode(body)
+    except (msgspec.DecodeError, RecursionError):
+        return None
+    if not isinstance(config, dict):
+        return None
+    found = {one.source: one for one in _inputs(config)} or _by_name(config)
+    title = str(config.get("localTitle") or config.get("title") or "")[:60]
+    acc = found.get("accelerometer") or found.get("linear_acceleration")
+    return Experiment(title, acc, found.get("gyroscope"))
+
+
+def read_answer(body: bytes) -> Mapping[str, object] | None:
+    """An answer of ``/get``; None when it is none."""
+    try:
+        answer = msgspec.json.decode(body)
+    except (msgspec.DecodeError, RecursionError):
+        return None
+    return answer if isinstance(answer, dict) and "buffer" in answer else None
+
+
+def _inputs(config: Mapping[str, object]) -> list[Sensor]:
+    inputs = config.get("inputs")
+    sensors = []
+    for one in inputs if isinstance(inputs, list) else ():
+        if not isinstance(one, dict) or one.get("source") not in _SOURCES:
+            continue
+        outputs = one.get("outputs")
+        names: dict[str, str] = {}
+        for output in outputs if isinstance(outputs, list) else ():
+            if isinstance(output, dict):
+                names |= {str(part): str(name) for part, name in output.items()}
+        if all(part in names for part in "xyzt"):
+            sensors.append(Sensor(one["source"], names["t"], (names["x"], names["y"], names["z"])))
+    return sensors
+
+
+def _by_name(config: Mapping[str, object]) -> dict[str, Sensor]:
+    """Where ``inputs`` say nothing: by the names that phyphox's own experiments use."""
+    buffers = config.get("buffers")
+    there = {
+        str(one.get("name"))
+        for one in (buffers if isinstance(buffers, list) else ())
+        if isinstance(one, dict)
+    }
+    return {
+        source: Sensor(source, time, (x, y, z))
+        for source, (time, x, y, z) in _USUAL.items()
+        if {time, x, y, z} <= there
+    }
+
+
+def _buffer(buffers: Mapping[str, object], name: str) -> tuple[str, Sequence[object]]:
+    part = buffers.get(name)
+    if not isinstance(part, dict) or not isinstance(part.get("buffer"), list):
+        return "", []
+    return str(part.get("updateMode")), part["buffer"]

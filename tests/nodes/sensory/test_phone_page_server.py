@@ -1,0 +1,255 @@
+"""The phone page's server, asked as browsers and as strangers ask."""
+
+import asyncio
+import contextlib
+import json
+import socket
+import time
+
+import aiohttp
+import pytest
+
+from nep_core.errors import PortTaken
+from nodes.sensory.phone_page.server import PhonePage, page_urls
+from nodes.sensory.phone_page.way import PhonePageWay
+from nodes.sensory.ways.way import Settings
+from tests.nodes.sensory.page_client import TOKEN, ask, batch, finish, post, posting, saying, talk
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("certificate")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def client():
+    yield
+    finish()
+
+
+@contextlib.contextmanager
+def served(folder):
+    page = PhonePage(Settings(port=0, token=TOKEN), folder)
+    page.start()
+    yield page
+    page.stop()
+
+
+@pytest.fixture(scope="module")
+def shared_page(folder):
+    with served(folder) as page:
+        yield page
+
+
+@pytest.fixture
+def page(shared_page):
+    """The page, with nothing in it from the test before."""
+    shared_page.take()
+    return shared_page
+
+
+@pytest.fixture
+def own_page(folder):
+    """A page of this test alone."""
+    with served(folder) as page:
+        yield page
+
+
+def test_the_link_opens_the_page_with_a_certificate_that_is_good_for_it(page):
+    status, headers, text = ask(page, f"/{TOKEN}/")
+
+    assert page.urls == [f"https://127.0.0.1:{page.port}/{TOKEN}/"]
+    assert status == 200
+    assert headers["Content-Type"] == "text/html; charset=utf-8"
+    assert "<title>NEP Studio</title>" in text
+
+
+def test_every_answer_forbids_what_the_page_does_not_need(page):
+    for path in (f"/{TOKEN}/", f"/{TOKEN}/page.js", f"/{TOKEN}/nothing", "/wrong/"):
+        _, headers, _ = ask(page, path)
+
+        assert headers["Cache-Control"] == "no-store"
+        assert headers["X-Frame-Options"] == "DENY"
+        assert headers["Referrer-Policy"] == "no-referrer"
+        assert headers["X-Content-Type-Options"] == "nosniff"
+        assert "default-src 'none'" in headers["Content-Security-Policy"]
+        assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+        assert "unsafe" not in headers["Content-Security-Policy"]
+        assert "aiohttp" not in headers["Server"]
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["/", "/wrong/", "/wrong/page.js", "/wrong/motion", "/wrong/alive", f"/{TOKEN}x/", "/%00/"],
+)
+def test_a_wrong_token_is_refused_with_what_to_do(page, path):
+    status, _, text = ask(page, path, headers={"Accept-Language": "de-AT,en;q=0.5"})
+
+    assert status == 403
+    assert "Scanne den QR-Code" in text
+
+
+def test_a_language_that_we_do_not_speak_is_answered_in_english(page):
+    _, _, text = ask(page, "/wrong/", headers={"Accept-Language": "tlh, *;q=0.1"})
+
+    assert "Scan the QR code that NEP Studio shows now" in text
+
+
+@pytest.mark.parametrize("path", ["../server.py", "words.toml", "..%2f..%2fpyproject.toml", "a/b"])
+def test_only_the_files_of_the_page_are_served(page, path):
+    status, _, _ = ask(page, f"/{TOKEN}/{path}")
+
+    assert status in (403, 404)
+
+
+@pytest.mark.parametrize("host", ["evil.example", "evil.example:{port}", "127.0.0.1:1", ""])
+def test_another_name_for_our_address_is_refused(page, host):
+    own = {"Host": host.format(port=page.port)}
+
+    status, _, text = ask(page, f"/{TOKEN}/", headers=own)
+
+    assert status == 403
+    assert "QR" not in text
+
+
+@pytest.mark.parametrize("origin", ["https://evil.example", "null", None])
+@pytest.mark.parametrize("path", ["motion", "batch"])
+def test_pages_of_other_origins_cannot_send(page, origin, path):
+    own = {"Origin": origin} if origin else {}
+    method = "POST" if path == "batch" else "GET"
+
+    status, _, _ = ask(page, f"/{TOKEN}/{path}", method, data=batch(1.0), headers=own)
+
+    assert status == 403
+    assert page.take() == []
+
+
+def test_a_batch_by_post_becomes_readings_with_the_phones_clock(page):
+    status, _, answer = post(page, batch(1.0, 1.02, device="iPhone", hand="left", lost=3))
+
+    [arrived] = page.take(time.monotonic() + 1)
+    assert (status, json.loads(answer)) == (200, {"state": "followed"})
+    assert arrived.sender == "iPhone 127.0.0.1"
+    assert [reading.stamp for reading in arrived.readings] == [1.0, 1.02]
+    assert arrived.readings[0].acc == (0, 0, 9.81)
+    assert arrived.readings[0].gyr == (0.1, 0.2, 0.3)
+    assert arrived.readings[0].stamp_unit_s == 1
+    assert arrived.dropped == 3
+    assert page.hand == "left"
+
+
+@pytest.mark.parametrize("text", [b"", b"no JSON", batch(1.0, gyr=[]).encode(), b"\xff"])
+def test_rubbish_is_refused_and_nothing_of_it_arrives(page, text):
+    status, _, _ = post(page, text)
+
+    assert status == 400
+    assert page.take() == []
+
+
+def test_too_much_at_once_is_refused(page):
+    status, _, _ = post(page, b" " * 200_000)
+
+    assert status == 413
+    assert page.take() == []
+
+
+def test_a_phone_is_followed_by_websocket(page):
+    answers, _ = talk(page, saying(batch(1.0, 2.0)))
+
+    arrived = page.take(time.monotonic() + 1)
+    assert answers == ["followed"]
+    assert [len(one.readings) for one in arrived] == [2]
+
+
+def test_a_second_phone_is_told_to_wait_and_so_is_the_user(page):
+    def second(line):
+        return posting(page, batch(1.0, phone="b2"))
+
+    answers, _ = talk(page, saying(batch(1.0)), second)
+    status, _, answer = post(page, batch(2.0, phone="b2"))
+
+    first, warning, next_one = page.take(time.monotonic() + 1)
+    assert json.loads(answers[1][2]) == {"state": "busy"}
+    assert warning.trouble.startswith("A second phone (127.0.0.1) has the page open")
+    assert len(first.readings) == len(next_one.readings) == 1
+    assert (status, json.loads(answer)["state"]) == (200, "followed")  # as the first one left
+
+
+def test_a_websocket_that_sends_rubbish_is_closed(page):
+    for rubbish in ("rubbish", batch(1.0, gyr=[])):
+        answers, code = talk(page, saying(rubbish))
+
+        assert answers == [None]
+        assert code == 1007
+
+
+def test_a_flood_is_closed_and_little_of_it_arrives(own_page):
+    async def flood(line):
+        with contextlib.suppress(ConnectionError, aiohttp.ClientError):
+            for _ in range(1000):
+                await line.send_str(batch(*range(200)))
+        while (await line.receive(timeout=3)).type is aiohttp.WSMsgType.TEXT:
+            pass
+
+    _, code = talk(own_page, flood)
+
+    assert code in (1008, 1006)  # it may still have been sending when the line was closed
+    arrived = own_page.take(time.monotonic() + 0.2)
+    assert len(arrived) < 256
+    assert sum(len(one.readings) for one in arrived) < 3000
+    assert any(one.dropped for one in arrived)
+
+
+def test_plain_noise_on_the_port_harms_nobody(page):
+    with socket.create_connection(("127.0.0.1", page.port)) as stranger:
+        stranger.sendall(b"GET / HTTP/1.1\r\n\r\n" + bytes(range(256)))
+
+    assert ask(page, f"/{TOKEN}/alive")[0] == 200
+
+
+def test_it_stops_at_once_and_the_port_is_free_again(own_page):
+    async def stop(line):
+        began_s = time.monotonic()
+        await asyncio.to_thread(own_page.stop)
+        return time.monotonic() - began_s
+
+    [took_s], _ = talk(own_page, stop)
+
+    assert took_s < 1.0
+    again = PhonePage(Settings(port=own_page.port, token=TOKEN), own_page._folder)
+    again.start()
+    again.stop()
+
+
+def test_a_port_that_is_taken_is_told(page):
+    second = PhonePage(Settings(port=page.port), page._folder)
+
+    with pytest.raises(PortTaken, match=str(page.port)):
+        second.start()
+    second.stop()
+
+
+def test_without_a_token_a_new_one_is_made_each_time(folder):
+    first, second = PhonePage(Settings(port=1), folder), PhonePage(Settings(port=1), folder)
+
+    assert first.token != second.token
+    assert len(first.token) >= 12
+
+
+def test_the_links_name_every_address_of_this_computer():
+    links = page_urls(8443, "abc", ["192.168.1.7", "10.0.0.2"])
+
+    assert links == ["https://192.168.1.7:8443/abc/", "https://10.0.0.2:8443/abc/"]
+
+
+def test_the_way_tells_where_and_keeps_the_users_token_for_itself(folder):
+    own = PhonePageWay(Settings(port=8443, token="secret"), folder)
+    made = PhonePageWay(Settings(port=8443), folder)
+
+    assert (
+        own.where == "waits for a phone that opens its page on port 8443 (from this computer only)"
+    )
+    assert made.page.token in made.where
+    assert "listen on" in own.missing
+    assert own.hand == ""
+    own.close()
