@@ -25,7 +25,7 @@ from nodes.perceptual.recognition.everyday import simulated_everyday
 from nodes.perceptual.recognition.features import describe
 from nodes.perceptual.recognition.matching import Tally, match
 from nodes.perceptual.recognition.model import METHODS, TRIGGER, Model
-from nodes.perceptual.recognition.passages import Take, takes_of
+from nodes.perceptual.recognition.passages import UNKNOWN, Take, takes_of
 from nodes.perceptual.recognition.peaks import Detection
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.stream import RATE_HZ
@@ -77,16 +77,17 @@ def plan_trials(
                 name = f"personal, {examples_named(count)}"
                 parts = split.training, split.rest, folder.everyday
                 trials.append(Trial(name, person, *parts, not is_quick, is_thorough))
-    for person, sessions in folder.people.items() if len(folder.people) > 1 else ():
-        others = _of_others(folder, person)
-        if others:
-            trials.append(
-                Trial(OTHERS, person, others, sessions, folder.everyday, not is_quick, False)
-            )
-        else:
-            notes.append(f"{OTHERS}: nobody else makes a gesture of {person}'s: left out")
     if len(folder.people) == 1:
-        notes.append(f"{OTHERS}: there is one person only: left out")
+        return trials, [*notes, f"{OTHERS}: there is one person only: left out"]
+    for person, sessions in folder.people.items():
+        others = [one for who, every in folder.people.items() if who != person for one in every]
+        known = _gestures_of(others)
+        if strange := sorted(_gestures_of(sessions) - known):
+            notes.append(f"{OTHERS}, {person}: nobody else makes {', '.join(strange)}: left out")
+        if known & _gestures_of(sessions):
+            rest = tuple(_with_unknown(one, known) for one in sessions)
+            parts = tuple(others), rest, folder.everyday
+            trials.append(Trial(OTHERS, person, *parts, not is_quick, False))
     return trials, notes
 
 
@@ -183,11 +184,14 @@ def _of_reference(trial: Trial, name: str) -> Iterator[Score]:
         yield replace(score, right=told.right, marked=told.marked)
 
 
-def _of_others(folder: Folder, person: str) -> Sessions:
-    """The sessions of the other people, with the gestures that this person makes too."""
-    own = {name for one in folder.people[person] for name in one.labels or ()}
-    others = [one for who, every in folder.people.items() if who != person for one in every]
-    return tuple(one for one in others if {*(one.labels or ()), ""} & own - {"", "?"})
+def _gestures_of(sessions: Sequence[Recording]) -> set[str]:
+    return {name for one in sessions for name in one.labels or ()} - {"", UNKNOWN}
+
+
+def _with_unknown(one: Recording, known: set[str]) -> Recording:
+    """The recording with the gestures that are not known marked so: they are not asked for."""
+    labels = [name if name in known or not name else UNKNOWN for name in one.labels or ()]
+    return replace(one, labels=labels)
 
 
 def _simulated_idle() -> Iterator[tuple[str, Sessions]]:

@@ -17,15 +17,16 @@ class Complaints:
         self._warned_s = -_EVERY_S
         self._last: dict[str, float] = {}
 
-    def tell(self, words: str, now_s: float) -> None:
-        """Warn, unless it was just told."""
+    def tell(self, words: str, now_s: float, *, of: str = "") -> None:
+        """Warn, unless it was just told; ``of`` names what is the same in other words."""
         if now_s - self._warned_s < _EVERY_S:
             return
-        if now_s - self._last.get(words, -_SAME_EVERY_S) < _SAME_EVERY_S:
+        of = of or words
+        if now_s - self._last.get(of, -_SAME_EVERY_S) < _SAME_EVERY_S:
             return
         self._warned_s = now_s
-        self._last.pop(words, None)
-        self._last[words] = now_s
+        self._last.pop(of, None)
+        self._last[of] = now_s
         if len(self._last) > _REMEMBERED:
             del self._last[next(iter(self._last))]
         self._node.warn(words)

@@ -88,12 +88,14 @@ class Hearing:
                 f"The clock of {self._sender} jumped {how} by {abs(jump_s):.0f} seconds; "
                 "its time goes on from there.",
                 now_s,
+                of="jump",
             )
         if arrived.dropped:
             self._complaints.tell(
                 f"{self._sender} sends more than can be taken in; {arrived.dropped} values were "
                 "left out.",
                 now_s,
+                of="dropped",
             )
 
     def _tell(self, now_s: float, *, has_samples: bool) -> None:
@@ -117,6 +119,7 @@ class Hearing:
                 f"{self._sender} sends {self._thinning.arriving_hz:.0f} samples a second, more "
                 f"than a movement needs; about {USEFUL_HZ} of them are kept.",
                 now_s,
+                of="flood",
             )
 
     def _tell_connected(self, rate_hz: float, loss: float) -> None:

@@ -13,7 +13,7 @@ from nodes.sensory.reading import NS, Reading, Vector
 _GYRO_LASTS_S = 0.5  # a rotation rate older than this is not joined to an acceleration any more
 _LONGEST_GAP_S = 30.0  # a sender's clock that jumps further was started anew,
 _LATEST_S = 1.0  # so was one that goes back by more than readings overtake each other,
-_EARLIEST_S = 10.0  # and one whose readings come so long before they can have been measured
+_EARLIEST_S = 5.0  # and one that is so long ahead of when its readings can have been measured
 _SHORT_S = 0.001
 _SIZES_OVER = 200  # samples
 _EARTH_M_S2 = (6.0, 14.0)
@@ -139,9 +139,10 @@ class _SenderClock:
         self._zero_s = stamp_s - self._last_s - max(since_s, _SHORT_S)
 
     def _is_near(self, t: float, arrived_s: float) -> bool:
-        if not -_LATEST_S < t - self._last_s < _LONGEST_GAP_S:
+        step_s = t - self._last_s
+        if not -_LATEST_S < step_s < _LONGEST_GAP_S:
             return False
-        return self.fit.lead_s(t, arrived_s) < _EARLIEST_S
+        return step_s < _EARLIEST_S or self.fit.lead_s(t, arrived_s) < _EARLIEST_S
 
     def _unit_of(self, stamp: float, told_s: float | None) -> float:
         if told_s is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TypeVar
 
 T = TypeVar("T")
@@ -33,7 +32,8 @@ class Thinning:
 
     def _measure(self, count: int, now_s: float) -> None:
         if self._began_s is None:
-            self._began_s = now_s
+            self._began_s = now_s  # what comes now belongs to the time before
+            return
         self._count += count
         passed_s = now_s - self._began_s
         if self._count > _FLOOD_HZ * max(_OVER_S, passed_s) and self.every == 1:
@@ -45,4 +45,6 @@ class Thinning:
     def _settle(self, passed_s: float) -> None:
         self.arriving_hz = self._count / passed_s
         is_flood = self.arriving_hz > _FLOOD_HZ
-        self.every = max(1, math.ceil(self.arriving_hz / USEFUL_HZ)) if is_flood else 1
+        is_as_before = self.every > 1 and 0.8 < self.arriving_hz / self.every / USEFUL_HZ < 1.2
+        if not is_as_before:
+            self.every = max(1, round(self.arriving_hz / USEFUL_HZ)) if is_flood else 1

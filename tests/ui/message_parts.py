@@ -117,11 +117,20 @@ PARTS = {
         "more than {samples}",
         "nothing",
     ],
-    "nodes/sensory/smartwatch.py": [
-        "from this computer only",
-        "from the network",
-        '{sender} sends a line that cannot be read: "{unreadable}"',
+    "nodes/sensory/hearing.py": [
+        "{sender} sends {rate_hz} samples a second, {loss} % get lost",
+        "{sender} sends {rate_hz} samples a second: {columns}",
+        "{sender} sends {rate_hz} samples a second",
     ],
+    "nodes/sensory/line_reader.py": ['{sender} sends a line that cannot be read: "{unreadable}"'],
+    "nodes/sensory/ways/way.py": ["from this computer only", "from the network"],
+    "nodes/sensory/ways/udp.py": ["waits for a watch on UDP port {port} ({where})"],
+    "nodes/sensory/ways/tcp.py": ["waits for a watch on TCP port {port} ({where})"],
+    "nodes/sensory/ways/sensor_logger.py": [
+        "waits for Sensor Logger on HTTP port {port} ({where})"
+    ],
+    "nodes/sensory/ways/phyphox.py": ["asks phyphox at {host}, port {port}"],
+    "nodes/sensory/ways/sensor_server.py": ["connects to SensorServer at {host}, port {port}"],
     "nodes/sensory/virtual_watch.py": [
         "simulated person {number}",
         "makes the gesture {gesture} (simulated person {number})",

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.own_gestures import OwnGesture
+from nep_studio.ui.actions_icons import icon_room
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.panels.flow import FlowLayout
 from nep_studio.ui.theme import icon
@@ -64,6 +65,7 @@ class GestureCard(QFrame):
         self.title.setMaxLength(60)
         self.title.setAccessibleName(tr("Name of the gesture"))
         self.count.setProperty("role", "hint")
+        self.count.setMinimumHeight(self.chip.sizeHint().height())
         self.record.setAutoDefault(False)
         self.menu.setToolTip(tr("More"))
         self.menu.setAccessibleName(tr("More"))
@@ -118,6 +120,7 @@ class GestureCard(QFrame):
         theme, line = self._desk.look.theme, self.fontMetrics().height()
         name = "square" if self._is_recording else "circle-dot"
         self.record.setIcon(icon(name, theme.colour("stop")))
+        self.record.setIconSize(icon_room(line))
         self.menu.setIcon(icon("ellipsis", theme))
         self.menu.setIconSize(QSize(line, line))
         self.chip.update()

@@ -57,11 +57,12 @@ def hint_words(desk: TrainerDesk) -> str:
 def button_words(step: Step) -> str:
     """What the button beside the words says; empty for none."""
     return {
-        "connect": tr("Connect…"),
         "name": tr("New gesture"),
         "record": tr("Record"),
         "more": tr("Record"),
         "another": tr("New gesture"),
+        "train": tr("Train"),
+        "try": tr("Try it"),
     }.get(step, "")
 
 

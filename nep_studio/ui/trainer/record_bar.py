@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
@@ -15,6 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.ui.messages import announce
+from nep_studio.ui.panels.flow import FlowLayout
 from nep_studio.ui.theme import icon
 from nep_studio.ui.trainer.desk import TrainerDesk
 from nep_studio.ui.trainer.session import TakeSession
@@ -51,15 +51,14 @@ class RecordBar(QWidget):
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.progress.setRange(0, 100)
         self.progress.setAccessibleName(tr("How much is recorded"))
-        row = QHBoxLayout()
+        row = FlowLayout(gap=self.fontMetrics().height() // 3)
         for widget in (self.button, self.cancel, self.play, self.back):
             row.addWidget(widget)
-        row.addWidget(self.progress, 1)
-        row.addStretch(0)
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(self.fontMetrics().height() // 4)
         box.addLayout(row)
+        box.addWidget(self.progress)
         box.addWidget(self.words)
 
     def tell(self, words: str) -> None:

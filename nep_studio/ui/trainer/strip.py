@@ -33,6 +33,7 @@ from nep_studio.ui.trainer.strip_marks import (
     fault_words,
     paint_big,
     paint_handle,
+    paint_label,
     paint_mark,
     paint_recorded,
     paint_words,
@@ -44,6 +45,10 @@ SHOWN_S = 10.0
 FRAME_MS = 33
 _SHRINK = 0.05
 """How quickly the range of values follows a quieter hand, each frame; a wilder one at once."""
+
+
+_BIG, _SMALLER = 0.6, 0.32
+"""How high the countdown is, and the count of takes, as a share of the graph."""
 
 
 class Strip(QWidget):
@@ -81,7 +86,7 @@ class Strip(QWidget):
         line = self.fontMetrics().height()
         rect = QRectF(self.rect()).adjusted(1, 1, -1 - line * 1.2, -1)
         if self.take.is_open:
-            low, high = value_range(self.take.samples)
+            low, high = value_range(self.take.samples.between(*self.take.shown_s))
             return Window(rect, *self.take.shown_s, low, high)
         end_s = self._desk.live.last_t if self._desk.live is not None else 0.0
         return Window(rect, end_s - SHOWN_S, end_s, *self._range)
@@ -106,7 +111,7 @@ class Strip(QWidget):
     def minimumSizeHint(self) -> QSize:
         """Less shows nothing."""
         line = self.fontMetrics().height()
-        return QSize(line * 8, line * 4)
+        return QSize(line * 8, line * 5)
 
     # Painting
 
@@ -118,12 +123,15 @@ class Strip(QWidget):
             samples = self.samples
             if self._session.start_s is not None and not self.take.is_open:
                 paint_recorded(painter, window, self._session.start_s, theme)
-            for mark in self._marks():
-                paint_mark(painter, window, mark, theme, self.font())
+            marks = self._marks()
+            for mark in marks:
+                paint_mark(painter, window, mark, theme)
             paint_ground(painter, window, theme)
             paint_lines(painter, window, samples, theme, QFontMetricsF(self.font()))
             shown = samples.between(window.start_s, window.end_s)
             paint_letters(painter, window, shown, theme, self.font())
+            for mark in marks:
+                paint_label(painter, window, mark, theme, self.font())
             self._paint_over(painter, window)
             self._paint_frame(painter)
 
@@ -142,7 +150,8 @@ class Strip(QWidget):
                 words = tr("The samples of this take cannot be read.")
                 paint_words(painter, window.rect, words, theme, self.font())
         elif self.big_words:
-            paint_big(painter, window.rect, self.big_words, theme, self.font())
+            share = _BIG if self._session.state == "countdown" else _SMALLER
+            paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
         elif self._desk.live is None or not self._desk.is_hearing:
             words = tr("No movement is heard. Connect a watch or phone, and move it.")
             paint_words(painter, window.rect, words, theme, self.font())

@@ -47,30 +47,33 @@ def paint_recorded(painter: QPainter, window: Window, start_s: float, theme: The
         painter.drawLine(rect.topLeft(), rect.bottomLeft())
 
 
-def paint_mark(painter: QPainter, window: Window, mark: Mark, theme: Theme, font: QFont) -> None:
-    """Draw a stretch with a bar and its words at the top."""
+def _place(window: Window, mark: Mark) -> QRectF:
+    """Where a stretch is, as far as it is in the window."""
     left, right = window.x(mark.start_s), window.x(mark.end_s)
-    if right < window.rect.left() or left > window.rect.right():
+    whole = QRectF(left, window.rect.top(), right - left, window.rect.height())
+    return whole.intersected(window.rect)
+
+
+def _colour(mark: Mark, theme: Theme) -> QColor:
+    return theme.colour("warning" if mark.is_fault else "success")
+
+
+def paint_mark(painter: QPainter, window: Window, mark: Mark, theme: Theme) -> None:
+    """Tint a stretch, with a bar at the top."""
+    rect, colour = _place(window, mark), _colour(mark, theme)
+    if rect.isEmpty():
         return
-    rect = QRectF(left, window.rect.top(), right - left, window.rect.height())
-    rect = rect.intersected(window.rect)
-    colour = theme.colour("warning" if mark.is_fault else "success")
     if mark.is_fault:
         painter.fillRect(rect, QBrush(_tint(colour, 2 * _FAULT_ALPHA), Qt.BrushStyle.BDiagPattern))
     painter.fillRect(rect, _tint(colour, _FAULT_ALPHA if mark.is_fault else _TAKE_ALPHA))
     painter.fillRect(QRectF(rect.left(), rect.top(), rect.width(), 3), colour)
-    _paint_label(painter, window, rect, mark.words, colour, theme, font)
 
 
-def _paint_label(
-    painter: QPainter,
-    window: Window,
-    rect: QRectF,
-    words: str,
-    colour: QColor,
-    theme: Theme,
-    font: QFont,
-) -> None:
+def paint_label(painter: QPainter, window: Window, mark: Mark, theme: Theme, font: QFont) -> None:
+    """Write the words of a stretch at its top, over the curves."""
+    rect, colour, words = _place(window, mark), _colour(mark, theme), mark.words
+    if rect.isEmpty():
+        return
     metrics = QFontMetricsF(font)
     width = metrics.horizontalAdvance(words) + metrics.height() * 0.6
     x = min(max(rect.center().x() - width / 2, window.rect.left()), window.rect.right() - width)
@@ -99,12 +102,14 @@ def paint_handle(
     painter.drawRoundedRect(grip, 3, 3)
 
 
-def paint_big(painter: QPainter, rect: QRectF, words: str, theme: Theme, font: QFont) -> None:
-    """Write a few words as large as fits, readable over curves."""
+def paint_big(
+    painter: QPainter, rect: QRectF, words: str, theme: Theme, font: QFont, share: float
+) -> None:
+    """Write a few words as large as this share of the height, readable over curves."""
     big = QFont(font)
     metrics = QFontMetricsF(big)
     width = max(metrics.horizontalAdvance(words), 1.0)
-    scale = min(rect.height() * 0.62 / metrics.height(), rect.width() * 0.8 / width)
+    scale = min(rect.height() * share / metrics.height(), rect.width() * 0.6 / width)
     big.setPixelSize(max(8, round(metrics.height() * scale * 0.8)))
     big.setWeight(QFont.Weight.DemiBold)
     metrics = QFontMetricsF(big)
@@ -120,11 +125,19 @@ def paint_big(painter: QPainter, rect: QRectF, words: str, theme: Theme, font: Q
 
 
 def paint_words(painter: QPainter, rect: QRectF, words: str, theme: Theme, font: QFont) -> None:
-    """Say in the middle what is missing."""
+    """Say in the middle what is missing, readable over curves."""
+    metrics = QFontMetricsF(font)
+    flags = int(Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap)
+    room = rect.adjusted(metrics.height(), 4, -metrics.height(), -4)
+    written = metrics.boundingRect(room, flags, words)
+    around = metrics.height() * 0.4
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(_tint(theme.colour("field"), 230))
+    painter.drawRoundedRect(written.adjusted(-around, -around, around, around), around, around)
     painter.setFont(font)
     painter.setPen(theme.colour("muted"))
-    flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-    painter.drawText(rect.adjusted(8, 4, -8, -4), int(flags), words)
+    painter.drawText(room, flags, words)
 
 
 def _tint(colour: QColor, alpha: int) -> QColor:

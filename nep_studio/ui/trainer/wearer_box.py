@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, QSignalBlocker, QSize
+from PySide6.QtCore import QObject, QPoint, QSignalBlocker, QSize
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
 from nep_studio.blocks.own_gestures import WRISTS
@@ -17,19 +17,23 @@ from nep_studio.ui.words import tr
 def wrist_words() -> dict[str, str]:
     """Where a sensor can be, in words."""
     return {
-        "left": tr("on the left wrist"),
-        "right": tr("on the right wrist"),
-        "hand": tr("in the hand"),
+        "left": tr("Left wrist"),
+        "right": tr("Right wrist"),
+        "hand": tr("In the hand"),
     }
 
 
-class WearerBox(QWidget):
-    """A list of people with a menu, a list of wrists, and the sensor if there are several."""
+class WearerBox(QObject):
+    """A list of people with a menu, a list of wrists, and the sensor if there are several.
+
+    ``who`` and ``where`` are the two widgets, which may stand apart.
+    """
 
     def __init__(self, desk: TrainerDesk, keeping: Keeping) -> None:
-        super().__init__()
+        super().__init__(desk)
         self._desk, self._keeping = desk, keeping
         self.asking: Asking | None = None
+        self.who, self.where = QWidget(), QWidget()
         self.sign = QLabel()
         self.person, self.wrist, self.source = QComboBox(), QComboBox(), QComboBox()
         self.more = QToolButton()
@@ -54,16 +58,18 @@ class WearerBox(QWidget):
         self.source.setAccessibleName(tr("Which watch or phone"))
         self.more.setAccessibleName(tr("Change people"))
         self.more.setToolTip(tr("Change people"))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(self.fontMetrics().height() // 3)
         for box in (self.person, self.wrist, self.source):
             box.setSizeAdjustPolicy(
                 QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
             )
-            box.setMinimumContentsLength(7)
-        for widget in (self.sign, self.person, self.more, self.wrist, self.source):
-            row.addWidget(widget)
+            box.setMinimumContentsLength(9)
+        people, places = (self.sign, self.person, self.more), (self.wrist, self.source)
+        for outer, widgets in ((self.who, people), (self.where, places)):
+            row = QHBoxLayout(outer)
+            row.setContentsMargins(0, 0, 0, 0)
+            row.setSpacing(outer.fontMetrics().height() // 3)
+            for widget in widgets:
+                row.addWidget(widget)
 
     def refresh(self) -> None:
         """Show who is there."""
@@ -79,7 +85,7 @@ class WearerBox(QWidget):
 
     def menu(self) -> QMenu:
         """New person, another name, delete."""
-        menu, theme = QMenu(self), self._desk.look.theme
+        menu, theme = QMenu(self.who), self._desk.look.theme
         menu.addAction(icon("plus", theme), tr("New person…"), self.ask_for_new)
         words = tr("Another name for {person}…", person=self._desk.person)
         menu.addAction(icon("pencil", theme), words, self.ask_for_name)
@@ -117,7 +123,7 @@ class WearerBox(QWidget):
 
     def _ask(self, words: str, yes: str, answer: object, name: str) -> None:
         assert callable(answer)
-        self.asking = Asking(self, self._desk.look.theme, words, yes, answer, name=name)
+        self.asking = Asking(self.who, self._desk.look.theme, words, yes, answer, name=name)
         self.asking.show_at(self.person.mapToGlobal(QPoint(0, self.person.height())))
 
     # What is chosen
@@ -132,8 +138,10 @@ class WearerBox(QWidget):
         self._desk.use_source(str(self.source.itemData(row)))
 
     def _dress(self) -> None:
-        theme, line = self._desk.look.theme, self.fontMetrics().height()
-        self.sign.setPixmap(icon("user", theme).pixmap(QSize(line, line), self.devicePixelRatioF()))
+        theme, line = self._desk.look.theme, self.who.fontMetrics().height()
+        self.sign.setPixmap(
+            icon("user", theme).pixmap(QSize(line, line), self.who.devicePixelRatioF())
+        )
         self.more.setIcon(icon("ellipsis", theme))
         self.more.setIconSize(QSize(line, line))
 

@@ -89,10 +89,10 @@ class WayPage(QWidget):
         if self.way.node != SMARTWATCH:
             return self._source.settings
         found: dict[str, Setting] = {"through": self.way.name}
-        if self.way.asks_address:
-            if not self.address.text().strip():
-                return None
-            found["address"] = self.address.text().strip()
+        if address := self.address.text().strip():
+            found["address"] = address
+        elif self.way.needs_address:
+            return None
         if self.way.listens:
             found["port"] = self.more.port.value()
             found["listen_on"] = NETWORK if self.network.is_open else THIS_COMPUTER

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from nep_core.errors import NepError
 from nep_studio.plan import REPLAY, VIRTUAL_WATCH
 from nep_studio.ui.words import tr
 
@@ -30,7 +31,7 @@ class Way:
     listens: bool = False
     protocol: Literal["TCP", "UDP", ""] = ""
     worn: Worn = "hand"
-    asks_address: bool = False
+    needs_address: bool = False
     asks_columns: bool = False
     asks_units: bool = False
     asks_wrist: bool = True
@@ -62,13 +63,13 @@ class Place:
 PHONE_PAGE = Way("phone_page", "qr-code", port=8443, listens=True, protocol="TCP", asks_wrist=False)
 """Where the phone is, is asked on the page itself."""
 PAPER_WATCH = Way("paper_watch", "watch", port=8080, listens=True, protocol="TCP", worn="left")
-BLUETOOTH = Way("bluetooth", "bluetooth", worn="left", asks_address=True)
+BLUETOOTH = Way("bluetooth", "bluetooth", worn="left")
 VIRTUAL = Way("virtual_watch", "user", VIRTUAL_WATCH, asks_wrist=False)
 RECORDING = Way("recording", "circle-play", REPLAY, asks_wrist=False)
 APPS = (
     Way("sensor_logger", "smartphone", port=8000, listens=True, protocol="TCP", asks_units=True),
-    Way("phyphox", "smartphone", protocol="TCP", asks_address=True, asks_units=True),
-    Way("sensor_server", "smartphone", protocol="TCP", asks_address=True),
+    Way("phyphox", "smartphone", protocol="TCP", needs_address=True, asks_units=True),
+    Way("sensor_server", "smartphone", protocol="TCP", needs_address=True),
     Way(
         "udp", "smartphone", port=8085, listens=True, protocol="UDP", asks_columns=True
     ),
@@ -189,8 +190,20 @@ def _paper_watch(place: Place) -> list[Step]:
 def _bluetooth(place: Place) -> list[Step]:
     wake = tr("Switch the sensor on, and Bluetooth on this computer.")
     free = tr("See that it is not connected to a phone: most talk to one partner only.")
-    write = tr("Write its name or address, or choose it:")
-    return [Step(wake), Step(free), Step(write, extra="address")]
+    write = tr("If several are on, write the name or the address of yours:")
+    known = ", ".join(_known_sensors())
+    told = f"{wake} {tr('Known are: {names}.', names=known)}" if known else wake
+    return [Step(told), Step(free), Step(write, extra="address")]
+
+
+def _known_sensors() -> list[str]:
+    """The Bluetooth sensors for which there is a profile."""
+    from nodes.sensory.bluetooth.profile import profiles
+
+    try:
+        return [tr(profile.title) for profile in profiles().values()]
+    except NepError:  # one's own profile is wrong: the node says how
+        return []
 
 
 def _virtual(place: Place) -> list[Step]:
@@ -215,7 +228,7 @@ def silence_steps(way: Way, place: Place, is_open: bool, address: str) -> tuple[
     if way.node != SMARTWATCH:
         return (tr("Look into the log of the node in the panel Nodes."),)
     found.append(tr("Is the screen of the device on, and is it sending?"))
-    if way.asks_address:
+    if way.needs_address:
         found.append(tr("Is {address} still what the app shows?", address=address or UNKNOWN))
         found.append(tr("Are both in the same Wi-Fi? A guest network often keeps devices apart."))
         return tuple(found)

@@ -19,6 +19,7 @@ Worn = Literal["as recorded", "turned", "automatic"]
 """How a watch sits: as in the recordings, the strap the other way round, or either."""
 
 SLOWEST_HZ = 10.0
+_AT = {"left": "on the left wrist", "right": "on the right wrist", "hand": "in the hand"}
 _TURNED = np.array([-1.0, -1.0, 1.0])  # half a turn about the axis out of the screen
 _LONGEST_NAME = 60
 _ENOUGH_PROOFS = 3
@@ -115,6 +116,8 @@ class SensorEar:
                 f"; it is worn on the {first.wrist} wrist and the gestures were recorded on the"
                 f" {model.wrist} one, so they are mirrored"
             )
+        elif "" not in (first.wrist, model.wrist) and first.wrist != model.wrist:
+            told += f"; it is {_AT[first.wrist]}, and the gestures were recorded {_AT[model.wrist]}"
         return told
 
 

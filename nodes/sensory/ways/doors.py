@@ -8,7 +8,7 @@ from nep_core.errors import PortTaken
 from nodes.sensory.addresses import lan_addresses
 from nodes.sensory.ways.way import Settings
 
-_WAITING = 16  # callers that are not taken yet
+_WAITING = 64  # callers that are not taken yet
 
 
 def open_udp(settings: Settings) -> socket.socket:

@@ -80,7 +80,8 @@ def test_without_two_known_wrists_nothing_is_mirrored(model, stranger, wrist, of
     found = listening.hear(batches_of(stranger, wrist=wrist))
 
     assert names_of(found) == names_in(stranger)
-    assert listening.ear.description == "listens to watch"
+    assert listening.ear.description.startswith("listens to watch")
+    assert ("in the hand" in listening.ear.description) is (wrist == "hand")
 
 
 def test_a_watch_that_is_worn_turned_is_understood_when_that_is_said(model, stranger, turned):

@@ -14,7 +14,6 @@ from nodes.perceptual.recognition.model_file import model_bytes, read_model, wri
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.training import train
 
-
 SENSOR = {"device": "watch", "rate_hz": 50.0, "gravity": True, "gyroscope": True}
 
 

@@ -1,11 +1,17 @@
-"""A watch that sends by UDP."""
+"""The node that hears watches and phones, in a process of its own."""
 
 import itertools
 import socket
+import sys
 import threading
 import time
 
+import psutil
 import pytest
+
+from tests.node_running import until
+from tests.nodes.sensory.senders import SensorLogger
+from tests.nodes.sensory.way_hearing import free_port, turned
 
 
 @pytest.fixture
@@ -136,3 +142,58 @@ def test_a_port_that_is_taken_is_told_with_what_to_do(listener, port):
     assert f"UDP port {port} cannot be opened" in words
     assert "another port" in words
     assert "Traceback" not in words
+
+
+def test_sensor_logger_on_the_wrist_becomes_imu_with_its_measures(listener):
+    port = free_port()
+    listener.start("smartwatch", through="sensor_logger", port=port, wrist="right")
+    listener.state("ready", f"Sensor Logger on HTTP port {port}")
+
+    with SensorLogger(f"http://127.0.0.1:{port}/data", watch=True) as sender:
+        sender.start(turned(6.0), speed=2)
+        connected = listener.state("connected", "100 samples a second: wrist motion")
+        batch = listener.batches_until(lambda batch: batch.t[0] > 1.0)[-1]
+        alive = until(listener.states, lambda state: "rate_hz" in state.measures)[-1]
+
+    assert connected.measures.keys() >= {"rate_hz", "loss", "gaps", "delay_ms"}
+    assert alive.measures["loss"] == 0
+    assert batch.wrist == "right"
+    assert batch.gyr is not None
+    assert batch.gravity_included
+
+
+def test_a_missing_address_ends_the_node_with_what_to_do(listener):
+    node = listener.start("smartwatch", through="phyphox")
+    _out, words = node.communicate(timeout=10)
+
+    assert node.returncode == 1
+    assert "The address that phyphox shows on the phone is missing." in words
+    assert "Traceback" not in words
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads the memory of a process")
+def test_floods_of_all_kinds_take_no_more_memory(listener, port):
+    node = listener.start("smartwatch", port=port)
+    listener.state("ready")
+    process = psutil.Process(node.pid)
+    floods = itertools.cycle(
+        [
+            lambda number: f"a;{number * 100_000};0;0;9.81",  # 10,000 samples a second
+            lambda number: f"x{number},1,2",
+            lambda number: ",".join(["1"] * (3 + number % 50)),
+            lambda number: f'{{"t": {number}, "acc{number}": [1, 2, 3]}}',
+        ]
+    )
+
+    sizes = []
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        for _ in range(8):
+            line = next(floods)
+            for number in range(3_000):
+                sender.sendto(line(number).encode(), ("127.0.0.1", port))
+            sizes.append(process.memory_info().rss)
+    with Watch(port, paper_watch):
+        listener.state("connected")
+
+    assert node.poll() is None
+    assert max(sizes[4:]) - min(sizes[4:]) < 3_000_000

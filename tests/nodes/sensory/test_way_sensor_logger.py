@@ -109,7 +109,7 @@ def test_a_phone_beside_a_watch_is_left_aside():
             sender.push(of_watch[number] | {"payload": payload})
         heard.until(lambda: len(heard.arrivals) == 4)
 
-    assert [len(one.readings) for one in heard.arrivals] == [10, 10, 0, 10]
+    assert [bool(one.readings) for one in heard.arrivals] == [True, True, False, True]
     assert heard.troubles == ""
 
 
@@ -157,8 +157,8 @@ def test_wrong_bodies_are_refused_with_a_sentence(body, status):
 
 @pytest.mark.parametrize("value", ["NaN", "1e999", '"x"', "null", "true"])
 def test_values_that_are_not_numbers_are_left_out_and_told(value):
-    bad = '{"name":"totalacceleration","time":1,"values":{"x":0,"y":0,"z":%s}}' % value
     good = '{"name":"totalacceleration","time":2,"values":{"x":0,"y":0,"z":9.8}}'
+    bad = good.replace("9.8", value)
 
     with opened("sensor_logger") as heard, logger(heard) as sender:
         answer = sender.push(f'{{"payload":[{bad},{good}]}}'.encode())

@@ -1,137 +1,36 @@
-"""The dialog that connects a watch or phone, with a node that really runs and a real sender."""
+"""The dialog that connects a watch or phone: its questions, its steps, what it shows."""
 
 from __future__ import annotations
 
-import subprocess
-import sys
-import time
-from collections.abc import Callable, Iterator
-from pathlib import Path
-
 import pytest
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_core.errors import NodeStartError
 from nep_core.launcher import LaunchedNode
-from nep_core.messages import Imu, NodeState
-from nep_studio.blocks.deployment import node_entries
 from nep_studio.plan import PlannedNode
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.theme import Look, themes
-from nep_studio.ui.watches import dialog as dialog_module
 from nep_studio.ui.watches.choosing import offers
-from nep_studio.ui.watches.dialog import Plan, WatchDialog
+from nep_studio.ui.watches.dialog import Plan
 from nep_studio.ui.watches.ways import WAYS
 from nodes.sensory.phone_page.server import page_urls
 from nodes.sensory.ways import WAYS as WAYS_OF_THE_NODE
-from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
+from tests.ui.watches.watch_stage import (
+    ADDRESS,
+    TOKEN,
+    Open,
+    RecordingRunner,
+    choose,
+    choose_other,
+    open_dialog,
+    press,
+    press_switch,
+    runner,
+    send,
+    settles_at_once,
+)
 
-__all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
-
-ADDRESS, TOKEN = "192.168.1.23", "abcDEF123456"
-
-SENDER = """
-import socket, sys, time
-door = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-for n in range(100_000):
-    swing = 8.0 if n // 10 % 2 else 0.0
-    line = f"{n * 20},{swing},0.1,9.8\\n"
-    door.sendto(line.encode(), ("127.0.0.1", int(sys.argv[1])))
-    time.sleep(0.02)
-"""
-
-
-class RecordingRunner(Runner):
-    """Notes which nodes are to run, and runs none."""
-
-    def __init__(self, owner: QObject, logs: Path) -> None:
-        super().__init__(list, owner, logs=logs)
-        self.asked: list[tuple[str, object]] = []
-
-    def start_node(self, planned: PlannedNode) -> None:
-        self.asked.append(("start", planned))
-        self.local.planned[planned.name] = planned
-
-    def stop_node(self, name: str) -> None:
-        self.asked.append(("stop", name))
-
-    @property
-    def started(self) -> list[PlannedNode]:
-        return [what for verb, what in self.asked if isinstance(what, PlannedNode)]
-
-    def tell(self, event: str, description: str = "", pid: int = 7, **measures: float) -> None:
-        """What the node would tell."""
-        state = NodeState(
-            node="watch",
-            type="sensory",
-            event=event,
-            description=description,
-            pid=pid,
-            measures=measures,
-        )
-        self.board.update(state)
-        self.nodes_changed.emit(["watch"])
-
-
-@pytest.fixture
-def runner(qapp: QApplication, tmp_path: Path) -> Iterator[RecordingRunner]:
-    owner = QObject()
-    made = RecordingRunner(owner, tmp_path)
-    yield made
-    made.close()
-
-
-@pytest.fixture(autouse=True)
-def settles_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dialog_module, "SETTLE_MS", 0)
-
-
-Open = Callable[..., WatchDialog]
-
-
-@pytest.fixture
-def open_dialog(runner: RecordingRunner, qapp: QApplication, qtbot: QtBot) -> Iterator[Open]:
-    made: list[WatchDialog] = []
-
-    def make(plan: Plan | None = None, addresses: tuple[str, ...] = (ADDRESS,)) -> WatchDialog:
-        look = Look(qapp, "light")
-        one = WatchDialog(runner, plan or Plan("watch"), TOKEN, look, None, lambda: addresses)
-        one.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
-        qtbot.addWidget(one)
-        one.begin()
-        made.append(one)
-        return one
-
-    yield make
-    for one in made:
-        one.close()
-
-
-def press(qtbot: QtBot, button) -> None:
-    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-
-
-def choose(dialog: WatchDialog, way: str, qtbot: QtBot) -> None:
-    """Click the card of a way, and the app in the list if it is one of several."""
-    cards = dialog.choosing.cards
-    press(qtbot, cards[way] if way in cards else cards["sensor_logger"])
-    if way not in cards:
-        app = dialog.page.app
-        app.setCurrentIndex(app.findData(way))
-        app.activated.emit(app.currentIndex())
-    qtbot.waitUntil(lambda: not dialog._settling.isActive())
-
-
-def send(dialog: WatchDialog, *, moves: bool) -> None:
-    acc = [(0.0, 0.0, 9.8), (8.0 if moves else 0.1, 0.0, 9.8)]
-    message = Imu(source="192.168.1.7", rate_hz=50.0, t=[1.0, 1.02], acc=acc)
-    dialog.ear.hear([Heard(time.time(), message, "watch")])
-    dialog._update()
+__all__ = ["open_dialog", "runner", "settles_at_once"]
 
 
 def test_it_asks_what_one_has_the_easiest_first(open_dialog: Open) -> None:
@@ -150,7 +49,7 @@ def test_every_way_of_the_node_can_be_reached_and_has_its_usual_port() -> None:
     for name, kind in WAYS_OF_THE_NODE.items():
         assert name in WAYS
         assert not WAYS[name].listens or WAYS[name].port == kind.port
-        assert WAYS[name].asks_address == kind.needs_address
+        assert WAYS[name].needs_address == (kind.needs_address and name != "bluetooth")
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -194,12 +93,6 @@ def test_the_code_of_the_phone_page_is_shown_once_the_network_is_let_in(
     runner.tell("ready", "waits for a phone", pid=8)
     send(dialog, moves=False)
     assert not page.qr_code.isVisible()  # it is not needed while the phone sends
-
-
-def press_switch(switch, qtbot: QtBot) -> None:
-    place = switch.rect().center()
-    place.setX(switch.fontMetrics().height() // 2)
-    qtbot.mouseClick(switch, Qt.MouseButton.LeftButton, pos=place)
 
 
 def test_the_address_is_copied_with_one_press(open_dialog: Open, qtbot: QtBot) -> None:
@@ -373,162 +266,3 @@ def test_a_watch_that_ran_before_comes_back_when_another_is_not_used(
 
     assert runner.asked[-1] == ("start", before)
     assert runner.told_elsewhere == set()
-
-
-def choose_other(dialog: WatchDialog, way: str, qtbot: QtBot) -> None:
-    press(qtbot, dialog.back_button)
-    choose(dialog, way, qtbot)
-
-
-def test_a_code_is_drawn_in_whole_pixels_black_on_white(qtbot: QtBot, qapp: QApplication) -> None:
-    from nep_studio.ui.watches.qr_code import QUIET, QrCode, modules_of
-
-    Look(qapp, "dark")
-    code = QrCode()
-    qtbot.addWidget(code)
-    url = page_urls(8443, TOKEN, [ADDRESS])[0]
-    code.show_url(url)
-    code.resize(233, 240)
-    code.show()
-
-    image = code.grab().toImage()
-
-    modules = modules_of(url)
-    module = code.module_pixels()
-    side = (len(modules) + 2 * QUIET) * module
-    left, top = (image.width() - side) // 2, (image.height() - side) // 2
-    colours = {image.pixelColor(left + x, top + y).name() for x in range(side) for y in range(side)}
-    assert colours == {"#000000", "#ffffff"}
-    for y, row in enumerate(modules, QUIET):
-        for x, is_dark in enumerate(row, QUIET):
-            middle = image.pixelColor(left + x * module + 1, top + y * module + 1).name()
-            assert middle == ("#000000" if is_dark else "#ffffff")
-    Look(qapp, "light")
-
-
-@pytest.mark.parametrize("theme", themes())
-@pytest.mark.parametrize("scale", [1.0, 2.0])
-def test_no_button_of_it_is_cut_off_in_any_look(
-    qtbot: QtBot, qapp: QApplication, runner: RecordingRunner, theme: str, scale: float
-) -> None:
-    look = Look(qapp, theme, scale)
-    made = WatchDialog(runner, Plan("watch"), TOKEN, look, None, lambda: [ADDRESS])
-    qtbot.addWidget(made)
-    made.begin()
-    made.show_way("udp")
-    QApplication.processEvents()
-
-    shown = [one for one in made.findChildren(QPushButton) if one.isVisible()]
-
-    assert len(shown) >= 4
-    for button in shown:
-        assert button.width() >= button.fontMetrics().horizontalAdvance(button.text())
-    for label in made.page.findChildren(QLabel):
-        if label.isVisible() and label.wordWrap():
-            assert label.height() >= label.heightForWidth(label.width()) - 1, label.text()
-    made.close()
-    Look(qapp, "light")
-
-
-# In the window, with real processes
-
-
-def watches(window: MainWindow):
-    editor = window.workbench.canvas.editor
-    return [
-        one
-        for one in node_entries(editor.project, editor.language)
-        if one.node == "sensory/smartwatch"
-    ]
-
-
-@pytest.fixture
-def sender(free_port: int) -> Iterator[int]:
-    """A process that sends lines to a port, as an app on a phone does."""
-    process = subprocess.Popen([sys.executable, "-c", SENDER, str(free_port)])
-    yield free_port
-    process.kill()
-    process.wait()
-
-
-def test_a_watch_is_connected_moved_and_used_and_run_takes_it_over(
-    karate: MainWindow, sender: int, qtbot: QtBot
-) -> None:
-    kit = karate.actions_by_name["connect_watch"]
-    kit.trigger()
-    dialog = karate.findChild(WatchDialog)
-    choose(dialog, "udp", qtbot)
-    dialog.page.more.port.setValue(sender)
-    runner = karate.running.runner
-
-    qtbot.waitUntil(lambda: dialog.page.live.dot.state == "moved")
-    qtbot.waitUntil(lambda: dialog.ear.flow.rate_hz > 20)
-    qtbot.waitUntil(dialog.use_button.isEnabled)
-    launched = runner.local.launcher.nodes["watch"]
-    pid = launched.pid
-    assert "t (ms), ax, ay, az (m/s²)" in dialog.page.live.understood.text()
-    press(qtbot, dialog.use_button)
-
-    [entry] = watches(karate)
-    assert entry.name == "watch"
-    assert entry.parameters["port"] == sender
-    planned = runner.planned()
-    assert not any(node.node == "sensory/virtual_watch" for node in planned)
-    [watch] = [node for node in planned if node.name == "watch"]
-    assert runner.local.planned["watch"] == watch  # so that Run takes it over
-    runner.local.start([watch])
-    assert runner.local.launcher.nodes["watch"].pid == pid
-    karate.workbench.canvas.editor.history.undo()
-    assert watches(karate) == []
-
-
-def test_a_port_that_is_taken_is_told_in_a_sentence(
-    karate: MainWindow, free_port: int, qtbot: QtBot
-) -> None:
-    import socket
-
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
-        taken.bind(("127.0.0.1", free_port))
-        karate.actions_by_name["connect_watch"].trigger()
-        dialog = karate.findChild(WatchDialog)
-        choose(dialog, "udp", qtbot)
-        dialog.page.more.port.setValue(free_port)
-
-        qtbot.waitUntil(lambda: dialog.page.live.dot.state == "failed")
-
-        opened = f"UDP port {free_port} cannot be opened"
-        qtbot.waitUntil(lambda: dialog.page.live.sentence.text().startswith(opened))
-        assert "Choose another port" in dialog.page.live.advice.text()
-        press(qtbot, dialog.close_button)
-        assert watches(karate) == []
-        assert [told.message.title for told in karate.messages.history] == []
-
-
-def test_a_watch_that_is_in_use_is_asked_about(
-    karate: MainWindow, qtbot: QtBot, answer: Callable
-) -> None:
-    from nep_studio.blocks.operations.sensing import use_watch
-
-    editor = karate.workbench.canvas.editor
-    use_watch(editor, {"through": "udp", "port": 8085}, "use")
-    state = NodeState(node="watch", type="sensory", event="connected", pid=5)
-    karate.running.runner.board.update(state)
-
-    karate.actions_by_name["connect_watch"].trigger()
-    answer(karate, "Connect another one")
-
-    qtbot.waitUntil(lambda: karate.findChild(WatchDialog) is not None)
-    assert karate.findChild(WatchDialog).plan.name == "watch 2"
-
-
-def test_there_is_one_dialog_and_another_project_closes_it(
-    karate: MainWindow, qtbot: QtBot
-) -> None:
-    action = karate.actions_by_name["connect_watch"]
-    action.trigger()
-    action.trigger()
-    [dialog] = karate.findChildren(WatchDialog)
-    assert action in karate.menus["robots"].actions()
-
-    with qtbot.waitSignal(dialog.finished):
-        karate.files.new()

@@ -10,7 +10,13 @@ from nep_core.errors import RecordingError
 from nep_studio.ui.panels.sensors.ring import Floats
 from nep_studio.ui.trainer.live import Samples
 from nep_studio.ui.words import tr
-from nodes.perceptual.recognition.features import POINTS, Channels, cut_windows, signals_of
+from nodes.perceptual.recognition.features import (
+    POINTS,
+    Channels,
+    Integers,
+    cut_windows,
+    signals_of,
+)
 from nodes.perceptual.recognition.gmr import Gmr
 from nodes.perceptual.recognition.model import Model
 from nodes.perceptual.recognition.stream import EvenStream
@@ -20,6 +26,9 @@ WIDE = 2.0
 KINDS = ("body", "rotation", "gravity")
 _INSIDE, _MOSTLY = 0.9, 0.7
 _PARTS = 3
+_STEP = 2
+"""Of so many samples, one is tried as the end of the movement."""
+_LEAST_SAMPLES = 6
 
 
 @dataclass(frozen=True)
@@ -75,7 +84,10 @@ class Band:
 def band_of(
     model: Model, gesture: str, movement: Samples | None, *, gravity_included: bool
 ) -> Band | None:
-    """What is expected of a gesture, and the movement in the same signals; None without a curve."""
+    """What is expected of a gesture, and the movement in the same signals; None without a curve.
+
+    Of the movement that part is taken that is most like the gesture.
+    """
     has_rotation = movement is None or movement.gyr is not None
     try:
         recogniser = model.recogniser("gmr", gravity_included, has_rotation)
@@ -83,24 +95,29 @@ def band_of(
         return None
     if gesture not in model.names or not isinstance(recogniser.scorer, Gmr):
         return None
-    mean, spread = recogniser.scorer.curves.expected(model.names.index(gesture))
-    channels = recogniser.channels
-    live = None if movement is None else signals_in(movement, channels)
+    number, curves = model.names.index(gesture), recogniser.scorer.curves
+    mean, spread = curves.expected(number)
+    channels, live = recogniser.channels, None
+    if movement is not None:
+        signals = _windows(movement, channels, model.lengths[model.fits[:, number]])
+        if len(signals):
+            live = signals[curves.distances(signals.astype(np.float32))[:, number].argmin()]
     return Band(gesture, channels.signal_names, mean, spread, live)
 
 
-def signals_in(movement: Samples, channels: Channels) -> Floats | None:
-    """A movement as the recogniser sees it; (32, signals). None when it is too short."""
+def _windows(movement: Samples, channels: Channels, lengths: Integers) -> Floats:
+    """All windows of a movement as the recogniser sees them; (n, 32, signals)."""
     parts = [movement.acc] if movement.gyr is None else [movement.acc, movement.gyr]
     values = np.hstack(parts)[:, : channels.columns]
     stretches = list(EvenStream().push(movement.t, values))
-    rows = max((one.values for one in stretches), key=len, default=np.empty((0, channels.columns)))
-    if len(rows) < 4:
-        return None
-    last, length = np.array([len(rows) - 1]), np.array([len(rows)])
-    signals: Floats = signals_of(cut_windows(rows, last, length), channels)[0]
-    assert len(signals) == POINTS
-    return signals
+    rows = max((one.values for one in stretches), key=len, default=values[:0])
+    if len(rows) < _LEAST_SAMPLES:
+        return np.empty((0, POINTS, channels.signals))
+    usable = lengths[lengths <= len(rows)]
+    sizes = usable if len(usable) else np.array([len(rows)])
+    pairs = [(last, size) for size in sizes.tolist() for last in range(size - 1, len(rows), _STEP)]
+    last, length = np.array(pairs, np.intp).T
+    return signals_of(cut_windows(rows, last, length), channels)
 
 
 def kind_words(kind: str) -> str:
@@ -124,7 +141,7 @@ def in_words(band: Band, title: str) -> str:
     share, percent = band.share_inside, round(band.share_inside * 100)
     if share >= _INSIDE:
         return tr(
-            "Your movement follows “{gesture}”: {percent} % of it are within the band.",
+            "Your movement follows “{gesture}”: {percent} % of it is within the band.",
             gesture=title,
             percent=percent,
         )
@@ -132,7 +149,7 @@ def in_words(band: Band, title: str) -> str:
     where = (tr("at the beginning"), tr("in the middle"), tr("at the end"))[part]
     if share >= _MOSTLY:
         return tr(
-            "Your movement is near “{gesture}”: {percent} % of it are within the band."
+            "Your movement is near “{gesture}”: {percent} % of it is within the band."
             " It strays most {where} ({signal}).",
             gesture=title,
             percent=percent,
@@ -140,7 +157,7 @@ def in_words(band: Band, title: str) -> str:
             signal=kind_words(kind),
         )
     return tr(
-        "Your movement is not “{gesture}”: only {percent} % of it are within the band."
+        "Your movement is not “{gesture}”: only {percent} % of it is within the band."
         " It strays most {where} ({signal}).",
         gesture=title,
         percent=percent,

@@ -18,6 +18,8 @@ from nodes.perceptual.recognition.model import Model
 from nodes.perceptual.recognition.peaks import Detection
 
 LOOKED_BACK_S = 4.0
+AROUND_S = 0.5
+"""The curve may fit best a little earlier or later than where the gesture was recognised."""
 _LEAST = 0.25
 """A movement of which it is less certain is none of the gestures: the last one stays."""
 
@@ -61,7 +63,7 @@ class BandPanel(QWidget):
         chosen = self.gesture.currentData()
         with QSignalBlocker(self.gesture):
             self.gesture.clear()
-            self.gesture.addItem(tr("The one that fits best"), "")
+            self.gesture.addItem(tr("Best fit"), "")
             for name in model.names if model is not None else ():
                 self.gesture.addItem(self._title(name), name)
             self.gesture.setCurrentIndex(max(0, self.gesture.findData(chosen)))
@@ -87,7 +89,7 @@ class BandPanel(QWidget):
         live, shown = self._desk.live, self._shown
         movement: Samples | None = None
         if live is not None and shown is not None:
-            movement = live.between(shown.t_start, shown.t_end)
+            movement = live.between(shown.t_start - AROUND_S, shown.t_end + AROUND_S)
         gravity = live.gravity_included if live is not None else True
         self.band = None
         if self._model is not None:

@@ -89,7 +89,8 @@ class GestureBar(PointSlider):
         is_over = self.certainty >= self.value() / 100
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.colour("success" if is_over else "plot_1"))
-        painter.drawRect(filled.adjusted(1, 1, 0, -1))
+        if filled.width() > 1:
+            painter.drawRect(filled.adjusted(1, 1, 0, -1))
         self._paint_mark(painter, groove.left() + groove.width() * self.value() / 100)
         painter.end()
 

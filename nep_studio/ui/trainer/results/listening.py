@@ -45,78 +45,79 @@ class Listening(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._wanted: Wanted | None = None
-        self._orders: SimpleQueue[Wanted | Samples | None] = SimpleQueue()
-        self._news: SimpleQueue[object] = SimpleQueue()
-        self._thread: threading.Thread | None = None
+        self._talk: _Talk | None = None
         self._take_soon = QTimer(self, interval=NEWS_MS)
         self._take_soon.timeout.connect(self._take_news)
-        parent.destroyed.connect(_ender(self._orders))
+        parent.destroyed.connect(self.stop)
+
+    @property
+    def is_listening(self) -> bool:
+        """Whether there is a thread that listens."""
+        return self._talk is not None
 
     def listen_for(self, wanted: Wanted) -> None:
         """Listen for this from now on."""
-        if wanted != self._wanted:
-            self._wanted = wanted
-            self._start()
-            self._orders.put(wanted)
+        if wanted == self._wanted:
+            return
+        self.stop()  # the old thread may be busy with what nobody wants to know any more
+        self._wanted, self._talk = wanted, _Talk()
+        self._talk.orders.put(wanted)
+        threading.Thread(target=_listen, args=(self._talk,), daemon=True).start()
+        self._take_soon.start()
 
     def hear(self, samples: Samples) -> None:
         """Look into these samples, if it can follow."""
-        if self._thread is not None and self._orders.qsize() < MOST_WAITING:
-            self._orders.put(samples)
+        if self._talk is not None and self._talk.orders.qsize() < MOST_WAITING:
+            self._talk.orders.put(samples)
 
     def stop(self) -> None:
-        """Listen no more."""
+        """Listen no more; nothing is told any more."""
+        talk, self._talk = self._talk, None
         self._wanted = None
         self._take_soon.stop()
-        if self._thread is not None:
-            self._orders.put(None)
-            self._thread.join(timeout=2.0)
-            self._thread = None
-        self._orders, self._news = SimpleQueue(), SimpleQueue()
-
-    def _start(self) -> None:
-        self._take_soon.start()
-        if self._thread is None:
-            told = (self._orders, self._news)
-            self._thread = threading.Thread(target=_listen, args=told, daemon=True)
-            self._thread.start()
+        if talk is not None:
+            talk.has_ended.set()
+            talk.orders.put(None)
 
     def _take_news(self) -> None:
         looks: list[LookedAt] = []
-        news = self._news
-        while not news.empty() and news is self._news:
-            told = news.get()
+        talk = self._talk
+        while talk is not None and talk is self._talk and not talk.news.empty():
+            told = talk.news.get()
             if isinstance(told, LookedAt):
                 looks.append(told)
                 continue
             looks.clear()  # they were by another model
             (self.failed if isinstance(told, RecordingError) else self.model_read).emit(told)
-        if looks:
+        if looks and talk is self._talk:
             self.looked.emit(looks)
 
 
-def _ender(orders: SimpleQueue[Wanted | Samples | None]) -> object:
-    """What lets the thread end when its owner is gone."""
-    return lambda *_: orders.put(None)
+class _Talk:
+    """What one thread is told, and what it tells."""
+
+    def __init__(self) -> None:
+        self.orders: SimpleQueue[Wanted | Samples | None] = SimpleQueue()
+        self.news: SimpleQueue[object] = SimpleQueue()
+        self.has_ended = threading.Event()
 
 
-def _listen(orders: SimpleQueue[Wanted | Samples | None], news: SimpleQueue[object]) -> None:
+def _listen(talk: _Talk) -> None:
     """What the thread does."""
     spotter: Spotter | None = None
-    while (order := orders.get()) is not None:
+    while (order := talk.orders.get()) is not None and not talk.has_ended.is_set():
         try:
             if isinstance(order, Wanted):
-                spotter = None  # what comes until the model is read is not looked at
-                spotter = _spotter(order, news)
+                spotter = _spotter(order, talk.news)
             elif spotter is not None:
                 spotter.push(order.t, order.acc, order.gyr)
         except RecordingError as error:
             spotter = None
-            news.put(error)
+            talk.news.put(error)
         except Exception as error:  # the try-out must not fall silent without a word
             log.exception("listening for gestures")
             spotter = None
-            news.put(RecordingError("The gestures cannot be tried out.", details=str(error)))
+            talk.news.put(RecordingError("The gestures cannot be tried out.", details=str(error)))
 
 
 def _spotter(wanted: Wanted, news: SimpleQueue[object]) -> Spotter:

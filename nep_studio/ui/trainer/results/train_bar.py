@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -113,6 +114,8 @@ class TrainBar(QWidget):
         return tr("Something has changed: train again.")
 
     def _dress(self, _theme: object = None) -> None:
-        theme = self._look.theme
+        theme, line = self._look.theme, self.fontMetrics().height()
+        for button in (self.button, self.cancel):
+            button.setIconSize(QSize(line, line))
         self.button.setIcon(icon("brain", theme.colour("accent_text")))
         self.cancel.setIcon(icon("x", theme))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import tempfile
+import weakref
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -30,6 +31,7 @@ class TrainingFolder:
         self.recordings = self.path / "recordings"
         self.model = self.path / "model.gestures"
         self._written: dict[str, object] = {}
+        self._delete = weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
 
     def update(self, gestures: Gestures, recordings: Recordings) -> Iterator[float]:
         """Write file after file; gives the part that is done. Raises RecordingError, OSError."""
@@ -37,16 +39,16 @@ class TrainingFolder:
         for gone in [key for key in self._written if key not in recordings]:
             self._forget(gone)
         for number, (key, recording) in enumerate(recordings.items()):
-            content = (recording, _spans(key, recording, gestures))
+            content = (recording, spans_of(key, recording, gestures))
             if self._written.get(key) != content:
                 self._forget(key)
-                write_recording(self._place(key, recording), _labelled(key, *content))
+                write_recording(self._place(key, recording), labelled(key, *content))
                 self._written[key] = content
             yield (number + 1) / len(recordings)
 
     def close(self) -> None:
-        """Delete it."""
-        shutil.rmtree(self.path, ignore_errors=True)
+        """Delete it; that is done at the end too if nobody asks for it."""
+        self._delete()
 
     def _place(self, key: str, recording: OwnRecording) -> Path:
         folder = self.recordings / EVERYDAY if recording.everyday else self.recordings
@@ -61,7 +63,7 @@ class TrainingFolder:
 Spans = tuple[tuple[float, float, str], ...]
 
 
-def _spans(key: str, recording: OwnRecording, gestures: Gestures) -> Spans:
+def spans_of(key: str, recording: OwnRecording, gestures: Gestures) -> Spans:
     """From when to when something else than nothing is made; what counts more comes later."""
     takes = [
         (take.start_s, take.end_s, NEITHER if take.left_out else name)
@@ -73,7 +75,8 @@ def _spans(key: str, recording: OwnRecording, gestures: Gestures) -> Spans:
     return (*unknown, *sorted(takes, key=lambda span: (span[2] != NEITHER, span)))
 
 
-def _labelled(key: str, recording: OwnRecording, spans: Spans) -> Recording:
+def labelled(key: str, recording: OwnRecording, spans: Spans) -> Recording:
+    """A recording as a file has it: each sample says what is made at that time."""
     samples = unpacked(recording)
     has_labels = bool(spans) or not recording.everyday
     return Recording(

@@ -70,9 +70,11 @@ class TriggerTimeline(QWidget):
         painter.fillRect(area, theme.colour("field"))
         self._paint_scale(painter, theme)
         self._paint_curve(painter, theme)
-        edge = area.left()
-        for one in self._triggers:
-            edge = self._paint_flag(painter, theme, one, edge)
+        places = [self.x_of(one.t_end) for one in self._triggers]
+        ends = [*places, area.right()][1:]
+        for one, x, end in zip(self._triggers, places, ends, strict=True):
+            self._paint_flag(painter, theme, x)
+            self._paint_name(painter, theme, self._title(one.gesture), x, end)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(theme.colour("line"), 1))
         painter.drawRect(area)
@@ -107,29 +109,29 @@ class TriggerTimeline(QWidget):
         painter.setPen(QPen(theme.colour("plot_1"), max(1.5, line / 10)))
         painter.drawPolyline(QPolygonF(points))
 
-    def _paint_flag(self, painter: QPainter, theme: Theme, one: Detection, edge: float) -> float:
-        """Paint a flag; its words only where they hide no others. Gives where they end."""
+    def _paint_flag(self, painter: QPainter, theme: Theme, x: float) -> None:
         area, line = self.area(), self.fontMetrics().height()
-        x = self.x_of(one.t_end)
         painter.setPen(QPen(theme.colour("success"), max(2.0, line / 8)))
         painter.drawLine(QLineF(x, area.top(), x, area.bottom()))
         painter.setBrush(theme.colour("success"))
-        painter.drawPolygon(
-            QPolygonF(
-                [
-                    QPointF(x, area.top()),
-                    QPointF(x + line * 0.6, area.top() + line * 0.3),
-                    QPointF(x, area.top() + line * 0.6),
-                ]
-            )
-        )
-        words = self._title(one.gesture)
-        wide = float(self.fontMetrics().horizontalAdvance(words))
-        left = x + line * 0.8
-        if left + wide > area.right():
-            left = x - wide - line * 0.3
-        if left < edge:
-            return edge
+        top = area.top()
+        corners = ((0.0, 0.0), (0.6, 0.3), (0.0, 0.6))
+        painter.drawPolygon(QPolygonF([QPointF(x + line * a, top + line * b) for a, b in corners]))
+
+    def _paint_name(
+        self, painter: QPainter, theme: Theme, title: str, x: float, end: float
+    ) -> None:
+        """Beside the flag, up to the next one; before it where there is no room behind it."""
+        area, line, metrics = self.area(), self.fontMetrics().height(), self.fontMetrics()
         painter.setPen(theme.colour("text"))
-        painter.drawText(QPointF(left, area.top() + self.fontMetrics().ascent()), words)
-        return max(left + wide, x + line * 0.8)
+        base = area.top() + metrics.ascent()
+        room = end - x - line * 0.9
+        if end >= area.right() and room < metrics.horizontalAdvance(title):
+            words = metrics.elidedText(title, Qt.TextElideMode.ElideRight, round(line * 5))
+            base += line * 0.2
+            left = x - metrics.horizontalAdvance(words) - line * 0.3
+            painter.drawText(QPointF(max(left, area.left()), base + line * 0.8), words)
+            return
+        words = metrics.elidedText(title, Qt.TextElideMode.ElideRight, max(0, round(room)))
+        if len(words) > 2:
+            painter.drawText(QPointF(x + line * 0.8, base), words)

@@ -31,8 +31,6 @@ from nodes.perceptual.recognition.peaks import Detection
 FLASH_MS = 1400
 ANNOUNCE_MS = 500
 """A screen reader says the last of several gestures that follow each other so soon."""
-SOON_S = 1.0
-"""A trigger that is older is none that somebody has just caused."""
 _HEARING_MS = 500
 _BATCH_S = 1.0
 
@@ -52,6 +50,7 @@ class TryOut(QWidget):
         self.problem: RecordingError | None = None
         self.listening = Listening(self)
         self._told_s = 0.0
+        """Until then nothing is news: another recogniser or point may find what is long over."""
         self._flashing: Detection | None = None
         self._make()
         self._lay_out()
@@ -75,7 +74,7 @@ class TryOut(QWidget):
         inner = QWidget()
         box = QVBoxLayout(inner)
         head = QHBoxLayout()
-        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
+        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
         head.addWidget(self.said, 1)
         box.addLayout(head)
         box.addWidget(self.steps)
@@ -179,8 +178,7 @@ class TryOut(QWidget):
         last = self.looks.triggers[-1] if self.looks.triggers else None
         if last is not None and last.t_end > self._told_s:
             self._told_s = last.t_end
-            if last.t_end >= self.looks.now_s - SOON_S:
-                self._flash(last)
+            self._flash(last)
         self._show_looks()
         self.band.follow(self.looks)
 
@@ -210,6 +208,7 @@ class TryOut(QWidget):
 
     def _on_point_changed(self, name: str) -> None:
         self.looks.set_points(self.tuning.points)
+        self._told_s = max(self._told_s, self.looks.now_s)
         if name in self.bars:
             self.bars[name].show_gesture(name)
         self._show_looks()

@@ -1,0 +1,192 @@
+"""The scores of the gesture benchmark as rows for people, with goals, and as data for programs."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from benchmarks._gesture_folder import Folder
+from benchmarks._gesture_scores import CLEAN, Score
+from benchmarks._gesture_sensors import WORSE
+from benchmarks._gesture_trials import (
+    OTHERS,
+    REFERENCES,
+    SIMULATED,
+    SIMULATED_LIVELY,
+    WARPING,
+    examples_named,
+)
+from nodes.perceptual.recognition.matching import NOTHING
+
+Row = dict[str, Any]
+
+F1_GOALS = {
+    f"personal, {examples_named(5)}": 0.95,
+    f"personal, {examples_named(3)}": 0.90,
+    OTHERS: 0.85,
+}
+MOST_FALSE_A_MINUTE = 0.1
+SIMULATED_RECALL = 0.9
+SIMULATED_FALSE_A_MINUTE = 1.0
+
+
+def rows_of(
+    folder: Folder | None,
+    scores: Sequence[Score],
+    figure: Sequence[Score],
+    notes: Sequence[str],
+) -> list[Row]:
+    """All figures, and what was left out."""
+    rows = [_row(f"left out: {note}", None, "") for note in notes]
+    if folder is not None:
+        rows += _about(folder)
+        best = at_best(scores)
+        for score in best:
+            if score.sensor == CLEAN:
+                rows += _clean_rows(folder.name, score, best)
+        rows += [row for score in best for row in _other_rows(folder.name, score)]
+    return rows + [row for score in figure for row in _figure_rows(score)]
+
+
+def as_data(
+    folder: Folder | None,
+    scores: Sequence[Score],
+    figure: Sequence[Score],
+    notes: Sequence[str],
+) -> dict[str, Any]:
+    """Everything for programs: the scores at their best threshold, with all pairs."""
+    idle_s = sum(float(one.t[-1]) for one in folder.everyday) if folder else 0.0
+    return {
+        "folder": folder.name if folder else "",
+        "people": list(folder.people) if folder else [],
+        "gestures": list(folder.gestures) if folder else [],
+        "simulated": folder.is_simulated if folder else True,
+        "everyday_s": round(idle_s, 1),
+        "notes": list(notes),
+        "scores": [_score_data(score) for score in at_best(scores)],
+        "simulated_figure": [_score_data(score) for score in figure],
+    }
+
+
+def at_best(scores: Sequence[Score]) -> list[Score]:
+    """One score of each kind: at the threshold with the best F1, which only references choose."""
+    best: dict[tuple[str, str, str], Score] = {}
+    for score in scores:
+        kind = (score.trial, score.method, score.sensor)
+        if kind not in best or _worth(score) > _worth(best[kind]):
+            best[kind] = score
+    return list(best.values())
+
+
+def _worth(score: Score) -> tuple[float, int]:
+    return score.tally.f1, -score.false
+
+
+def _about(folder: Folder) -> Iterator[Row]:
+    kind = "simulated people" if folder.is_simulated else "people"
+    who = f"{folder.name}: {len(folder.people)} {kind}, {len(folder.gestures)} gestures"
+    sessions = [one for every in folder.people.values() for one in every]
+    minutes = sum(float(one.t[-1]) for one in sessions) / 60
+    yield _row(f"{who}: their streams", round(minutes, 2), "minutes")
+    if folder.everyday:
+        idle = sum(float(one.t[-1]) for one in folder.everyday) / 60
+        yield _row(f"{folder.name}: everyday movement of others", round(idle, 2), "minutes")
+
+
+def _clean_rows(name: str, score: Score, best: Sequence[Score]) -> Iterator[Row]:
+    who = f"{name}: {score.trial}, {_named(score)}"
+    if score.problem:
+        yield _row(f"{who}: left out: {score.problem}", None, "")
+    if not score.tally.pairs:
+        return
+    is_ours = score.method not in REFERENCES
+    goal = F1_GOALS.get(score.trial) if is_ours else None
+    f1 = _row(f"{who}: F1", score.tally.f1, "", at_least=goal)
+    rival = next((one for one in best if (one.trial, one.method) == (score.trial, WARPING)), None)
+    if is_ours and rival and rival.tally.f1:
+        f1 |= {
+            "reference": round(rival.tally.f1, 3),
+            "ratio": round(score.tally.f1 / rival.tally.f1, 2),
+        }
+    yield f1
+    yield _row(f"{who}: recall", score.tally.recall, "of gestures")
+    yield _row(f"{who}: precision", score.tally.precision, "of triggers")
+    if score.false_a_minute is not None:
+        most = MOST_FALSE_A_MINUTE if goal else None
+        yield _row(f"{who}: false triggers", score.false_a_minute, "a minute", at_most=most)
+    if score.accuracy is not None:
+        yield _row(f"{who}: told apart when cut out", score.accuracy, "of gestures")
+
+
+def _other_rows(name: str, score: Score) -> Iterator[Row]:
+    who = f"{name}: {score.trial}, {score.method}"
+    if score.sensor in WORSE:
+        if score.problem:
+            yield _row(f"{who}, {score.sensor}: left out: {score.problem}", None, "")
+        else:
+            yield _row(f"{who}, {score.sensor}: F1", score.tally.f1, "")
+    elif score.sensor in (SIMULATED, SIMULATED_LIVELY) and score.false_a_minute is not None:
+        what = f"{who}, {score.sensor} movement: false triggers"
+        yield _row(what, score.false_a_minute, "a minute")
+
+
+def _figure_rows(score: Score) -> Iterator[Row]:
+    who = f"simulated people, paper's five gestures, {score.method}"
+    is_ours = score.method not in REFERENCES
+    if score.tally.pairs:
+        goal = SIMULATED_RECALL if is_ours else None
+        yield _row(f"{who}: recall", score.tally.recall, "of gestures", at_least=goal)
+        yield _row(f"{who}: precision", score.tally.precision, "of triggers")
+        yield _row(f"{who}: F1", score.tally.f1, "")
+    if score.false_a_minute is not None:
+        movement = score.sensor or SIMULATED
+        most = SIMULATED_FALSE_A_MINUTE if is_ours and movement == SIMULATED else None
+        what = f"{who}, {movement} movement: false triggers"
+        yield _row(what, score.false_a_minute, "a minute", at_most=most)
+
+
+def _named(score: Score) -> str:
+    if score.method in REFERENCES:
+        return f"{score.method} (best threshold {score.threshold:g})"
+    return score.method
+
+
+def _score_data(score: Score) -> dict[str, Any]:
+    pairs = Counter(score.tally.pairs)
+    return {
+        "trial": score.trial,
+        "method": score.method,
+        "sensor": score.sensor,
+        "threshold": score.threshold,
+        "f1": round(score.tally.f1, 4),
+        "recall": round(score.tally.recall, 4),
+        "precision": round(score.tally.precision, 4),
+        "made": score.tally.made,
+        "fired": score.tally.fired,
+        "from_nothing": sum(count for (made, _), count in pairs.items() if made == NOTHING),
+        "false_a_minute": _rounded(score.false_a_minute),
+        "told_apart": _rounded(score.accuracy),
+        "pairs": [[made, found, count] for (made, found), count in sorted(pairs.items())],
+        "problem": score.problem,
+    }
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(value, 4)
+
+
+def _row(
+    name: str,
+    value: float | None,
+    unit: str,
+    *,
+    at_least: float | None = None,
+    at_most: float | None = None,
+) -> Row:
+    row: Row = {"name": name, "value": None if value is None else round(value, 3), "unit": unit}
+    if at_least is not None:
+        row |= {"goal": f"at least {at_least}", "ok": bool(value is not None and value >= at_least)}
+    if at_most is not None:
+        row |= {"goal": f"at most {at_most}", "ok": bool(value is not None and value <= at_most)}
+    return row

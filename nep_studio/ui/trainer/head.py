@@ -1,0 +1,114 @@
+"""The head of the panel: the watch, who wears it, more that can be done, and the next step."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.panels.flow import FlowLayout
+from nep_studio.ui.theme import icon
+from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.trainer.hint import button_words, hint_words, next_step
+from nep_studio.ui.trainer.keeping import Keeping
+from nep_studio.ui.trainer.wearer_box import WearerBox
+from nep_studio.ui.watches.status import WatchStatus
+from nep_studio.ui.words import tr
+
+LOOK_MS = 500
+
+
+class HintLine(QWidget):
+    """The one next thing to do; ``asked`` gives the step and the gesture when it is pressed."""
+
+    asked = Signal(str, str)
+
+    def __init__(self, desk: TrainerDesk) -> None:
+        super().__init__()
+        self._desk = desk
+        self._sign, self.words, self.button = QLabel(), QLabel(), QPushButton()
+        self.words.setWordWrap(True)
+        self.words.setTextFormat(Qt.TextFormat.PlainText)
+        self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self.button.setAutoDefault(False)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self._sign, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(self.words, 1)
+        row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
+        self.button.clicked.connect(lambda: self.asked.emit(*next_step(desk)))
+        self._looking = QTimer(self, interval=LOOK_MS)
+        self._looking.timeout.connect(self.refresh)
+        self._looking.start()  # whether a watch is heard changes without anybody telling
+        desk.changed.connect(self.refresh)
+        desk.sources_changed.connect(self.refresh)
+        desk.look.theme_changed.connect(self._dress)
+        self._dress()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the step that is next now."""
+        words = hint_words(self._desk)
+        if words != self.words.text():
+            self.words.setText(words)
+        pressed = button_words(next_step(self._desk)[0])
+        if pressed != self.button.text():
+            self.button.setText(pressed)
+        self.button.setVisible(bool(pressed))
+
+    def _dress(self) -> None:
+        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        picture = icon("lightbulb", theme.colour("info"))
+        self._sign.setPixmap(picture.pixmap(QSize(line, line), self.devicePixelRatioF()))
+
+
+class Head(QWidget):
+    """``everyday_asked`` and ``more_asked`` tell that those buttons were pressed."""
+
+    everyday_asked = Signal()
+    more_asked = Signal()
+
+    def __init__(self, desk: TrainerDesk, keeping: Keeping) -> None:
+        super().__init__()
+        self._desk = desk
+        self.watch = WatchStatus(desk.runner, desk.look)
+        self.wearer = WearerBox(desk, keeping)
+        self.wearer.setParent(self)
+        self.everyday, self.more = QPushButton(tr("Everyday movement")), QToolButton()
+        self.hint = HintLine(desk)
+        self.everyday.setAutoDefault(False)
+        tip = tr("Record how you usually move: the program learns what is no gesture")
+        self.everyday.setToolTip(tip)
+        self.more.setAccessibleName(tr("Import, export and more"))
+        self.more.setToolTip(tr("Import, export and more"))
+        self.everyday.clicked.connect(self.everyday_asked)
+        self.more.clicked.connect(self.more_asked)
+        line = self.fontMetrics().height()
+        flow = FlowLayout(gap=line // 2)
+        for widget in (self.watch, self.wearer.who, self.wearer.where, self.everyday, self.more):
+            flow.addWidget(widget)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(line // 3)
+        box.addLayout(flow)
+        box.addWidget(self.hint)
+        desk.changed.connect(self._on_changed)
+        desk.look.theme_changed.connect(self._dress)
+        self._dress()
+        self._on_changed()
+
+    def _on_changed(self) -> None:
+        self.everyday.setEnabled(self._desk.editor is not None)
+
+    def _dress(self) -> None:
+        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        self.everyday.setIcon(icon("footprints", theme))
+        self.more.setIcon(icon("ellipsis", theme))
+        self.more.setIconSize(QSize(line, line))
