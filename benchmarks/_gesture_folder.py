@@ -93,7 +93,7 @@ def split_sessions(sessions: Sessions, takes: int) -> Split:
     """
     made = Counter(name for one in sessions for name, _, _ in _spans(one) if name)
     few = {name: count for name, count in made.items() if count <= takes}
-    notes = tuple(f"{name} was made {count} times only: left out" for name, count in few.items())
+    notes = tuple(f"{name} was made {_times(count)}: left out" for name, count in few.items())
     seen: Counter[str] = Counter()
     training: list[Recording] = []
     rest: list[Recording] = []
@@ -103,6 +103,10 @@ def split_sessions(sessions: Sessions, takes: int) -> Split:
             if name not in few:
                 (training if seen[name] <= takes else rest).append(piece)
     return Split(tuple(_joined(training)), tuple(_joined(rest)), notes)
+
+
+def _times(count: int) -> str:
+    return "only once" if count == 1 else f"only {count} times"
 
 
 def _files(folder: Path) -> list[Path]:

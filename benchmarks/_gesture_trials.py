@@ -109,7 +109,7 @@ def hold_trials(trials: Sequence[Trial], workers: int = 0) -> list[Score]:
 def hold_trial(trial: Trial) -> list[Score]:
     """All scores of one trial; what cannot be measured is a score with a problem."""
     try:
-        model = train(trial.training, simulated_everyday())
+        model = train(trial.training, simulated_everyday(), METHODS)
     except RecordingError as error:
         problem = f"{trial.person}: {error.sentence}"
         return [Score(trial.name, method, CLEAN, TRIGGER, problem=problem) for method in METHODS]

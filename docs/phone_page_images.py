@@ -14,6 +14,10 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tests.nodes.sensory.chromium import Chromium
 
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"
@@ -77,13 +81,9 @@ def _photograph() -> None:
             server.stop()
 
 
-def _picture(browser: object, url: str, *, is_dark: bool) -> bytes:
-    page = browser.page(url, is_dark=is_dark)  # type: ignore[attr-defined]
-    for kind in ("accelerometer", "linear-acceleration", "gyroscope"):
-        about = {"available": True, "maximumFrequency": 60}
-        page.call("Emulation.setSensorOverrideEnabled", enabled=True, type=kind, metadata=about)
-        reading = {"xyz": {"x": 0, "y": 0, "z": 0}}
-        page.call("Emulation.setSensorOverrideReadings", type=kind, reading=reading)
+def _picture(browser: Chromium, url: str, *, is_dark: bool) -> bytes:
+    page = browser.page(url, is_dark=is_dark)
+    page.feel((0.0, 0.0, 0.0))
     page.until("document.body?.dataset.state", "ready")
     page.tap("#allow")
     for step in range(300):

@@ -24,7 +24,8 @@ _MAY_WRITE = (
     "Is there room on the disk?",
 )
 _LONGEST_DEVICE = 100
-_EARTH_M_S2 = (6.0, 14.0)  # a sensor whose usual |acceleration| is in here feels gravity
+_EARTH_M_S2 = (6.0, 14.0)  # a sensor whose usual |acceleration| is in here feels gravity, if
+_CALM_M_S2 = 3.0  # it is seldom below this: one without gravity is when it rests
 
 
 @dataclass(frozen=True)
@@ -155,8 +156,9 @@ def _seconds(times: Floats, columns: Columns) -> Floats:
 def _feels_gravity(acc: Floats, table: Table) -> bool:
     if "gravity_included" in table.about:
         return table.about["gravity_included"] == "yes"
-    usual = float(np.median(np.linalg.norm(acc, axis=1)))
-    return not table.columns.gravity_removed and _EARTH_M_S2[0] < usual < _EARTH_M_S2[1]
+    calm, usual = np.percentile(np.linalg.norm(acc, axis=1), [20, 50])
+    feels = _EARTH_M_S2[0] < usual < _EARTH_M_S2[1] and calm > _CALM_M_S2
+    return bool(feels) and not table.columns.gravity_removed
 
 
 def _who_and_what(stem: str) -> tuple[str, str]:

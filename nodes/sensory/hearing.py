@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 
 from nep_core.messages import Imu, Wrist
-from nep_core.node import Node
+from nep_core.node import MEASURES_S, Node
 from nodes.sensory.complaints import Complaints
 from nodes.sensory.sample_stream import Sample, SampleStream
 from nodes.sensory.thinning import USEFUL_HZ, Thinning
@@ -49,7 +49,7 @@ class Hearing:
     def _follow(self, sender: str, now_s: float) -> None:
         self._sender, self._since_s = sender, now_s
         self._heard_s = 0.0  # a usable reading
-        self._felt_s = now_s  # an acceleration
+        self._measured_s = 0.0
         self._stream, self._thinning = SampleStream(), Thinning()
         self._columns = ""
         self._is_connected = False
@@ -76,20 +76,15 @@ class Hearing:
         if arrived.number is not None:
             self._stream.flow.add_message(arrived.number)
         samples = self._stream.samples(arrived.readings, arrived.arrived_s)
-        if samples:
-            self._felt_s = now_s
         self._tell_troubles(arrived, now_s)
         return samples
 
     def _tell_troubles(self, arrived: Arrived, now_s: float) -> None:
         if jump_s := self._stream.take_jump_s():
-            how = "ahead" if jump_s > 0 else "back"
-            self._complaints.tell(
-                f"The clock of {self._sender} jumped {how} by {abs(jump_s):.0f} seconds; "
-                "its time goes on from there.",
-                now_s,
-                of="jump",
-            )
+            seconds = f"{abs(jump_s):.0f}"
+            ahead = f"The clock of {self._sender} jumped ahead by {seconds} s; time goes on."
+            back = f"The clock of {self._sender} jumped back by {seconds} s; time goes on."
+            self._complaints.tell(ahead if jump_s > 0 else back, now_s, of="jump")
         if arrived.dropped:
             self._complaints.tell(
                 f"{self._sender} sends more than can be taken in; {arrived.dropped} values were "
@@ -108,6 +103,10 @@ class Hearing:
         self._tell_silence(now_s)
 
     def _tell_flow(self, now_s: float) -> None:
+        is_news = not self._is_connected or self._columns != self._told[2]
+        if not is_news and now_s - self._measured_s < MEASURES_S:
+            return
+        self._measured_s = now_s
         if not self._is_connected or self._has_changed(now_s):
             self._is_connected = True
             self._told = (self._stream.rate_hz, self._stream.flow.loss, self._columns, now_s)

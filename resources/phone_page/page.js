@@ -149,14 +149,22 @@ function rememberHand() {
   element("where").addEventListener("change", () => sessionStorage.setItem(HAND, chosenHand()));
 }
 
-await loadWords();
-translate();
-rememberHand();
-element("allow").addEventListener("click", () => (motion === "on" ? stop("asleep") : start()));
-document.addEventListener("visibilitychange", () => {
-  if (document.visibilityState === "visible" && motion === "on") keepAwake();
+async function main() {
+  await loadWords();
+  translate();
+  rememberHand();
+  element("allow").addEventListener("click", () => (motion === "on" ? stop("asleep") : start()));
+  document.addEventListener("visibilitychange", () => {
+    if (document.visibilityState === "visible" && motion === "on") keepAwake();
+  });
+  line = new Line((state) => { lineState = state; show(); },
+    () => ({ hand: chosenHand(), device: device() }));
+  setInterval(show, 500);
+  show();
+}
+
+main().catch(() => { // the texts themselves did not come
+  document.body.dataset.state = "lost";
+  element("state").textContent = "The page did not load completely";
+  element("hint").textContent = "Open the link again.";
 });
-line = new Line((state) => { lineState = state; show(); },
-  () => ({ hand: chosenHand(), device: device() }));
-setInterval(show, 500);
-show();

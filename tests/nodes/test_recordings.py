@@ -1,5 +1,7 @@
 """Recordings are read as they are, or refused with a sentence."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -211,3 +213,34 @@ def test_no_bytes_at_all_crash_the_reader(tmp_path_factory, data):
         assert "any.csv" in error.sentence
     else:
         assert np.isfinite(recording.acc).all()
+
+
+def test_a_vigorous_gesture_without_gravity_is_not_taken_for_gravity(tmp_path):
+    t = np.arange(0, 10, 0.02)
+    shaken = np.where((t % 2 < 1.4)[:, None], 12 * np.sin(20 * t)[:, None] + [0, 8, 0], 0.1)
+    lines = "".join(
+        f"{at:.2f},{x:.3f},{y:.3f},{z:.3f}\n" for at, (x, y, z) in zip(t, shaken, strict=True)
+    )
+
+    recording = read_recording(recorded(tmp_path, "t_s,ax,ay,az\n" + lines))
+
+    assert 6 < np.median(np.linalg.norm(recording.acc, axis=1)) < 14
+    assert not recording.gravity_included
+
+
+def test_where_and_with_what_a_recording_was_made_is_kept(tmp_path):
+    recording = read_recording(recorded(tmp_path, HEADER + rows("0110")))
+
+    write_recording(tmp_path / "b.csv", replace(recording, wrist="left", device="My\n watch"))
+    again = read_recording(tmp_path / "b.csv")
+    (tmp_path / "b.csv").write_text("# wrist: foot\n# device: \x1b[2J\n" + HEADER + rows("0110"))
+    strange = read_recording(tmp_path / "b.csv")
+
+    assert (again.wrist, again.device) == ("left", "My watch")
+    assert (strange.wrist, strange.device) == ("", "[2J")
+
+
+def test_a_question_mark_marks_what_nobody_knows(tmp_path):
+    recording = read_recording(recorded(tmp_path, HEADER + rows("0?10")))
+
+    assert recording.labels == ["", "?", "bounce_up", ""]

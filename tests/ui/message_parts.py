@@ -117,11 +117,6 @@ PARTS = {
         "more than {samples}",
         "nothing",
     ],
-    "nodes/sensory/hearing.py": [
-        "{sender} sends {rate_hz} samples a second, {loss} % get lost",
-        "{sender} sends {rate_hz} samples a second: {columns}",
-        "{sender} sends {rate_hz} samples a second",
-    ],
     "nodes/sensory/line_reader.py": ['{sender} sends a line that cannot be read: "{unreadable}"'],
     "nodes/sensory/ways/way.py": ["from this computer only", "from the network"],
     "nodes/sensory/ways/udp.py": ["waits for a watch on UDP port {port} ({where})"],

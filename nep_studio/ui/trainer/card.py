@@ -65,15 +65,15 @@ class GestureCard(QFrame):
         self.title.setMaxLength(60)
         self.title.setAccessibleName(tr("Name of the gesture"))
         self.count.setProperty("role", "hint")
-        self.count.setMinimumHeight(self.chip.sizeHint().height())
         self.record.setAutoDefault(False)
         self.menu.setToolTip(tr("More"))
         self.menu.setAccessibleName(tr("More"))
         above = QHBoxLayout()
         above.addWidget(self.title, 1)
+        above.addWidget(self.count)
         above.addWidget(self.menu)
         between = FlowLayout(gap=line // 3)
-        for widget in (self.record, self.chip, self.count):
+        for widget in (self.record, self.chip):
             between.addWidget(widget)
         box = QVBoxLayout(self)
         box.setContentsMargins(line // 2, line // 2, line // 2, line // 3)
@@ -94,7 +94,7 @@ class GestureCard(QFrame):
     def show_gesture(self, gesture: OwnGesture, badges: Mapping[str, str]) -> None:
         """Show the gesture as it is now."""
         if not self.title.hasFocus() or not self.title.isModified():
-            self.title.setText(gesture.title)
+            self._show_title(gesture.title)
         self.chip.show_gesture(self.name, gesture.title)
         self.count.setText(count_words(len(gesture.takes), "1 take", "{n} takes"))
         words = tr("Record “{gesture}”", gesture=gesture.title)
@@ -143,6 +143,11 @@ class GestureCard(QFrame):
 
     # What happens
 
+    def _show_title(self, title: str) -> None:
+        if title != self.title.text():
+            self.title.setText(title)
+            self.title.setCursorPosition(0)
+
     def _on_title_edited(self) -> None:
         text = self.title.text().strip()
         if not self.title.isModified():
@@ -152,7 +157,7 @@ class GestureCard(QFrame):
             self.renamed.emit(text)
         gesture = self._desk.gestures.get(self.name)
         if gesture is not None:
-            self.title.setText(gesture.title)
+            self._show_title(gesture.title)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take the takes of other gestures."""

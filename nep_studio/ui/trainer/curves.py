@@ -92,7 +92,8 @@ def paint_letters(
         painter.setPen(theme.colour(colour))
         corner = QPointF(window.rect.right() + metrics.height() * 0.3, y - metrics.height() / 2)
         room = QRectF(corner.x(), corner.y(), metrics.height(), metrics.height())
-        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter, letter)
+        sides = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignAbsolute
+        painter.drawText(room, int(sides | Qt.AlignmentFlag.AlignVCenter), letter)
 
 
 def paint_ground(painter: QPainter, window: Window, theme: Theme) -> None:

@@ -62,7 +62,7 @@ def _imported(recording: Recording, *, is_everyday: bool) -> Imported:
     wrist: Wrist = recording.wrist or "right"
     kept = thinned(samples)
     own = OwnRecording(
-        seconds=kept.seconds,
+        seconds=round(kept.seconds, 4),
         rate_hz=round(kept.rate_hz, 2),
         samples=packed(kept),
         person=recording.person,

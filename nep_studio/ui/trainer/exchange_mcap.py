@@ -231,7 +231,7 @@ def _imported(channel: _Channel, marks: list[TakeMark]) -> Imported | None:
     wrist = about.get("wrist", first.wrist)
     found: Wrist = next((one for one in WRISTS if one == wrist), "right")
     own = OwnRecording(
-        seconds=kept.seconds,
+        seconds=round(kept.seconds, 4),
         rate_hz=round(kept.rate_hz, 2),
         samples=packed(kept),
         person=about.get("person", ""),

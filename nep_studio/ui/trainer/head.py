@@ -1,4 +1,4 @@
-"""The head of the panel: the watch, who wears it, more that can be done, and the next step."""
+"""The head of the panel: the watch, more that can be done, and the next step."""
 
 from __future__ import annotations
 
@@ -13,12 +13,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.panels.flow import FlowLayout
 from nep_studio.ui.theme import icon
 from nep_studio.ui.trainer.desk import TrainerDesk
 from nep_studio.ui.trainer.hint import button_words, hint_words, next_step
-from nep_studio.ui.trainer.keeping import Keeping
-from nep_studio.ui.trainer.wearer_box import WearerBox
 from nep_studio.ui.watches.status import WatchStatus
 from nep_studio.ui.words import tr
 
@@ -70,45 +67,30 @@ class HintLine(QWidget):
 
 
 class Head(QWidget):
-    """``everyday_asked`` and ``more_asked`` tell that those buttons were pressed."""
+    """``more_asked`` tells that the button with more was pressed."""
 
-    everyday_asked = Signal()
     more_asked = Signal()
 
-    def __init__(self, desk: TrainerDesk, keeping: Keeping) -> None:
+    def __init__(self, desk: TrainerDesk) -> None:
         super().__init__()
         self._desk = desk
-        self.watch = WatchStatus(desk.runner, desk.look)
-        self.wearer = WearerBox(desk, keeping)
-        self.wearer.setParent(self)
-        self.everyday, self.more = QPushButton(tr("Everyday movement")), QToolButton()
+        self.watch, self.more = WatchStatus(desk.runner, desk.look), QToolButton()
         self.hint = HintLine(desk)
-        self.everyday.setAutoDefault(False)
-        tip = tr("Record how you usually move: the program learns what is no gesture")
-        self.everyday.setToolTip(tip)
         self.more.setAccessibleName(tr("Import, export and more"))
         self.more.setToolTip(tr("Import, export and more"))
-        self.everyday.clicked.connect(self.everyday_asked)
         self.more.clicked.connect(self.more_asked)
-        line = self.fontMetrics().height()
-        flow = FlowLayout(gap=line // 2)
-        for widget in (self.watch, self.wearer.who, self.wearer.where, self.everyday, self.more):
-            flow.addWidget(widget)
+        row = QHBoxLayout()
+        row.addWidget(self.watch, 1)
+        row.addWidget(self.more)
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(line // 3)
-        box.addLayout(flow)
+        box.setSpacing(self.fontMetrics().height() // 3)
+        box.addLayout(row)
         box.addWidget(self.hint)
-        desk.changed.connect(self._on_changed)
         desk.look.theme_changed.connect(self._dress)
         self._dress()
-        self._on_changed()
-
-    def _on_changed(self) -> None:
-        self.everyday.setEnabled(self._desk.editor is not None)
 
     def _dress(self) -> None:
-        theme, line = self._desk.look.theme, self.fontMetrics().height()
-        self.everyday.setIcon(icon("footprints", theme))
-        self.more.setIcon(icon("ellipsis", theme))
+        line = self.fontMetrics().height()
+        self.more.setIcon(icon("ellipsis", self._desk.look.theme))
         self.more.setIconSize(QSize(line, line))

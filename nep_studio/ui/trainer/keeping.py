@@ -201,7 +201,7 @@ class Keeping:
         samples, begin = thinned(samples), float(samples.t[0])
         spans = [(max(0.0, a - begin), min(samples.seconds, b - begin)) for a, b in forgotten]
         return OwnRecording(
-            seconds=samples.seconds,
+            seconds=round(samples.seconds, _DIGITS),
             rate_hz=round(samples.rate_hz, 2),
             samples=packed(samples),
             person=desk.person,

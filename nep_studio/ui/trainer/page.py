@@ -46,9 +46,9 @@ class TrainerPage(QWidget):
         self.keeping = Keeping(desk)
         self.session = TakeSession(desk, self)
         self.take = TakeView(desk, self.keeping, self)
-        self.head = Head(desk, self.keeping)
+        self.head = Head(desk)
         self.strip = Strip(desk, self.session, self.take)
-        self.bar = RecordBar(desk, self.session, self.take)
+        self.bar = RecordBar(desk, self.keeping, self.session, self.take)
         self.cards = Cards(desk, self.keeping, self.session, canvas)
         self.menus = Menus(desk, self.keeping, self.cards)
         self.exchange = Exchange(desk, self)
@@ -97,7 +97,7 @@ class TrainerPage(QWidget):
     def _connect(self) -> None:
         self.head.watch.connect_asked.connect(self.connect_asked)
         self.head.hint.asked.connect(self.take_step)
-        self.head.everyday_asked.connect(self._on_everyday_asked)
+        self.bar.everyday.clicked.connect(self._on_everyday_asked)
         self.head.more_asked.connect(self._on_more_asked)
         self.bar.button.clicked.connect(self.record_or_stop)
         self.cards.record_asked.connect(self.record)
@@ -162,6 +162,7 @@ class TrainerPage(QWidget):
         self.bar.tell(everyday_words(samples, self.keeping.keep_everyday(samples)))
 
     def _on_session_changed(self) -> None:
+        self.head.setVisible(not self.session.is_on)  # the graph has its room meanwhile
         if self.beeps and self.session.state == "countdown":
             QApplication.beep()
 
@@ -211,7 +212,7 @@ class TrainerPage(QWidget):
             self.cards.show_card(found[0])
 
     def _on_everyday_asked(self) -> None:
-        button = self.head.everyday
+        button = self.bar.everyday
         menu = self.menus.of_everyday(self.record_everyday)
         show_menu(menu, button.mapToGlobal(QPoint(0, button.height())))
 

@@ -17,20 +17,27 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.panels.flow import FlowLayout
 from nep_studio.ui.theme import icon
 from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.trainer.keeping import Keeping
 from nep_studio.ui.trainer.session import TakeSession
 from nep_studio.ui.trainer.take_view import TakeView
+from nep_studio.ui.trainer.wearer_box import WearerBox
 from nep_studio.ui.words import tr
 
 
 class RecordBar(QWidget):
-    """One button that records and stops, and beside it what goes on."""
+    """One button that records and stops, beside it who is recorded and what goes on."""
 
-    def __init__(self, desk: TrainerDesk, session: TakeSession, take: TakeView) -> None:
+    def __init__(
+        self, desk: TrainerDesk, keeping: Keeping, session: TakeSession, take: TakeView
+    ) -> None:
         super().__init__()
         self._desk, self._session, self._take = desk, session, take
         self.gesture = ""
         self.button, self.cancel = QPushButton(), QPushButton(tr("Cancel"))
         self.play, self.back = QToolButton(), QPushButton(tr("Back to the live graph"))
+        self.everyday = QPushButton(tr("Everyday movement"))
+        self.wearer = WearerBox(desk, keeping)
+        self.wearer.setParent(self)
         self.words, self.progress = QLabel(), QProgressBar()
         self._lay_out()
         self.cancel.clicked.connect(session.cancel)
@@ -43,8 +50,10 @@ class RecordBar(QWidget):
         self.refresh()
 
     def _lay_out(self) -> None:
-        for button in (self.button, self.cancel, self.back):
+        for button in (self.button, self.cancel, self.back, self.everyday):
             button.setAutoDefault(False)
+        tip = tr("Record how you usually move: the program learns what is no gesture")
+        self.everyday.setToolTip(tip)
         self.back.setProperty("kind", "quiet")
         self.words.setTextFormat(Qt.TextFormat.PlainText)
         self.words.setWordWrap(True)
@@ -52,7 +61,8 @@ class RecordBar(QWidget):
         self.progress.setRange(0, 100)
         self.progress.setAccessibleName(tr("How much is recorded"))
         row = FlowLayout(gap=self.fontMetrics().height() // 3)
-        for widget in (self.button, self.cancel, self.play, self.back):
+        wearer = (self.wearer.who, self.wearer.where)
+        for widget in (self.button, self.cancel, self.play, self.back, *wearer, self.everyday):
             row.addWidget(widget)
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
@@ -89,6 +99,9 @@ class RecordBar(QWidget):
         self.cancel.setVisible(session.is_on)
         self.play.setVisible(is_open and not session.is_on)
         self.back.setVisible(is_open and not session.is_on)
+        for widget in (self.wearer.who, self.wearer.where, self.everyday):
+            widget.setVisible(not session.is_on and not is_open)
+        self.everyday.setEnabled(self._desk.editor is not None)
         self.progress.setVisible(is_everyday)
         self.progress.setValue(round(session.share * 100))
         self._dress_play()
@@ -112,6 +125,7 @@ class RecordBar(QWidget):
         self.button.setIcon(icon(name, theme.colour(colour)))
         line = self.fontMetrics().height()
         self.play.setIconSize(QSize(line, line))
+        self.everyday.setIcon(icon("footprints", theme))
         self._dress_play()
 
     def _dress_play(self) -> None:

@@ -109,7 +109,7 @@ def paint_big(
     big = QFont(font)
     metrics = QFontMetricsF(big)
     width = max(metrics.horizontalAdvance(words), 1.0)
-    scale = min(rect.height() * share / metrics.height(), rect.width() * 0.6 / width)
+    scale = min(rect.height() * share / metrics.height(), rect.width() * share / width)
     big.setPixelSize(max(8, round(metrics.height() * scale * 0.8)))
     big.setWeight(QFont.Weight.DemiBold)
     metrics = QFontMetricsF(big)

@@ -49,7 +49,7 @@ def offers() -> list[Offer]:
             BLUETOOTH.name,
             BLUETOOTH.icon,
             tr("A Bluetooth sensor"),
-            tr("A motion sensor for which there is a profile."),
+            tr("A micro:bit, a PineTime or another motion sensor."),
         ),
         Offer(
             VIRTUAL.name,

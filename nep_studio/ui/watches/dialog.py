@@ -10,10 +10,8 @@ from pathlib import Path
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QDialog,
-    QFrame,
     QHBoxLayout,
     QPushButton,
-    QScrollArea,
     QStackedWidget,
     QVBoxLayout,
     QWidget,
@@ -27,6 +25,7 @@ from nep_studio.ui.words import is_right_to_left, tr
 
 from .choosing import ChoosingPage
 from .hearing import WatchEar
+from .scrolling import scrolled, show_top
 from .trial import WatchTrial
 from .way_page import Known, WayPage
 from .ways import WAYS, Way
@@ -94,7 +93,7 @@ class WatchDialog(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        self.pages.addWidget(_scrolled(self.choosing))
+        self.pages.addWidget(scrolled(self.choosing))
         foot = QHBoxLayout()
         self.use_button.setProperty("kind", "primary")
         self.back_button.setIconSize(QSize(line, line))
@@ -155,7 +154,11 @@ class WatchDialog(QDialog):
         way, plan = WAYS[name], self.plan
         is_known = plan.way == way
         settings = dict(plan.settings) if is_known else {}
-        known = Known(self._find_addresses(), self._token, plan.gestures, plan.folder, settings)
+        is_running = is_known and self.trial.before is not None
+        token = str(settings.get("token") or "") if is_running else ""
+        known = Known(
+            self._find_addresses(), token or self._token, plan.gestures, plan.folder, settings
+        )
         self._drop_page()
         page = self.page = WayPage(way, known, self.ear, self._look)
         page.changed.connect(self._settling.start)
@@ -164,9 +167,9 @@ class WatchDialog(QDialog):
         page.network.again.clicked.connect(
             lambda: page.network.show_addresses(self._find_addresses())
         )
-        area = _scrolled(page)
+        area = scrolled(page)
         page.came_into_view.connect(
-            lambda shown: QTimer.singleShot(0, area, lambda: area.ensureWidgetVisible(shown))
+            lambda shown: QTimer.singleShot(0, area, lambda: show_top(area, shown))
         )
         self.pages.addWidget(area)
         self.pages.setCurrentIndex(1)
@@ -266,15 +269,6 @@ def _asked_first(page: WayPage) -> list[QWidget]:
         page.gestures.gestures,
         page.recording.button,
     ]
-
-
-def _scrolled(page: QWidget) -> QScrollArea:
-    area = QScrollArea()
-    area.setWidgetResizable(True)
-    area.setFrameShape(QFrame.Shape.NoFrame)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    area.setWidget(page)
-    return area
 
 
 def _own_addresses() -> Sequence[str]:

@@ -14,6 +14,7 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard, Tap
 
 from .receiving import Flow, Receiving
+from .ways import SMARTWATCH
 
 TELL_MS = 250
 FORGOTTEN_S = 60.0
@@ -114,6 +115,19 @@ class WatchEar(QObject):
     def status(self) -> NodeStatus | None:
         """How the node of the watch is doing."""
         return self._runner.board.nodes.get(self.source)
+
+    @property
+    def awaited(self) -> PlannedNode | None:
+        """A node that runs here and waits for a watch; None when there is none."""
+        nodes = self._runner.board.nodes
+        return next(
+            (
+                planned
+                for name, planned in self._runner.local.planned.items()
+                if planned.node == SMARTWATCH and name in nodes and nodes[name].is_there
+            ),
+            None,
+        )
 
     @property
     def planned(self) -> PlannedNode | None:

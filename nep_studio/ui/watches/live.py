@@ -17,6 +17,7 @@ from .flow_words import Figure, figures
 from .hearing import WatchEar
 from .little_curve import LittleCurve
 from .move_dot import MoveDot, Moving
+from .questions import quiet_button
 from .receiving import SILENT_S
 from .status import SIGNS
 
@@ -26,12 +27,17 @@ MOST_FIGURES = 5
 class LiveView(QFrame):
     """A card; ``show_state`` says what it is about, the ear gives the rest."""
 
-    def __init__(self, ear: WatchEar, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, ear: WatchEar, look: Look, has_columns: bool = False, parent: QWidget | None = None
+    ) -> None:
+        """``has_columns``: what arrives are lines, of which the columns can be corrected."""
         super().__init__(parent)
+        self._has_columns = has_columns
         self.setProperty("kind", "card")
         self._ear, self._look = ear, look
         self.dot, self.curve = MoveDot(look), LittleCurve(look)
         self.title, self.sentence, self.understood = QLabel(), QLabel(), QLabel()
+        self.correct_button = quiet_button(tr("Correct the columns…"))
         self.advice = QLabel()
         self.advice_card = QFrame()
         self.rows = [(QLabel(), QLabel(), QLabel(), QLabel()) for _ in range(MOST_FIGURES)]
@@ -67,6 +73,7 @@ class LiveView(QFrame):
         box.addWidget(self.curve)
         box.addLayout(self._figures(line))
         box.addWidget(self.understood)
+        box.addWidget(self.correct_button, 0, Qt.AlignmentFlag.AlignLeading)
         box.addWidget(self.advice_card)
 
     def _figures(self, line: int) -> QGridLayout:
@@ -88,8 +95,7 @@ class LiveView(QFrame):
 
     def show_problem(self, problem: Problem) -> None:
         """It does not go, and what to try."""
-        title = tr(problem.title) if problem.title else tr("This does not work yet")
-        self._show("failed", title, tr(problem.sentence))
+        self._show("failed", tr(problem.title), tr(problem.sentence))
         self._advise([tr(step) for step in problem.checklist])
 
     def show_arriving(self, advice: Sequence[str] = ()) -> None:
@@ -107,6 +113,7 @@ class LiveView(QFrame):
         self._show_figures(figures(self._ear.flow) if self._ear.is_sending else [])
         self.understood.setText("\n".join(self._told()))
         self.understood.setVisible(bool(self.understood.text()))
+        self.correct_button.setVisible(self._has_columns and self.understood.isVisibleTo(self))
 
     def _told(self) -> list[str]:
         """How the node understands what arrives, and what it warns of."""
@@ -137,6 +144,7 @@ class LiveView(QFrame):
         if not is_there:
             self._show_figures([])
             self.understood.hide()
+            self.correct_button.hide()
 
     def _advise(self, advice: Sequence[str]) -> None:
         lines = [tr("Try this, in this order:"), *(f"•  {step}" for step in advice)]

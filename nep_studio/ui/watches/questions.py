@@ -28,6 +28,24 @@ from .ways import Way
 LARGEST_PORT = 65_535
 
 
+class Entry(QLineEdit):
+    """A line that is written; ``written`` tells once it is done and is another than before.
+
+    To be left unchanged means nothing: a press of a button elsewhere must not be lost by it.
+    """
+
+    written = Signal()
+
+    def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
+        super().__init__(text, parent)
+        self.editingFinished.connect(self._on_finished)
+
+    def _on_finished(self) -> None:
+        if self.isModified():
+            self.setModified(False)
+            self.written.emit()
+
+
 class NetworkQuestion(QWidget):
     """Whether devices of the network may send to this computer, and at which of its addresses."""
 
@@ -128,7 +146,7 @@ class MoreSettings(QWidget):
         self.port.setRange(1, LARGEST_PORT)
         self.port.setValue(way.port or 1)
         self.port.setKeyboardTracking(False)
-        self.columns = QLineEdit()
+        self.columns = Entry()
         self.columns.setPlaceholderText("t,ax,ay,az,gx,gy,gz")
         self.columns.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.units = QComboBox()
@@ -138,7 +156,7 @@ class MoreSettings(QWidget):
         self._lay_out()
         self.toggle.toggled.connect(self.fields.setVisible)
         self.port.valueChanged.connect(self.changed)
-        self.columns.editingFinished.connect(self.changed)
+        self.columns.written.connect(self.changed)
         self.units.activated.connect(self.changed)
 
     def _lay_out(self) -> None:

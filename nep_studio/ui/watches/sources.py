@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QFileDialog, QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QFileDialog, QLabel, QPushButton, QWidget
 
 from nep_studio.plan import Setting
 from nep_studio.ui.theme import Look, icon
 from nep_studio.ui.words import tr
 
-from .questions import column_in
+from .questions import Entry, column_in
 
 
 class GesturesQuestion(QWidget):
@@ -22,7 +22,7 @@ class GesturesQuestion(QWidget):
 
     def __init__(self, gestures: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.gestures = QLineEdit(gestures)
+        self.gestures = Entry(gestures)
         self.gestures.setAccessibleName(tr("Gestures to make"))
         self.gestures.setPlaceholderText("karate, hand_up")
         self.repeats = QCheckBox(tr("Make them again and again"))
@@ -30,7 +30,7 @@ class GesturesQuestion(QWidget):
         box = column_in(self)
         box.addWidget(self.gestures)
         box.addWidget(self.repeats)
-        self.gestures.editingFinished.connect(self.changed)
+        self.gestures.written.connect(self.changed)
         self.repeats.toggled.connect(self.changed)
 
     @property

@@ -57,9 +57,12 @@ def device_words(planned: PlannedNode | None) -> str:
     return names.get(str(planned.parameters.get("through", "")), tr("Watch or phone"))
 
 
-def watch_state(ear: WatchEar) -> WatchState:
-    """How the watch is that an ear hears."""
+def watch_state(ear: WatchEar, awaited: PlannedNode | None = None) -> WatchState:
+    """How the watch is that an ear hears; ``awaited`` is a node that waits for one."""
     if not ear.source or (ear.node and ear.silent_s == float("inf")):
+        if awaited is not None:
+            words = tr("{device}: nothing has come yet", device=device_words(awaited))
+            return WatchState("waiting", words, tr("Is its screen on? Is it still sending?"))
         return WatchState("none", tr("No watch or phone sends"))
     device = device_words(ear.planned)
     if ear.silent_s >= SILENT_S:
@@ -103,7 +106,7 @@ class WatchStatus(QWidget):
 
     def refresh(self) -> None:
         """Show how the watch is now."""
-        state = watch_state(self.ear)
+        state = watch_state(self.ear, self.ear.awaited)
         if state == self.state:
             return
         self.state = state

@@ -22,6 +22,8 @@ from nep_studio.ui.words import tr
 from .ways import UNKNOWN, Step
 
 COPIED_MS = 2000
+MOST_LETTERS = 24
+"""So many letters fit beside the button."""
 
 
 class StepNumber(QWidget):
@@ -52,9 +54,14 @@ class StepNumber(QWidget):
 
 
 class CopyLine(QWidget):
-    """A text that is written somewhere else, with the button that copies it."""
+    """A text that is written somewhere else, with the button that copies it.
 
-    def __init__(self, look: Look, words: str, parent: QWidget | None = None) -> None:
+    Of a long one all letters must be seen: people type them. Its button is below it.
+    """
+
+    def __init__(
+        self, look: Look, words: str, is_long: bool = False, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
         self.text = QLineEdit()
         self.text.setReadOnly(True)
@@ -68,10 +75,10 @@ class CopyLine(QWidget):
         self.button.setIconSize(QSize(line, line))
         self._again = QTimer(self, singleShot=True, interval=COPIED_MS)
         self._again.timeout.connect(lambda: self.button.setText(self._words))
-        row = QHBoxLayout(self)
+        row = QVBoxLayout(self) if is_long else QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.text, 1)
-        row.addWidget(self.button)
+        row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignLeading)
         self.button.clicked.connect(self._on_copy)
 
     def show_text(self, text: str) -> None:
@@ -131,7 +138,8 @@ class StepsList(QWidget):
         self.words.append(label)
         is_address = step.copied.startswith("http") or "." in step.copied
         words = tr("Copy the address") if is_address else tr("Copy")
-        copy_line = CopyLine(self._look, words) if step.copied else None
+        is_long = len(step.copied) > MOST_LETTERS
+        copy_line = CopyLine(self._look, words, is_long) if step.copied else None
         self.copy_lines.append(copy_line)
         for below in (copy_line, extra):
             if below is not None:

@@ -11,6 +11,7 @@ from nep_core.errors import NepError
 from nep_studio.plan import PlannedNode
 from nep_studio.problems import Problem, problem_of
 from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.words import tr
 
 State = Literal["off", "starting", "listening", "failed"]
 
@@ -66,8 +67,10 @@ class WatchTrial(QObject):
         if self.state == "starting":
             self._wanted = None
         else:
+            was_started = self._started is not None and self.before is None
             self.stop()
-            self._leave()
+            if not was_started:
+                self._leave()  # else it goes with its node
 
     def keep(self, planned: PlannedNode | None) -> None:
         """Go, but let the node run on, as this one of the project's plan."""
@@ -78,6 +81,15 @@ class WatchTrial(QObject):
     def _leave(self) -> None:
         self._runner.told_elsewhere.discard(self.name)
         self.deleteLater()
+
+    def _forget_node(self) -> None:
+        """It was only tried: nobody has to see that it has stopped."""
+        if self._runner.board.forget(self.name):
+            self._runner.local.planned.pop(self.name, None)
+            self._runner.nodes_changed.emit([self.name])
+        status = self._runner.board.nodes.get(self.name)
+        if status is None or self.before is not None:
+            self._leave()
 
     def _start(self) -> None:
         wanted = self._wanted
@@ -102,12 +114,19 @@ class WatchTrial(QObject):
         status = self._runner.board.nodes.get(self.name)
         if self.name not in names or status is None:
             return
+        if self._has_ended and self.state == "off":
+            self._forget_node()
+            return
         if self.state == "starting" and status.pid != self._pid_before:
             if status.health in ("ready", "busy", "warning"):
                 self._go_on("listening")
         elif self.state == "listening" and not status.is_there:
-            self.problem = Problem("", status.description)
+            title = tr("“{name}” has ended unexpectedly", name=self.name)
+            steps = ("Look into its log.", "Start it again.")
+            self.problem = Problem(title, status.description, steps)
             self._set_state("failed")
+        elif self.state == "failed" and self._wanted is not None and status.health == "ready":
+            self._set_state("listening")  # it was started again by itself
 
     def _on_node_failed(self, name: str, error: NepError) -> None:
         if name == self.name and self.state == "starting":
@@ -125,8 +144,8 @@ class WatchTrial(QObject):
         self._set_state(state)
         if self._wanted is None:
             self.stop()
-            if self._has_ended:
-                self._leave()
+            if self._has_ended and state == "failed":
+                self._forget_node()
         elif self._wanted is not self._started:
             self._start()
 

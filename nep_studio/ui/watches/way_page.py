@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QVBoxLayout, QWidget
 
 from nep_studio.plan import Setting
 from nep_studio.ui.theme import Look
@@ -17,7 +17,7 @@ from nep_studio.ui.words import tr
 from .hearing import WatchEar
 from .live import LiveView
 from .qr_code import QrCode
-from .questions import MoreSettings, NetworkQuestion, WornQuestion, hint
+from .questions import Entry, MoreSettings, NetworkQuestion, WornQuestion, hint
 from .sources import GesturesQuestion, RecordingQuestion
 from .steps_list import StepsList
 from .warning_pictures import WarningHelp
@@ -59,13 +59,13 @@ class WayPage(QWidget):
         self._had_code = self._is_sending = False
         self.network = NetworkQuestion(known.addresses)
         self.worn, self.more = WornQuestion(), MoreSettings(way)
-        self.address = QLineEdit()
+        self.address = Entry()
         self.gestures = GesturesQuestion(known.gestures)
         self.recording = RecordingQuestion(known.folder, look)
         self.warning = WarningHelp(look)
         self.app = QComboBox()
         self.qr_code, self.qr_hint = QrCode(), hint("")
-        self.live = LiveView(ear, look)
+        self.live = LiveView(ear, look, way.asks_columns)
         self._take(known.settings)
         self.steps = StepsList(steps(way, self.place), self._extras(), look)
         self._hide_what_is_not_asked()
@@ -196,8 +196,14 @@ class WayPage(QWidget):
     def _connect(self) -> None:
         for question in (self.network, self.worn, self.more, self.gestures, self.recording):
             question.changed.connect(self._on_changed)
-        self.address.editingFinished.connect(self._on_changed)
+        self.address.written.connect(self._on_changed)
+        self.live.correct_button.clicked.connect(self._on_correct)
         self.app.activated.connect(lambda _row: self.way_asked.emit(self.app.currentData()))
+
+    def _on_correct(self) -> None:
+        self.more.toggle.setChecked(True)
+        self.more.columns.setFocus()
+        QTimer.singleShot(0, self, lambda: self.came_into_view.emit(self.more))
 
     def _on_changed(self) -> None:
         self._update()

@@ -10,6 +10,8 @@ from nep_studio.plan import REPLAY, VIRTUAL_WATCH
 from nep_studio.ui.words import tr
 
 SMARTWATCH = "sensory/smartwatch"
+OWN_PROFILE = "six_int16"
+"""The profile for those who build a sensor themselves."""
 UNKNOWN = "…"
 """Stands where an address is not known."""
 Worn = Literal["left", "right", "hand"]
@@ -201,7 +203,7 @@ def _known_sensors() -> list[str]:
     from nodes.sensory.bluetooth.profile import profiles
 
     try:
-        return [tr(profile.title) for profile in profiles().values()]
+        return [tr(one.title) for name, one in profiles().items() if name != OWN_PROFILE]
     except NepError:  # one's own profile is wrong: the node says how
         return []
 

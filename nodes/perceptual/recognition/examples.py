@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,8 @@ from nodes.perceptual.recognition.features import (
 )
 from nodes.perceptual.recognition.passages import Passage, Take
 from nodes.perceptual.recognition.scans import Gesture, Scan
-from nodes.perceptual.recognition.stream import RATE_HZ
+from nodes.perceptual.recognition.stream import RATE_HZ, Floats
+from nodes.perceptual.recognition.variation import varied
 
 Flags = NDArray[np.bool_]
 
@@ -26,7 +27,9 @@ _HOLDS = 0.7  # a window that shares so much with a take holds the gesture
 _LACKS = 0.5  # one that shares less with every take does not
 _COPIES = 4
 _TRIMMED = 0.12
+_VARIATIONS = 3
 _NONE_EVERY_HOPS = 3
+_EVERYDAY_EVERY_HOPS = 6
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ class Examples:
     """
 
     gestures: tuple[Gesture, ...]
+    channels: Channels
     windows: Windows
     labels: Integers
     folds: Integers
@@ -48,6 +52,7 @@ class Examples:
         """The chosen examples only."""
         return Examples(
             self.gestures,
+            self.channels,
             self.windows.where(chosen),
             self.labels[chosen],
             self.folds[chosen],
@@ -71,14 +76,15 @@ def label_scan(found: Scan, gestures: Sequence[Gesture]) -> Integers:
 
 
 def to_learn_from(found: Scan, labels: Integers, none: int) -> Flags:
-    """Which windows of a scan to learn from: all gestures, and every third look at the rest."""
-    thinned = (labels == none) & (found.hop % _NONE_EVERY_HOPS != 0)
+    """Which windows of a scan to learn from: all gestures, and some of the looks at the rest."""
+    every = _NONE_EVERY_HOPS if found.passage.takes else _EVERYDAY_EVERY_HOPS
+    thinned = (labels == none) & (found.hop % every != 0)
     chosen: Flags = (labels != NEITHER) & ~thinned
     return chosen
 
 
-def trimmed_takes(passage: Passage, take: Take, channels: Channels, seed: Sequence[int]) -> Windows:
-    """A take as it is, and with a little cut off at both ends."""
+def trimmed_takes(passage: Passage, take: Take, seed: Sequence[int]) -> tuple[Floats, Integers]:
+    """A take as it is, and with a little cut off at both ends: raw windows and their lengths."""
     chance = np.random.default_rng(seed)
     cut = chance.uniform(0, _TRIMMED, (_COPIES, 2)) * take.duration_s
     cut[0] = 0.0
@@ -86,8 +92,7 @@ def trimmed_takes(passage: Passage, take: Take, channels: Channels, seed: Sequen
     ends_s = take.end_s - passage.start_s - cut[:, 1]
     last = np.clip(np.rint(ends_s * RATE_HZ), 1, len(passage.samples) - 1).astype(np.intp)
     lengths = np.maximum(np.rint((ends_s - starts_s) * RATE_HZ), 2).astype(np.intp) + 1
-    raw = cut_windows(passage.samples[:, : channels.columns], last, lengths)
-    return describe(raw, lengths, channels)
+    return cut_windows(passage.samples, last, lengths), lengths
 
 
 def join_windows(parts: Sequence[Windows]) -> Windows:
@@ -99,6 +104,17 @@ def join_windows(parts: Sequence[Windows]) -> Windows:
     )
 
 
+@dataclass(frozen=True)
+class _Part:
+    """Some windows as they were measured, and what they hold."""
+
+    raw: Floats
+    lengths: Integers
+    labels: Integers
+    folds: Integers
+    marked: Flags
+
+
 def collect(
     gestures: tuple[Gesture, ...],
     scans: Sequence[Scan],
@@ -107,28 +123,51 @@ def collect(
     channels: Channels,
     seed: int,
 ) -> Examples:
-    """All examples of the scans, whose windows are in ``folds`` and takes in ``takes_folds``."""
-    parts, labels, part_folds, marked = [], [], [], []
-    for number, (found, fold, take_folds) in enumerate(zip(scans, folds, takes_folds, strict=True)):
-        held = label_scan(found, gestures)
-        chosen = to_learn_from(found, held, len(gestures))
-        parts.append(found.windows.where(chosen))
-        labels.append(held[chosen])
-        part_folds.append(fold[chosen])
-        marked.append(np.zeros(chosen.sum(), bool))
-        for index, (take, take_fold) in enumerate(
-            zip(found.passage.takes, take_folds, strict=True)
-        ):
-            copies = trimmed_takes(found.passage, take, channels, (seed, number, index))
-            name = [gesture.name for gesture in gestures].index(take.gesture)
-            parts.append(copies)
-            labels.append(np.full(len(copies), name))
-            part_folds.append(np.full(len(copies), take_fold))
-            marked.append(np.ones(len(copies), bool))
+    """All examples of the scans, whose windows are in ``folds`` and takes in ``takes_folds``.
+
+    What holds a gesture is there three times, each time as others would make it.
+    """
+    idle, held = [], []
+    for number, (found, fold, of_takes) in enumerate(zip(scans, folds, takes_folds, strict=True)):
+        labels = label_scan(found, gestures)
+        chosen = to_learn_from(found, labels, len(gestures))
+        nothing = labels == len(gestures)
+        idle.append(_part(found, chosen & nothing, labels, fold))
+        held.append(_part(found, chosen & ~nothing, labels, fold))
+        held += _marked(found.passage, gestures, of_takes, (seed, number))
+    parts = [_join(idle)]
+    takes = _join(held)
+    parts += [replace(takes, raw=varied(takes.raw, (seed, which))) for which in range(_VARIATIONS)]
+    windows = [describe(one.raw[..., : channels.columns], one.lengths, channels) for one in parts]
     return Examples(
         gestures,
-        join_windows(parts),
-        np.concatenate(labels),
-        np.concatenate(part_folds),
-        np.concatenate(marked),
+        channels,
+        join_windows(windows),
+        np.concatenate([part.labels for part in parts]),
+        np.concatenate([part.folds for part in parts]),
+        np.concatenate([part.marked for part in parts]),
     )
+
+
+def _part(found: Scan, chosen: Flags, labels: Integers, folds: Integers) -> _Part:
+    unmarked = np.zeros(int(chosen.sum()), bool)
+    return _Part(found.raw(chosen), found.lengths[chosen], labels[chosen], folds[chosen], unmarked)
+
+
+def _marked(
+    passage: Passage, gestures: Sequence[Gesture], folds: Sequence[int], seed: Sequence[int]
+) -> list[_Part]:
+    """The takes of a passage as they were marked."""
+    names = [gesture.name for gesture in gestures]
+    parts = []
+    for index, (take, fold) in enumerate(zip(passage.takes, folds, strict=True)):
+        raw, lengths = trimmed_takes(passage, take, (*seed, index))
+        labels = np.full(len(raw), names.index(take.gesture))
+        marks = np.ones(len(raw), bool)
+        parts.append(_Part(raw, lengths, labels, np.full(len(raw), fold), marks))
+    return parts
+
+
+def _join(parts: Sequence[_Part]) -> _Part:
+    columns = [[getattr(part, one.name) for part in parts] for one in fields(_Part)]
+    return _Part(*(np.concatenate(column) for column in columns))

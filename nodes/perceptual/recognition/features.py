@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nodes.perceptual.recognition.stream import RATE_HZ, Floats
+from nodes.perceptual.recognition.stream import Floats
 
 Integers = NDArray[np.intp]
 Singles = NDArray[np.float32]  # half the memory: an hour of recordings is 400,000 windows
@@ -18,6 +18,10 @@ POINTS = 32
 _SEGMENTS = 8
 _GRAVITY_SPAN = 13  # points: the moving average over 40 % of a window is taken for gravity
 _EARTH_M_S2 = 9.81
+_ROTATION_M_S2 = 3.0  # so much acceleration counts as much as 1 rad/s
+_STILL_M_S2 = 0.5  # movement as weak as a sensor's noise is not blown up to full size
+_COMPRESSION = 2.0
+_LEAST_POWER = 0.1
 
 
 IN_WORDS = {
@@ -93,30 +97,34 @@ def cut_windows(samples: Floats, last: Integers, lengths: Integers) -> Floats:
 
 def describe(raw: Floats, lengths: Integers, channels: Channels) -> Windows:
     """Signals and features of raw windows (n, 32, 3 or 6)."""
+    raw = raw.astype(np.float32)
     signals = signals_of(raw, channels)
-    features = features_of(signals, lengths)
+    features = np.concatenate([features_of(signals), _powers(raw, channels)], axis=1)
     return Windows(signals.astype(np.float32), features.astype(np.float32), lengths)
 
 
 def signals_of(raw: Floats, channels: Channels) -> Floats:
-    """Raw windows (n, 32, 3 or 6) as signals of about the same size; (n, 32, channels.signals).
+    """Raw windows (n, 32, 3 or 6) as signals of the same size; (n, 32, channels.signals).
 
-    Gravity is a moving average, the rest is the body's; the logarithm makes strong and weak
-    performances alike. Each vector is followed by its length, which does not depend on how the
-    watch sits.
+    People make the same gesture up to four times as strongly as others: each window is divided by
+    the power of its whole movement, acceleration and rotation together. A gesture begins and ends
+    at rest, so its acceleration has no mean; what has one is gravity, or the sensor's error. Each
+    vector is followed by its length, which does not depend on how the watch sits.
     """
-    acceleration = raw[..., :3]
-    gravity = _SMOOTHING @ acceleration
-    parts = _logarithmic(acceleration - gravity, 1.0)
-    if channels.gyroscope:
-        parts += _logarithmic(raw[..., 3:6], 2.0)
+    parts = _movement(raw, channels)
+    whole = np.sqrt(sum(_squares(part) for part in parts))[:, None, None] + _STILL_M_S2
+    signals = []
+    for part in parts:
+        relative = part / whole
+        length = np.linalg.norm(relative, axis=2, keepdims=True)
+        signals += [np.sign(relative) * _logarithm(np.abs(relative)), _logarithm(length)]
     if channels.gravity:
-        parts.append(gravity / _EARTH_M_S2)
-    return np.concatenate(parts, axis=2)
+        signals.append(_SMOOTHING @ raw[..., :3] / _EARTH_M_S2)
+    return np.concatenate(signals, axis=2)
 
 
-def features_of(signals: Floats, lengths: Integers) -> Floats:
-    """Statistics of each signal, of its eighths, of each pair, and how long the window is."""
+def features_of(signals: Floats) -> Floats:
+    """Statistics of each signal, of its eighths, and of each pair."""
     n, _, count = signals.shape
     mean = signals.mean(axis=1)
     square = np.matmul(signals.transpose(0, 2, 1), signals) / POINTS
@@ -135,7 +143,6 @@ def features_of(signals: Floats, lengths: Integers) -> Floats:
             power,
             signals.reshape(n, _SEGMENTS, -1, count).mean(axis=2).reshape(n, -1),
             together,
-            np.log(lengths / RATE_HZ)[:, None],
         ],
         axis=1,
     )
@@ -144,12 +151,32 @@ def features_of(signals: Floats, lengths: Integers) -> Floats:
 def feature_count(channels: Channels) -> int:
     """How many features ``features_of`` gives."""
     count = channels.signals
-    return (7 + _SEGMENTS) * count + count * (count - 1) // 2 + 1
+    powers = 3 if channels.gyroscope else 1
+    return (7 + _SEGMENTS) * count + count * (count - 1) // 2 + powers
 
 
-def _logarithmic(vectors: Floats, gain: float) -> list[Floats]:
-    length = np.linalg.norm(vectors, axis=2, keepdims=True)
-    return [np.sign(vectors) * np.log1p(gain * np.abs(vectors)), np.log1p(gain * length)]
+def _movement(raw: Floats, channels: Channels) -> list[Floats]:
+    """The body's acceleration, and its rotation on the same scale; (n, 32, 3) each."""
+    acceleration = raw[..., :3]
+    parts = [acceleration - acceleration.mean(axis=1, keepdims=True)]
+    return parts + ([raw[..., 3:6] * _ROTATION_M_S2] if channels.gyroscope else [])
+
+
+def _squares(part: Floats) -> Floats:
+    squares: Floats = np.einsum("nps,nps->n", part, part) / POINTS
+    return squares
+
+
+def _powers(raw: Floats, channels: Channels) -> Floats:
+    """How strong the movement is: in all, and with a gyroscope of each kind; logarithms (n, p)."""
+    squares = [_squares(part) for part in _movement(raw, channels)]
+    parts = [sum(squares), *squares] if channels.gyroscope else squares
+    powers: Floats = np.log(np.sqrt(np.stack(parts, axis=1)) + _LEAST_POWER)
+    return powers
+
+
+def _logarithm(sizes: Floats) -> Floats:
+    return np.log1p(_COMPRESSION * sizes)
 
 
 def _smoothing() -> Floats:

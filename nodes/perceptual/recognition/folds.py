@@ -12,7 +12,7 @@ from nodes.perceptual.recognition.passages import Passage
 from nodes.perceptual.recognition.scans import Scan
 
 FOLDS = 5
-_ENOUGH_PEOPLE = 3
+_ENOUGH_PEOPLE = 2
 _BLOCK_S = 20.0  # everyday movement is dealt out in pieces of this length
 
 

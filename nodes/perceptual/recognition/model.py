@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.features import Channels, Integers, Windows
+from nodes.perceptual.recognition.features import Channels, Integers, Windows, describe
+from nodes.perceptual.recognition.features_1 import describe_1
 from nodes.perceptual.recognition.scans import Gesture, fitting, window_lengths
 from nodes.perceptual.recognition.stream import Floats
 
@@ -18,6 +19,8 @@ METHODS = ("trees", "gmr")
 TRIGGER = 0.75
 """The certainty at which a gesture counts as made."""
 LOWEST_TRIGGER, HIGHEST_TRIGGER = 0.05, 1.0
+FEATURES = 2
+"""How windows are described now; models of version 1 know the first way."""
 
 
 class Scorer(Protocol):
@@ -32,12 +35,20 @@ class Scorer(Protocol):
 
 @dataclass(frozen=True)
 class Recogniser:
-    """A scorer for certain channels; ``usual`` (gestures,) are the scores of left-out takes."""
+    """A scorer for certain channels; ``usual`` (gestures,) are the scores of left-out takes.
+
+    ``features`` is the way in which windows are described for it: 1 or FEATURES.
+    """
 
     method: str
     channels: Channels
     scorer: Scorer
     usual: Floats
+    features: int = FEATURES
+
+    def windows(self, raw: Floats, lengths: Integers) -> Windows:
+        """Raw windows (n, 32, 3 or 6), described as this recogniser knows them."""
+        return (describe_1 if self.features == 1 else describe)(raw, lengths, self.channels)
 
     def certainties(self, windows: Windows) -> Floats:
         """Certainties from 0 to 1; (n, gestures)."""

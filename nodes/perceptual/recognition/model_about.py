@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
 from nep_core.messages import Wrist
 from nodes.perceptual.recognition.model import (
+    FEATURES,
     HIGHEST_TRIGGER,
     LOWEST_TRIGGER,
     TRIGGER,
@@ -27,11 +28,17 @@ _LONGEST_DEVICE = 200
 
 
 class AboutRecogniser(msgspec.Struct):
-    """A recogniser: its method, and what the sensor must have besides acceleration."""
+    """A recogniser: its method, what the sensor must have besides acceleration, its features."""
 
     method: str
     gravity: bool
     gyroscope: bool
+    features: Literal[1, 2] = 1
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it can still be asked: expected curves are others since version 2."""
+        return self.features == FEATURES or self.method != "gmr"
 
 
 class AboutGesture(msgspec.Struct):
@@ -105,7 +112,10 @@ def about_text(model: Model) -> str:
         "gestures": [
             {**vars(one), "trigger": round(model.triggers[one.name], 4)} for one in model.gestures
         ],
-        "recognisers": [{"method": one.method, **vars(one.channels)} for one in model.recognisers],
+        "recognisers": [
+            {"method": one.method, **vars(one.channels), "features": one.features}
+            for one in model.recognisers
+        ],
         "wrist": model.wrist,
         "sensors": [
             msgspec.to_builtins(AboutSensor(*vars(one).values()))

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.features import Channels, feature_count
+from nodes.perceptual.recognition.features_1 import feature_count_1
 from nodes.perceptual.recognition.gmr import Gmr
 from nodes.perceptual.recognition.model import METHODS, Model, Recogniser, Scorer
 from nodes.perceptual.recognition.model_about import (
@@ -151,7 +152,10 @@ def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:
     recognisers = tuple(
         _recogniser(one, len(about.gestures), with_prefix(arrays, f"{number}."))
         for number, one in enumerate(about.recognisers)
+        if one.is_known
     )
+    if not recognisers:
+        raise _too_old()
     return Model(
         tuple(one.checked() for one in about.gestures),
         recognisers,
@@ -163,6 +167,13 @@ def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:
     )
 
 
+def _too_old() -> RecordingError:
+    return RecordingError(
+        "This gesture model was learned by an earlier version in a way that is no longer used.",
+        checklist=("Train the gestures again from their recordings.",),
+    )
+
+
 def _recogniser(
     found: AboutRecogniser, gestures: int, arrays: Mapping[str, NDArray[Any]]
 ) -> Recogniser:
@@ -170,12 +181,13 @@ def _recogniser(
     usual = arrays["usual_score"].astype(float)
     if usual.shape != (gestures,) or not np.all(np.isfinite(usual) & (usual > 0)):
         raise ValueError("its usual scores do not fit")
+    count = (feature_count_1 if found.features == 1 else feature_count)(channels)
     scorer: Scorer
     match found.method:
         case "trees":
-            scorer = Trees.from_arrays(arrays, gestures, feature_count(channels))
+            scorer = Trees.from_arrays(arrays, gestures, count)
         case "gmr":
-            scorer = Gmr.from_arrays(arrays, gestures, channels.signals)
+            scorer = Gmr.from_arrays(arrays, gestures, channels)
         case _:
             raise ValueError(f"it uses a method other than {' and '.join(METHODS)}")
-    return Recogniser(found.method, channels, scorer, usual)
+    return Recogniser(found.method, channels, scorer, usual, found.features)

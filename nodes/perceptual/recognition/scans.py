@@ -37,18 +37,27 @@ class Gesture:
 
 @dataclass(frozen=True)
 class Scan:
-    """A passage's windows: ``last`` (n,) their last samples, ``hop`` (n,) which look it was.
+    """A passage's windows: ``last`` (n,) their last samples, ``lengths`` (n,) how many they have.
 
-    ``which`` (n,) is the index of the length; ``starts_s`` and ``ends_s`` (n,) are on the
-    recording's clock.
+    ``hop`` (n,) is which look it was, ``which`` (n,) the index of the length; ``starts_s`` and
+    ``ends_s`` (n,) are on the recording's clock.
     """
 
     passage: Passage
     hop: Integers
     which: Integers
+    last: Integers
+    lengths: Integers
     starts_s: Floats
     ends_s: Floats
-    windows: Windows
+
+    def raw(self, chosen: NDArray[np.bool_]) -> Floats:
+        """The chosen windows as they were measured; (n, 32, 3 or 6)."""
+        return cut_windows(self.passage.samples, self.last[chosen], self.lengths[chosen])
+
+    def windows(self, channels: Channels, chosen: NDArray[np.bool_]) -> Windows:
+        """The chosen windows, described for certain channels."""
+        return describe(self.raw(chosen)[..., : channels.columns], self.lengths[chosen], channels)
 
     def overlaps(self, take: Take) -> Floats:
         """Shared time over spanned time of each window and a take; (n,) from 0 to 1."""
@@ -93,19 +102,19 @@ def is_long_enough(passage: Passage, lengths: Integers) -> bool:
     return len(passage.samples) >= int(lengths[0])
 
 
-def scan(passage: Passage, lengths: Integers, channels: Channels) -> Scan:
+def scan(passage: Passage, lengths: Integers) -> Scan:
     """All windows of a passage that is long enough."""
     hops = np.arange(lengths[0] - 1, len(passage.samples), HOP)
     hop, which = (grid.ravel() for grid in np.indices((len(hops), len(lengths))))
     inside = hops[hop] >= lengths[which] - 1
     hop, which = hop[inside], which[inside]
     last, length = hops[hop], lengths[which]
-    raw = cut_windows(passage.samples[:, : channels.columns], last, length)
     return Scan(
         passage,
         hop,
         which,
+        last,
+        length,
         passage.start_s + (last - length + 1) / RATE_HZ,
         passage.start_s + last / RATE_HZ,
-        describe(raw, length, channels),
     )

@@ -34,6 +34,8 @@ _SLOW_S, _SMOOTH_S = 0.9, 0.15
 _ACC_M_S2, _GYR_RAD_S = 1.0, 0.5
 """So much acceleration, or turning, is an energy of 1: what rest never reaches."""
 _REST_QUANTILE = 0.2
+_MOST_REST = 1.5
+"""A hand that is still has less; whoever moved all the time has not rested at all."""
 _REMEMBERED = 6000
 _LEAST_EDGE, _LEAST_CORE = 0.6, 1.0
 _CALM_TIMES, _CALM_ABOVE = 1.5, 0.15
@@ -128,7 +130,9 @@ class MovementFinder:
         self._measured = until - kept
 
     def _rest(self) -> float:
-        return float(np.quantile(self._energies, _REST_QUANTILE)) if self._energies else 0.0
+        if not self._energies:
+            return 0.0
+        return min(_MOST_REST, float(np.quantile(self._energies, _REST_QUANTILE)))
 
     def _usual(self) -> float:
         """How strong the movements so far were; 0 before the first."""

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nodes.perceptual.recognition.features import cut_windows, describe
+from nodes.perceptual.recognition.features import cut_windows
 from nodes.perceptual.recognition.model import TRIGGER, Model, Recogniser, unknown_gesture
 from nodes.perceptual.recognition.peaks import Detection, PeakPicker, best_lengths
 from nodes.perceptual.recognition.scans import HOP
@@ -104,7 +104,7 @@ class Spotter:
         full = self._lengths <= len(samples)
         lengths = self._lengths[full]
         raw = cut_windows(samples, np.full(len(lengths), len(samples) - 1), lengths)
-        windows = describe(raw, lengths, self._recogniser.channels)
+        windows = self._recogniser.windows(raw, lengths)
         certainties = self._recogniser.certainties(windows)
         best, which = best_lengths(certainties, self._fits[full])
         self._certainties = best

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.examples import collect
+from nodes.perceptual.recognition.examples import Examples, collect
 from nodes.perceptual.recognition.features import Channels
 from nodes.perceptual.recognition.folds import fold_takes, fold_windows
 from nodes.perceptual.recognition.gmr import fit_gmr
@@ -20,12 +20,12 @@ from nodes.perceptual.recognition.scans import (
     scan,
     window_lengths,
 )
-from nodes.perceptual.recognition.trees import fit_trees
-from nodes.perceptual.recognition.validation import Fit, Validation, cross_validate
+from nodes.perceptual.recognition.trees import TREES, fit_trees
+from nodes.perceptual.recognition.validation import Validation, cross_validate, unchecked
 from nodes.recordings import Recording
 
 _MOST_MINUTES = 90
-_FITS: dict[str, Callable[..., Scorer]] = {"trees": fit_trees, "gmr": fit_gmr}
+_TREES_TO_CHECK = 40  # fewer than are used in the end: each part left out grows its own
 
 
 def train(
@@ -46,44 +46,66 @@ def train(
     _check_length(passages)
     gestures = gestures_in([take for passage in passages for take in passage.takes])
     _check(recordings, gestures)
-    recognisers, report = [], {}
+    lengths = window_lengths(gestures)
+    material = _Material([one for one in passages if is_long_enough(one, lengths)], gestures, seed)
+    best = Channels(gravity, gyroscope)
+    tell(f"Checking what it learned with {best.in_words} ...")
+    validations = material.validate(best, methods)
+    recognisers = []
     for channels in (Channels(gravity, with_gyr) for with_gyr in sorted({gyroscope, False})):
-        prepared = _Prepared(passages, gestures, channels, seed)
-        for method in methods:
-            tell(f"Training {method} with {channels.in_words} ...")
-            recogniser, validation = prepared.fit(method, partial(_FITS[method], seed=seed))
-            recognisers.append(recogniser)
-            if channels.gyroscope == gyroscope:
-                report[method] = report_of(gestures, validation)
+        tell(f"Training {' and '.join(methods)} with {channels.in_words} ...")
+        scorers = _fit(methods, seed, TREES, material.examples(channels))
+        recognisers += [
+            Recogniser(method, channels, scorers[method], validations[method].usual)
+            for method in methods
+        ]
+    report = {method: report_of(gestures, validations[method]) for method in methods}
     return Model(gestures, tuple(recognisers), _in_words(recordings, everyday), report)
 
 
-class _Prepared:
-    """Everything that can be learned from, seen through certain channels."""
+def _fit(methods: Sequence[str], seed: int, count: int, examples: Examples) -> Mapping[str, Scorer]:
+    """A scorer of each method; all of them ask the same trees."""
+    trees = fit_trees(examples, seed, count)
+    made: dict[str, Callable[[], Scorer]] = {
+        "trees": lambda: trees,
+        "gmr": lambda: fit_gmr(examples, seed, trees),
+    }
+    return {method: made[method]() for method in methods}
+
+
+class _Material:
+    """Everything that can be learned from, whatever the sensor offers."""
 
     def __init__(
-        self,
-        passages: Sequence[Passage],
-        gestures: tuple[Gesture, ...],
-        channels: Channels,
-        seed: int,
+        self, passages: Sequence[Passage], gestures: tuple[Gesture, ...], seed: int
     ) -> None:
         lengths = window_lengths(gestures)
-        passages = [passage for passage in passages if is_long_enough(passage, lengths)]
-        takes_folds = fold_takes(passages)
-        self._channels = channels
-        self._scans = [scan(passage, lengths, channels) for passage in passages]
+        self._gestures = gestures
+        self._seed = seed
+        self._takes_folds = fold_takes(passages)
+        self._scans = [scan(passage, lengths) for passage in passages]
         self._folds = [
             fold_windows(found, folds)
-            for found, folds in zip(self._scans, takes_folds, strict=True)
+            for found, folds in zip(self._scans, self._takes_folds, strict=True)
         ]
-        self._examples = collect(gestures, self._scans, self._folds, takes_folds, channels, seed)
+        self._known: dict[Channels, Examples] = {}
 
-    def fit(self, method: str, fit: Fit) -> tuple[Recogniser, Validation]:
-        """A recogniser made from everything, and how its like do on what they have not seen."""
-        validation = cross_validate(fit, self._examples, self._scans, self._folds)
-        scorer = fit(self._examples)
-        return Recogniser(method, self._channels, scorer, validation.usual), validation
+    def examples(self, channels: Channels) -> Examples:
+        """All examples, seen through certain channels."""
+        if channels not in self._known:
+            self._known[channels] = collect(
+                self._gestures, self._scans, self._folds, self._takes_folds, channels, self._seed
+            )
+        return self._known[channels]
+
+    def validate(self, channels: Channels, methods: Sequence[str]) -> dict[str, Validation]:
+        """How recognisers made from a part of everything do on what they have not seen."""
+        fit = partial(_fit, methods, self._seed, _TREES_TO_CHECK)
+        checked = cross_validate(fit, self.examples(channels), self._scans, self._folds)
+        return {
+            method: checked.get(method) or unchecked(self._gestures, self._scans)
+            for method in methods
+        }
 
 
 def _check(recordings: Sequence[Recording], gestures: Sequence[Gesture]) -> None:

@@ -13,7 +13,7 @@ from nodes.perceptual.recognition.examples import Examples
 from nodes.perceptual.recognition.features import Singles, Windows
 from nodes.perceptual.recognition.stream import Floats
 
-_TREES = 100
+TREES = 100
 
 
 @dataclass(frozen=True)
@@ -57,6 +57,20 @@ class Trees:
         shares: Floats = votes.mean(axis=1, dtype=np.float64)
         return shares
 
+    def gate(self, trees: int) -> Trees:
+        """The first ``trees`` of these trees, asked only whether it is any gesture at all."""
+        nodes = int(self.roots[trees]) if trees < len(self.roots) else len(self.right)
+        any_or_none = np.stack([1 - self.votes[:, -1], self.votes[:, -1]], axis=1)
+        votes, which = np.unique(any_or_none, axis=0, return_inverse=True)
+        return Trees(
+            self.roots[:trees],
+            self.feature[:nodes],
+            self.threshold[:nodes],
+            self.right[:nodes],
+            which.ravel()[self.leaf[:nodes]].astype(np.int32),
+            votes,
+        )
+
     def arrays(self) -> dict[str, NDArray[Any]]:
         """What a model file keeps."""
         return dict(vars(self))
@@ -96,11 +110,11 @@ class Trees:
             raise ValueError("the decision trees do not fit together")
 
 
-def fit_trees(examples: Examples, seed: int = 0) -> Trees:
+def fit_trees(examples: Examples, seed: int = 0, trees: int = TREES) -> Trees:
     """Grow trees that tell the gestures of the examples, and *no gesture*, apart."""
     from sklearn.ensemble import ExtraTreesClassifier
 
-    forest = ExtraTreesClassifier(_TREES, class_weight="balanced", random_state=seed, n_jobs=-1)
+    forest = ExtraTreesClassifier(trees, class_weight="balanced", random_state=seed, n_jobs=-1)
     forest.fit(examples.windows.features, examples.labels)
     return flatten(forest, len(examples.gestures) + 1)
 

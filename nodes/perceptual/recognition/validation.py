@@ -17,8 +17,11 @@ from nodes.perceptual.recognition.peaks import Detection, PeakPicker, best_lengt
 from nodes.perceptual.recognition.scans import Gesture, Scan, fitting, window_lengths
 from nodes.perceptual.recognition.stream import RATE_HZ, Floats
 
-Fit = Callable[[Examples], Scorer]
+Fit = Callable[[Examples], Mapping[str, Scorer]]
+"""What makes a scorer of each method."""
 
+USUAL_SCORE = 0.78
+_OWN = 0.25  # how much a set's own scores count beside USUAL_SCORE
 UNCHECKED_SCORE = 0.4
 """The usual score of a gesture that was recorded too seldom to leave a take out."""
 _SAME = 0.5  # a window that shares so much with a take may be the one that finds it
@@ -57,10 +60,20 @@ class Validation:
 
 def cross_validate(
     fit: Fit, examples: Examples, scans: Sequence[Scan], folds: Sequence[Integers]
+) -> dict[str, Validation]:
+    """Score every window of the scans by recognisers fitted without its fold, and spot in that."""
+    every = _left_out_scores(fit, examples, scans, folds)
+    return {method: _validate(examples.gestures, scans, scores) for method, scores in every.items()}
+
+
+def unchecked(gestures: Sequence[Gesture], scans: Sequence[Scan]) -> Validation:
+    """What is known where every gesture was made only once, and none can be left out."""
+    return _validate(gestures, scans, _nothing(scans, len(gestures)))
+
+
+def _validate(
+    gestures: Sequence[Gesture], scans: Sequence[Scan], scores: Sequence[Floats]
 ) -> Validation:
-    """Score every window of the scans by a recogniser fitted without its fold, and spot in that."""
-    gestures = examples.gestures
-    scores = _left_out_scores(fit, examples, scans, folds)
     usual = _usual_scores(gestures, scans, scores)
     certainties = [certainty_of(score, usual) for score in scores]
     takes: list[LeftOutTake] = []
@@ -142,24 +155,37 @@ def _best_near(found: Scan, take: Take, values: Floats) -> float:
 
 def _left_out_scores(
     fit: Fit, examples: Examples, scans: Sequence[Scan], folds: Sequence[Integers]
-) -> list[Floats]:
-    scores = [np.zeros((len(found.hop), len(examples.gestures))) for found in scans]
+) -> dict[str, list[Floats]]:
+    """By method, the scores of all windows of each scan; 0 where nothing could be left out."""
+    every: dict[str, list[Floats]] = {}
     for fold in np.unique(examples.folds):
         others = examples.where(examples.folds != fold)
         if len(np.unique(others.labels)) <= len(examples.gestures):
             continue
-        scorer = fit(others)
-        for found, fold_of, score in zip(scans, folds, scores, strict=True):
+        scorers = fit(others)
+        for method in scorers:
+            every.setdefault(method, _nothing(scans, len(examples.gestures)))
+        for number, (found, fold_of) in enumerate(zip(scans, folds, strict=True)):
             here = fold_of == fold
             if here.any():
-                score[here] = scorer.scores(found.windows.where(here))
-    return scores
+                windows = found.windows(examples.channels, here)
+                for method, scorer in scorers.items():
+                    every[method][number][here] = scorer.scores(windows)
+    return every
+
+
+def _nothing(scans: Sequence[Scan], gestures: int) -> list[Floats]:
+    return [np.zeros((len(found.hop), gestures)) for found in scans]
 
 
 def _usual_scores(
     gestures: Sequence[Gesture], scans: Sequence[Scan], scores: Sequence[Floats]
 ) -> Floats:
-    """The median over left-out takes of the best score, drawn towards that of all gestures."""
+    """The median over left-out takes of the best score, drawn towards what is usual everywhere.
+
+    Few takes say little about how high their scores usually are, and what is usual differs little
+    from set to set.
+    """
     best: dict[str, list[float]] = {gesture.name: [] for gesture in gestures}
     for found, score in zip(scans, scores, strict=True):
         for take in found.passage.takes:
@@ -168,5 +194,5 @@ def _usual_scores(
     every = [value for values in best.values() for value in values]
     middle = float(np.median(every)) or UNCHECKED_SCORE
     own = np.array([np.median(values) if values else middle for values in best.values()])
-    usual: Floats = np.sqrt(np.maximum(own, middle / 4) * middle)
+    usual: Floats = np.maximum(own, middle / 4) ** _OWN * USUAL_SCORE ** (1 - _OWN)
     return usual

@@ -129,7 +129,7 @@ class BluetoothWay:
             await gone.wait()
 
     async def _begin(self, client: BleakClient, profile: Profile, name: str) -> None:
-        self._background.put(Arrived(name, arrived_s=time.monotonic(), told=profile.title))
+        self._background.put(Arrived(name, arrived_s=time.monotonic()))
         for write in profile.writes:
             await client.write_gatt_char(write.uuid, bytes.fromhex(write.bytes), response=True)
         for characteristic in profile.characteristics:

@@ -18,7 +18,7 @@ import platformdirs
 if TYPE_CHECKING:
     from cryptography import x509
 
-KEY_FILE, CERTIFICATE_FILE = "phone_page_key.pem", "phone_page_certificate.pem"
+FILE = "phone_page.pem"
 VALID_DAYS = 397  # browsers refuse certificates that are good for longer than 398 days
 RENEWED_BEFORE = timedelta(days=14)
 _CLOCKS_DIFFER = timedelta(days=1)
@@ -28,17 +28,16 @@ _OWNER_ONLY = 0o600
 
 @dataclass(frozen=True)
 class Certificate:
-    """The files of a key and its certificate, which is good for ``names``."""
+    """The file of a key and its certificate, which is good for ``names``."""
 
-    key: Path
-    chain: Path
+    path: Path
     names: tuple[str, ...]
 
     def context(self) -> ssl.SSLContext:
         """What a server needs to speak TLS 1.2 or newer with it."""
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
         context.minimum_version = ssl.TLSVersion.TLSv1_2
-        context.load_cert_chain(self.chain, self.key)
+        context.load_cert_chain(self.path)
         return context
 
     @property
@@ -50,7 +49,7 @@ class Certificate:
         from cryptography import x509
         from cryptography.hazmat.primitives import serialization
 
-        public = x509.load_pem_x509_certificate(self.chain.read_bytes()).public_key()
+        public = x509.load_pem_x509_certificate(self.path.read_bytes()).public_key()
         der = public.public_bytes(
             serialization.Encoding.DER, serialization.PublicFormat.SubjectPublicKeyInfo
         )
@@ -73,23 +72,23 @@ def own_certificate(addresses: Sequence[str], folder: Path | None = None) -> Cer
     """
     folder = folder or certificate_folder()
     wanted = ("localhost", "127.0.0.1", *addresses)
-    key, chain = folder / KEY_FILE, folder / CERTIFICATE_FILE
-    kept = _kept_names(key, chain)
+    path = folder / FILE
+    kept = _kept_names(path)
     if kept and set(wanted) <= set(kept):
-        return Certificate(key, chain, kept)
+        return Certificate(path, kept)
     folder.mkdir(parents=True, exist_ok=True)
     names = tuple(dict.fromkeys((*wanted, *kept)))[:_MOST_NAMES]
-    _make(key, chain, names)
-    return Certificate(key, chain, names)
+    _make(path, names)
+    return Certificate(path, names)
 
 
-def _kept_names(key: Path, chain: Path) -> tuple[str, ...]:
+def _kept_names(path: Path) -> tuple[str, ...]:
     """The names that the kept certificate is good for, none when it cannot be used any more."""
     from cryptography import x509
 
     try:
-        ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(chain, key)
-        found = x509.load_pem_x509_certificate(chain.read_bytes())
+        ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(path)
+        found = x509.load_pem_x509_certificate(path.read_bytes())
         names = found.extensions.get_extension_for_class(x509.SubjectAlternativeName).value
     except (OSError, ValueError, x509.ExtensionNotFound):
         return ()
@@ -99,7 +98,7 @@ def _kept_names(key: Path, chain: Path) -> tuple[str, ...]:
     return tuple(str(name.value) for name in names)
 
 
-def _make(key_file: Path, chain_file: Path, names: Sequence[str]) -> None:
+def _make(path: Path, names: Sequence[str]) -> None:
     from cryptography import x509
     from cryptography.hazmat.primitives import hashes, serialization
     from cryptography.hazmat.primitives.asymmetric import ec
@@ -123,8 +122,7 @@ def _make(key_file: Path, chain_file: Path, names: Sequence[str]) -> None:
     private = key.private_bytes(
         pem, serialization.PrivateFormat.PKCS8, serialization.NoEncryption()
     )
-    _write(key_file, private)
-    _write(chain_file, builder.sign(key, hashes.SHA256()).public_bytes(pem))
+    _write(path, private + builder.sign(key, hashes.SHA256()).public_bytes(pem))
 
 
 def _general_name(name: str) -> x509.GeneralName:

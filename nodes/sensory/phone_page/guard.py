@@ -6,6 +6,7 @@ import ipaddress
 from collections.abc import Mapping
 
 SERVER = "NEP Studio"
+HTTPS_PORT = 443  # is left out of links
 COMMON_HEADERS = {
     "Cache-Control": "no-store",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -38,8 +39,8 @@ def is_our_host(host: str, own: tuple[str, int]) -> bool:
     A name of somebody else's that leads to our address is refused (DNS rebinding).
     """
     address, port = own
-    wanted = "localhost" if _is_loopback(address) else address
-    return host in {f"{address}:{port}", f"{wanted}:{port}"}
+    names = {address, "localhost"} if _is_loopback(address) else {address}
+    return host in {f"{name}:{port}" for name in names} or (port == HTTPS_PORT and host in names)
 
 
 def is_our_origin(given: Mapping[str, str], host: str) -> bool:

@@ -30,6 +30,7 @@ MOST_CONNECTIONS = 32
 START_S = 5.0
 CLOSE_S = 0.1  # for saying goodbye; then a connection is given up
 HANDSHAKE_S = 5.0
+LINGER_S = 1.0  # for the rest of what is refused
 IDLE_CONNECTION_S = 15.0
 
 
@@ -129,6 +130,7 @@ class PhonePage:
             handle_signals=False,
             access_log=None,  # the links have the token in them
             keepalive_timeout=IDLE_CONNECTION_S,
+            lingering_time=LINGER_S,
             shutdown_timeout=CLOSE_S,
         )
         await runner.setup()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
 import secrets
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 IDLE_S = 10.0  # a page says each second that it is there
 ANSWER_S = 1.0
+READ_S = 5.0  # for one batch
 REQUESTS_S, REQUESTS_AT_ONCE = 60.0, 200.0
 UNREADABLE, TOO_MUCH = 1007, 1008  # reasons for closing a WebSocket (RFC 6455)
 log = logging.getLogger(__name__)
@@ -99,7 +101,10 @@ class Site:
         if not self._receiving.may_send(address):
             return _text(429, "Too many messages.")
         try:
-            message = read_message(await request.read())
+            async with asyncio.timeout(READ_S):
+                message = read_message(await request.read())
+        except TimeoutError:
+            return _text(408, "The batch did not arrive.")
         except ValueError as error:
             return _text(400, f"This is no batch of the page: {error}")
         return _text(200, _answer(self._receiving.take(message, address)), "application/json")

@@ -8,6 +8,7 @@ from nep_core.errors import PortTaken
 from nodes.sensory.addresses import lan_addresses
 from nodes.sensory.ways.way import Settings
 
+LOOPBACK = "127.0.0.1"
 _WAITING = 64  # callers that are not taken yet
 
 
@@ -29,17 +30,16 @@ def open_tcp(settings: Settings) -> socket.socket:
     return door
 
 
-def own_addresses(settings: Settings) -> str:
-    """Where senders find this computer: "192.168.1.7, port 8000"."""
+def own_addresses(settings: Settings) -> list[str]:
+    """Where senders find this computer, the most likely address first."""
     if settings.listen_on == "this computer":
-        return f"127.0.0.1, port {settings.port}"
-    found = lan_addresses()[:3]
-    return f"{' / '.join(found) or '127.0.0.1'}, port {settings.port}"
+        return [LOOPBACK]
+    return lan_addresses()[:3] or [LOOPBACK]
 
 
 def missing_words(settings: Settings, app: str) -> str:
     """What to check when nothing came to a door of this computer."""
-    where = own_addresses(settings)
+    where = f"{' / '.join(own_addresses(settings))}, port {settings.port}"
     if settings.listen_on == "this computer":
         return (
             f"Nothing has arrived for 10 seconds. Only this computer is let in, at {where}: "

@@ -94,7 +94,8 @@ class PhyphoxWay:
         await self._read(session, experiment)
 
     async def _read(self, session: ClientSession, experiment: Experiment) -> None:
-        first, started, news_s = "", False, time.monotonic()
+        first, started = "", False
+        news_s = ran_s = time.monotonic()
         while True:
             answer = read_answer(await _body(session, "/get", experiment.query()))
             if answer is None:
@@ -105,12 +106,14 @@ class PhyphoxWay:
             first = first or experiment.session
             if experiment.session != first:
                 return
-            if not experiment.measuring and not started:
+            now_s = time.monotonic()
+            if experiment.measuring:
+                ran_s = now_s
+            elif not started:
                 await _body(session, "/control", [("cmd", "start")])
-            elif not experiment.measuring:
+            elif now_s - ran_s > _LOST_S:
                 self._say("The experiment in phyphox is paused. Press the play button in the app.")
             started = True
-            now_s = time.monotonic()
             if readings:
                 news_s = now_s
                 self._put(experiment, readings[-_MOST_READINGS:], now_s)

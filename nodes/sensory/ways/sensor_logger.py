@@ -10,7 +10,7 @@ import time
 from typing import TYPE_CHECKING
 
 from nodes.sensory.ways.background import Background
-from nodes.sensory.ways.doors import missing_words, open_tcp
+from nodes.sensory.ways.doors import missing_words, open_tcp, own_addresses
 from nodes.sensory.ways.http_server import body_of, serve
 from nodes.sensory.ways.ordering import Ordering
 from nodes.sensory.ways.sensor_logger_format import (
@@ -58,7 +58,13 @@ class SensorLoggerWay:
     @property
     def missing(self) -> str:
         """What to check when nothing has arrived."""
-        return missing_words(self._settings, "Sensor Logger")
+        if self._settings.listen_on == "this computer":
+            return missing_words(self._settings, "Sensor Logger")
+        url = f"http://{own_addresses(self._settings)[0]}:{self._settings.port}/data"
+        return (
+            f"Nothing has arrived for 10 seconds. Is the push URL in Sensor Logger {url} (with "
+            "http, not https), is it recording, and does this computer's firewall let it in?"
+        )
 
     def open(self) -> None:
         """Open the port and serve; raises PortTaken."""

@@ -7,18 +7,19 @@ import socket
 import time
 from dataclasses import dataclass
 
+from nodes.sensory.line_reader import own_columns
 from nodes.sensory.line_senders import LineSenders
 from nodes.sensory.ways.doors import missing_words, open_tcp
 from nodes.sensory.ways.way import Arrived, Settings
 
 _MOST_CLIENTS = 16
 _LONGEST_LINE = 8_192
-_READ_BYTES = 65_536
-_MOST_READS = 200  # in one batch; a flood beyond that fills the sender's own buffers
+_READ_BYTES = 8_192  # so few lines that a flood does not hold the node up
+_MOST_READS = 200  # in one batch; a flood beyond that waits on the sender's side
 
 
 @dataclass
-class _Client:
+class Client:
     """A connection: the beginning of a line that has not ended yet."""
 
     sender: str
@@ -42,7 +43,7 @@ class TcpWay:
         self._settings = settings
         self._selector: selectors.BaseSelector | None = None
         self._door: socket.socket | None = None
-        self._clients: dict[socket.socket, _Client] = {}
+        self._clients: dict[socket.socket, Client] = {}
         self._senders = LineSenders(settings.columns)
 
     @property
@@ -57,7 +58,8 @@ class TcpWay:
         return missing_words(self._settings, "the app")
 
     def open(self) -> None:
-        """Open the port; raises PortTaken."""
+        """Open the port; raises PortTaken, and ParameterError for columns that are none."""
+        own_columns(self._settings.columns)
         self._door = open_tcp(self._settings)
         self._selector = selectors.DefaultSelector()
         self._selector.register(self._door, selectors.EVENT_READ)
@@ -97,7 +99,7 @@ class TcpWay:
             told = f"More than {_MOST_CLIENTS} devices connect at once; {sender} is turned away."
             return [Arrived(sender, arrived_s=time.monotonic(), trouble=told)]
         connection.setblocking(False)
-        self._clients[connection] = _Client(sender)
+        self._clients[connection] = Client(sender)
         self._selector.register(connection, selectors.EVENT_READ)
         return [Arrived(sender, arrived_s=time.monotonic())]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 import time
 
+from nodes.sensory.line_reader import own_columns
 from nodes.sensory.line_senders import LineSenders
 from nodes.sensory.ways.doors import missing_words, open_udp
 from nodes.sensory.ways.way import Arrived, Settings
@@ -33,7 +34,8 @@ class UdpWay:
         return missing_words(self._settings, "the app")
 
     def open(self) -> None:
-        """Open the port; raises PortTaken."""
+        """Open the port; raises PortTaken, and ParameterError for columns that are none."""
+        own_columns(self._settings.columns)
         self._door = open_udp(self._settings)
 
     def readings(self, until_s: float) -> list[Arrived]:

@@ -1,13 +1,13 @@
 """Listening to one sensor: on either wrist, turned round, at any rate, and what it lacks."""
 
 import tracemalloc
+from collections import Counter
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
-from benchmarks.gestures import first_takes
 from nep_core.messages import Imu
 from nodes.perceptual.recognition.ear import SensorEar
 from nodes.perceptual.recognition.matching import match
@@ -126,11 +126,36 @@ def test_a_rate_that_changes_in_the_middle_does_not_matter(model, stranger):
     assert match(takes_of(stranger), found).recall >= 5 / 6
 
 
+@pytest.mark.parametrize("pause_s", [3.0, -20.0, 1e6])
+def test_a_clock_that_jumps_costs_the_gesture_that_was_made_then_and_no_other(
+    model, stranger, pause_s
+):
+    found = Listening(model).hear(at_rates(stranger, 50, 100, 25, pause_s=pause_s))
+
+    made, seen = Counter(names_in(stranger)), Counter(names_of(found))
+    assert seen.total() >= made.total() - 2
+    assert not seen - made
+
+
+def halves(session):
+    """The first takes of a session, and the others."""
+    takes = takes_of(session)
+    middle = np.searchsorted(session.t, (takes[4].end_s + takes[5].start_s) / 2)
+    for part in (slice(0, middle), slice(middle, None)):
+        yield replace(
+            session,
+            t=session.t[part] - session.t[part][0],
+            acc=session.acc[part],
+            gyr=session.gyr[part],
+            labels=session.labels[part],
+        )
+
+
 @pytest.mark.real_data
-def test_real_people_are_understood_at_every_rate_and_across_pauses(shared_data):
+def test_real_people_are_understood_at_every_rate(shared_data):
     sessions = [one for one in read_recordings(shared_data / "uhh_gestures") if one.person == "j"]
     chosen = [one for one in sessions if {*one.labels} & {"left", "shake_ud", "turn_right"}]
-    parts = [first_takes(one, 5) for one in chosen]
+    parts = [list(halves(one)) for one in chosen]
     model = train([first for first, _ in parts], (), ["gmr"])
 
     def recall(*rates_hz):
@@ -144,11 +169,10 @@ def test_real_people_are_understood_at_every_rate_and_across_pauses(shared_data)
             caught, made = caught + tally.right, made + tally.made
         return caught / made
 
-    assert recall(100) >= 0.7
-    assert recall(50) >= 0.7
-    assert recall(25) >= 0.7
-    assert recall(16) >= 0.6
-    assert recall(100, 16, 50, 25) >= 0.6
+    found = [recall(rate_hz) for rate_hz in (100, 50, 25, 16)]
+    assert min(found[:3]) >= 0.75, found
+    assert found[3] >= 0.5, found
+    assert recall(100, 16, 50, 25) >= 0.65
 
 
 @pytest.mark.parametrize(

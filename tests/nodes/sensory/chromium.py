@@ -163,6 +163,17 @@ class Page:
         self.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
         self.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
 
+    def feel(
+        self, acc: tuple[float, float, float], gyr: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    ) -> None:
+        """Give the phone sensors that feel this (m/s², rad/s) until they feel something else."""
+        felt = {"accelerometer": acc, "linear-acceleration": (0.0, 0.0, 0.0), "gyroscope": gyr}
+        for kind, values in felt.items():
+            about = {"available": True, "maximumFrequency": 60}
+            self.call("Emulation.setSensorOverrideEnabled", enabled=True, type=kind, metadata=about)
+            reading = {"xyz": dict(zip("xyz", values, strict=True))}
+            self.call("Emulation.setSensorOverrideReadings", type=kind, reading=reading)
+
     def screenshot(self) -> bytes:
         """The page as a PNG."""
         return base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])

@@ -55,6 +55,10 @@ class PhyphoxPhone:
         self.port = self._server.server_address[1]
         self._thread = threading.Thread(target=self._server.serve_forever, args=(0.05,))
 
+    def pause(self) -> None:
+        """As the pause button of the app does."""
+        self._began_s = None
+
     def answer(self, path: str, query: list[tuple[str, str]]) -> object:
         if path == "/config":
             return self._config()

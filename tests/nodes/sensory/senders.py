@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import numpy as np
+
 from nodes.recordings import Recording, read_recording
 
 EPOCH_NS = 1_698_501_144_000_000_000
@@ -32,25 +34,45 @@ def rows(recording: Recording) -> Iterator[Row]:
         yield t, tuple(acc[at]), None if gyr is None else tuple(gyr[at])
 
 
+def resting(seconds: float, rate_hz: float = 100.0) -> Recording:
+    """A sensor that lies on a table, to be sent between movements."""
+    t = np.arange(round(seconds * rate_hz)) / rate_hz
+    acc = np.tile([0.0, 0.0, G_M_S2], (len(t), 1))
+    return Recording("rest", t, acc, np.zeros_like(acc), None, gravity_included=True)
+
+
 class Sender:
     """Sends batches of a recording in its own time, or faster, until it is stopped."""
 
     def __init__(self) -> None:
         self._stopped = threading.Event()
         self._thread: threading.Thread | None = None
+        self._switched_on_s: float | None = None
+        self._last_t = -1.0
 
     def play(self, recording: Recording, speed: float, period_s: float) -> Iterator[list[Row]]:
-        """The rows of each period of the recording, at the moment that they end."""
+        """The rows of each period of the recording, at the moment that they end.
+
+        A second recording comes later on the sender's clock, by the time that passed since.
+        """
         began_s, batch, end_s = time.monotonic(), [], period_s
-        for row in rows(recording):
-            while row[0] >= end_s:
+        since_s = self._since_switched_on_s(began_s) * speed
+        for t, acc, gyr in rows(recording):
+            while t >= end_s:
                 if self._stopped.wait(max(0.0, began_s + end_s / speed - time.monotonic())):
                     return
                 yield batch
                 batch, end_s = [], end_s + period_s
-            batch.append(row)
+            self._last_t = since_s + t
+            batch.append((self._last_t, acc, gyr))
         if batch:
             yield batch
+
+    def _since_switched_on_s(self, now_s: float) -> float:
+        if self._switched_on_s is None:
+            self._switched_on_s = now_s
+            return 0.0
+        return max(now_s - self._switched_on_s, self._last_t + 0.01)
 
     def send(self, recording: Recording, speed: float = 1.0) -> None:
         """Send all of a recording; returns when it was sent."""
@@ -94,12 +116,14 @@ class SensorLogger(Sender):
         self._url = urlsplit(url)
         self._watch, self._standardised = watch, standardised
         self._period_s, self._device = period_s, device
+        self._pushed = 0
         self.answers: list[int] = []
 
     def send(self, recording: Recording, speed: float = 1.0) -> None:
         """Push a recording, a message each period."""
-        for number, batch in enumerate(self.play(recording, speed, self._period_s)):
-            self.push(self.message(number, batch))
+        for batch in self.play(recording, speed, self._period_s):
+            self.push(self.message(self._pushed, batch))
+            self._pushed += 1
 
     def message(self, number: int, batch: list[Row]) -> dict[str, object]:
         """A message, with its readings in the app's disorder: sensor after sensor."""

@@ -1,17 +1,21 @@
 """Bluetooth devices described by files, and what their messages mean."""
 
 import math
+import re
 import struct
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import dev
 from nep_core.errors import NodeStartError
 from nodes.sensory.bluetooth import profile as rooms
 from nodes.sensory.bluetooth.profile import Decoder, profiles, read_profile
 
 G = 9.80665
+ROOT = Path(dev.__file__).parent
 KNOWN = profiles()
 MINE = """
 title = "Mine"
@@ -148,6 +152,16 @@ def test_a_file_that_is_wrong_is_told_with_the_reason(tmp_path, text, reason):
         read_profile(written(tmp_path, text))
 
     assert reason in str(told.value)
+
+
+def test_the_example_of_the_documentation_is_a_profile(tmp_path):
+    text = (ROOT / "docs" / "imu_profiles.md").read_text(encoding="utf-8")
+    [example] = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+
+    profile = read_profile(written(tmp_path, example))
+
+    assert Decoder(profile.characteristics[0]).readings(struct.pack("<H3hB", 5, 0, 0, -1000, 1))
+    assert all(f"`{name}.toml`" in text for name in KNOWN)
 
 
 def test_a_file_of_the_user_goes_before_ours(tmp_path, monkeypatch):

@@ -70,7 +70,7 @@ def test_a_known_device_is_found_prepared_and_heard(bluez):
     _, (period, motion) = microbit(bluez)
 
     with opened() as way:
-        found = heard(way, lambda arrived: arrived.told == "micro:bit")
+        found = heard(way, lambda arrived: arrived.sender == NAME)  # there, but silent
         wait_until(lambda: motion.is_notifying, bool)
         bluez.do(motion.tell, FACE_UP)
         found += heard(way, lambda arrived: arrived.readings)

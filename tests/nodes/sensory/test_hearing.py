@@ -186,7 +186,7 @@ def test_troubles_are_told_now_and_then_not_each_time(scene):
 
 def test_what_was_left_out_is_told(scene):
     scene.send(1)
-    scene.hear(Arrived("a watch", [Reading(ACC, None, 9.0, 1.0)], scene.now_s, dropped=70))
+    scene.hear(Arrived("a watch", [Reading(ACC, None, 1.05, 1.0)], scene.now_s, dropped=70))
 
     assert "70 values were left out" in scene.node.warnings[0]
 

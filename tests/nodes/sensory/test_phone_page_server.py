@@ -10,10 +10,21 @@ import aiohttp
 import pytest
 
 from nep_core.errors import PortTaken
-from nodes.sensory.phone_page.server import PhonePage, page_urls
+from nodes.sensory.phone_page import server, site
+from nodes.sensory.phone_page.server import PhonePage
 from nodes.sensory.phone_page.way import PhonePageWay
 from nodes.sensory.ways.way import Settings
-from tests.nodes.sensory.page_client import TOKEN, ask, batch, finish, post, posting, saying, talk
+from tests.nodes.sensory.page_client import (
+    TOKEN,
+    ask,
+    asking,
+    batch,
+    finish,
+    post,
+    posting,
+    saying,
+    talk,
+)
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +138,7 @@ def test_pages_of_other_origins_cannot_send(page, origin, path):
 def test_a_batch_by_post_becomes_readings_with_the_phones_clock(page):
     status, _, answer = post(page, batch(1.0, 1.02, device="iPhone", hand="left", lost=3))
 
-    [arrived] = page.take(time.monotonic() + 1)
+    [arrived] = page.take()
     assert (status, json.loads(answer)) == (200, {"state": "followed"})
     assert arrived.sender == "iPhone 127.0.0.1"
     assert [reading.stamp for reading in arrived.readings] == [1.0, 1.02]
@@ -156,7 +167,7 @@ def test_too_much_at_once_is_refused(page):
 def test_a_phone_is_followed_by_websocket(page):
     answers, _ = talk(page, saying(batch(1.0, 2.0)))
 
-    arrived = page.take(time.monotonic() + 1)
+    arrived = page.take()
     assert answers == ["followed"]
     assert [len(one.readings) for one in arrived] == [2]
 
@@ -168,7 +179,7 @@ def test_a_second_phone_is_told_to_wait_and_so_is_the_user(page):
     answers, _ = talk(page, saying(batch(1.0)), second)
     status, _, answer = post(page, batch(2.0, phone="b2"))
 
-    first, warning, next_one = page.take(time.monotonic() + 1)
+    first, warning, next_one = page.take()
     assert json.loads(answers[1][2]) == {"state": "busy"}
     assert warning.trouble.startswith("A second phone (127.0.0.1) has the page open")
     assert len(first.readings) == len(next_one.readings) == 1
@@ -194,10 +205,45 @@ def test_a_flood_is_closed_and_little_of_it_arrives(own_page):
     _, code = talk(own_page, flood)
 
     assert code in (1008, 1006)  # it may still have been sending when the line was closed
-    arrived = own_page.take(time.monotonic() + 0.2)
+    arrived = own_page.take()
     assert len(arrived) < 256
     assert sum(len(one.readings) for one in arrived) < 3000
     assert any(one.dropped for one in arrived)
+
+
+def test_a_page_that_says_nothing_for_long_is_closed(page, monkeypatch):
+    monkeypatch.setattr(site, "IDLE_S", 0.05)
+
+    async def wait(line):
+        return (await line.receive(timeout=3)).type
+
+    answers, _ = talk(page, wait)
+
+    assert answers == [aiohttp.WSMsgType.CLOSE]
+
+
+def test_a_batch_that_does_not_end_is_given_up(page, monkeypatch):
+    monkeypatch.setattr(site, "READ_S", 0.05)
+
+    async def endless():
+        yield b"{"
+        await asyncio.Event().wait()
+
+    with contextlib.suppress(aiohttp.ClientError):
+        status, _, _ = post(page, endless())
+        assert status == 408
+
+    assert ask(page, f"/{TOKEN}/alive")[0] == 200
+
+
+def test_more_connections_than_phones_are_turned_away(own_page, monkeypatch):
+    monkeypatch.setattr(server, "MOST_CONNECTIONS", 1)
+
+    async def second(line):
+        with pytest.raises((aiohttp.ClientError, ConnectionError)):
+            await asking(own_page, f"/{TOKEN}/alive")
+
+    talk(own_page, saying(batch()), second)
 
 
 def test_plain_noise_on_the_port_harms_nobody(page):
@@ -234,12 +280,6 @@ def test_without_a_token_a_new_one_is_made_each_time(folder):
 
     assert first.token != second.token
     assert len(first.token) >= 12
-
-
-def test_the_links_name_every_address_of_this_computer():
-    links = page_urls(8443, "abc", ["192.168.1.7", "10.0.0.2"])
-
-    assert links == ["https://192.168.1.7:8443/abc/", "https://10.0.0.2:8443/abc/"]
 
 
 def test_the_way_tells_where_and_keeps_the_users_token_for_itself(folder):

@@ -2,11 +2,15 @@
 
 import socket
 import time
+from itertools import pairwise
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from nep_core.errors import PortTaken
 from nodes.sensory.ways import WAYS
+from nodes.sensory.ways.tcp import Client
 from nodes.sensory.ways.way import Settings
 from tests.nodes.sensory.senders import (
     TcpSender,
@@ -98,6 +102,18 @@ def test_a_line_that_does_not_end_is_told_once_and_takes_no_memory():
     assert [one.acc for one in heard.readings] == [(0, 0, 9.81)]
 
 
+@given(st.lists(st.binary(max_size=6), max_size=8), st.lists(st.integers(0, 60), max_size=6))
+def test_lines_are_the_same_however_they_are_cut(lines, cuts):
+    lines = [line.replace(b"\n", b"") for line in lines]
+    data = b"".join(line + b"\n" for line in lines)
+    places = [0, *sorted(min(cut, len(data)) for cut in cuts), len(data)]
+
+    client = Client("somebody")
+    found = [line for a, b in pairwise(places) for line in client.lines(data[a:b])]
+
+    assert found == lines
+
+
 def test_a_client_that_leaves_in_the_middle_of_a_line_is_forgotten():
     with opened("tcp") as heard:
         with socket.create_connection(("127.0.0.1", heard.port)) as client:
@@ -162,3 +178,13 @@ def test_a_way_that_was_never_opened_can_be_closed(through):
 
     assert way.where
     assert way.missing
+
+
+def test_when_nothing_comes_the_user_is_told_where_to_send():
+    alone, open_to_all = Settings(8086), Settings(8086, listen_on="network")
+
+    for kind in ("udp", "tcp", "paper_watch", "sensor_logger"):
+        assert "set “listen on” to network" in WAYS[kind].make(alone).missing
+        told = WAYS[kind].make(open_to_all).missing
+        assert "8086" in told
+        assert "firewall" in told

@@ -70,6 +70,15 @@ def test_a_phone_that_was_away_is_found_again():
             heard.until(lambda: len(heard.readings) >= 10)
 
 
+def test_an_experiment_that_is_paused_is_told():
+    with PhyphoxPhone(turned(4.0)) as phone, of(phone) as heard:
+        heard.until(lambda: heard.readings)
+        phone.pause()
+        heard.until(lambda: "is paused" in heard.troubles)
+
+    assert phone.asked.count("/control") == 1
+
+
 def test_another_experiment_is_read_anew():
     with PhyphoxPhone(turned(4.0)) as phone, of(phone) as heard:
         heard.until(lambda: heard.readings)

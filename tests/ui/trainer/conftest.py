@@ -1,17 +1,20 @@
-"""A window with a new project, and the desk of its trainer, which hears what tests push."""
+"""A desk of the trainer over a new project, which hears what tests push."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.messages import Imu
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.messages import Messages
 from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.theme import Look
 from nep_studio.ui.trainer.desk import TrainerDesk
+from tests.ui.trainer.results_desk import OpenProject
 from tests.ui.window.conftest import answer, chooser, home, studio, window
 
 __all__ = ["answer", "chooser", "home", "studio", "window"]
@@ -33,18 +36,20 @@ def clock() -> Clock:
 
 
 @pytest.fixture
-def desk(window: MainWindow, clock: Clock, qtbot: QtBot) -> TrainerDesk:
-    """The desk of a window in which a new project is open."""
-    if window.files.document is None:
-        window.files.new()
-    found = window.running.findChild(TrainerDesk)
-    if found is not None:
-        found.now = clock
-        return found
-    runner = window.running.runner
-    return TrainerDesk(
-        window.files, runner, window.messages, window.look, window.running, now=clock
-    )
+def look(qapp: QApplication) -> Iterator[Look]:
+    made = Look(qapp, "light")
+    yield made
+    made.deleteLater()
+
+
+@pytest.fixture
+def desk(look: Look, clock: Clock, qtbot: QtBot) -> Iterator[TrainerDesk]:
+    """A desk over a project of its own, without the whole window around it."""
+    owner = QWidget()
+    qtbot.addWidget(owner)
+    made = TrainerDesk(OpenProject(), None, Messages(owner), look, owner, now=clock)
+    yield made
+    made.deleteLater()
 
 
 Push = Callable[..., None]

@@ -15,7 +15,6 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 from nep_studio.blocks.program import PAGES
-from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.running.tap import Heard
 from nep_studio.ui.trainer.desk import SILENT_S, TrainerDesk
 from nep_studio.ui.trainer.kept_samples import packed, thinned, unpacked
@@ -60,14 +59,13 @@ def test_a_change_is_one_step_that_can_be_undone(desk: TrainerDesk, qtbot: QtBot
 
 
 def test_another_project_brings_its_own_gestures_and_person(
-    desk: TrainerDesk, window: MainWindow, qtbot: QtBot
+    desk: TrainerDesk, qtbot: QtBot
 ) -> None:
     recording = recording_of(samples(), person="Ana", wrist="left", recorded="2026-01-02T03:04:05")
     desk.change("record", [keep_recording("r1", recording)])
 
-    window.files.guard = lambda then: then()
     with qtbot.waitSignal(desk.changed):
-        window.files.new()
+        desk.files.new()
 
     assert not desk.recordings
     assert desk.person == "Me"

@@ -7,11 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from nep_core.errors import NodeStartError
-from nep_core.launcher import LaunchedNode
-from nep_studio.plan import PlannedNode
 from nep_studio.ui.watches.choosing import offers
-from nep_studio.ui.watches.dialog import Plan
 from nep_studio.ui.watches.ways import WAYS
 from nodes.sensory.phone_page.server import page_urls
 from nodes.sensory.ways import WAYS as WAYS_OF_THE_NODE
@@ -21,7 +17,6 @@ from tests.ui.watches.watch_stage import (
     Open,
     RecordingRunner,
     choose,
-    choose_other,
     open_dialog,
     press,
     press_switch,
@@ -116,8 +111,8 @@ def test_another_port_and_columns_of_ones_own_reach_the_node(
     page.more.toggle.click()
 
     page.more.port.setValue(9001)
-    page.more.columns.setText("t,ax,ay,az")
-    page.more.columns.editingFinished.emit()
+    qtbot.keyClicks(page.more.columns, "t,ax,ay,az")
+    qtbot.keyClick(page.more.columns, Qt.Key.Key_Return)
 
     qtbot.waitUntil(lambda: runner.started[-1].parameters.get("columns") == "t,ax,ay,az")
     assert runner.started[-1].parameters["port"] == 9001
@@ -174,6 +169,8 @@ def test_a_movement_turns_the_dot_green_and_the_numbers_are_told(
     numbers = [row[2].text() for row in live.rows]
     assert numbers == ["50 a second", "20 %", "1", "38 ms", "+0.04 s an hour"]
     assert live.curve.isVisible()
+    press(qtbot, live.correct_button)
+    assert dialog.focusWidget() is dialog.page.more.columns
 
 
 def test_after_ten_silent_seconds_it_says_what_to_look_at(
@@ -207,62 +204,3 @@ def test_a_computer_in_no_network_says_so_and_looks_again(open_dialog: Open, qtb
 
     assert not network.missing.isVisible()
     assert network.address == ADDRESS
-
-
-def test_a_node_that_cannot_start_is_told_with_what_to_try(
-    open_dialog: Open, runner: RecordingRunner, qtbot: QtBot
-) -> None:
-    dialog = open_dialog()
-    choose(dialog, "udp", qtbot)
-
-    sentence = "UDP port 8085 cannot be opened: address already in use."
-    runner.node_failed.emit("watch", NodeStartError(sentence, checklist=("Choose another port.",)))
-
-    assert dialog.page.live.dot.state == "failed"
-    assert dialog.page.live.sentence.text() == sentence
-    assert "Choose another port." in dialog.page.live.advice.text()
-    assert not dialog.use_button.isEnabled()
-
-
-def test_closing_it_stops_the_watch_that_is_not_used(
-    open_dialog: Open, runner: RecordingRunner, qtbot: QtBot
-) -> None:
-    dialog = open_dialog()
-    choose(dialog, "udp", qtbot)
-    runner.tell("ready")
-
-    press(qtbot, dialog.close_button)
-
-    assert runner.asked[-1] == ("stop", "watch")
-
-
-def test_closed_while_the_node_starts_it_is_stopped_as_soon_as_it_is_there(
-    open_dialog: Open, runner: RecordingRunner, qtbot: QtBot
-) -> None:
-    dialog = open_dialog()
-    choose(dialog, "udp", qtbot)
-
-    dialog.close()
-    assert [verb for verb, _ in runner.asked] == ["start"]
-    runner.tell("ready")
-
-    assert runner.asked[-1] == ("stop", "watch")
-
-
-def test_a_watch_that_ran_before_comes_back_when_another_is_not_used(
-    open_dialog: Open, runner: RecordingRunner, qtbot: QtBot
-) -> None:
-    before = PlannedNode("sensory/smartwatch", "watch", {"through": "tcp", "port": 8086})
-    runner.local.planned["watch"] = before
-    runner.local.launcher.nodes["watch"] = LaunchedNode("watch", None, [])
-    runner.tell("connected", pid=3)
-    dialog = open_dialog(Plan("watch", before.parameters))
-    assert dialog.page.way.name == "tcp"  # what is used is shown at once
-    choose_other(dialog, "udp", qtbot)
-    runner.tell("ready", pid=8)
-    assert runner.started[-1].parameters["through"] == "udp"
-
-    press(qtbot, dialog.close_button)
-
-    assert runner.asked[-1] == ("start", before)
-    assert runner.told_elsewhere == set()

@@ -83,6 +83,22 @@ def test_a_watch_is_connected_moved_and_used_and_run_takes_it_over(
     assert watches(karate) == []
 
 
+def test_a_simulated_person_is_used_with_one_press(karate: MainWindow, qtbot: QtBot) -> None:
+    karate.actions_by_name["connect_watch"].trigger()
+    dialog = karate.findChild(WatchDialog)
+    choose(dialog, "virtual_watch", qtbot)
+    qtbot.waitUntil(lambda: dialog.page.live.dot.state == "moved")
+    runner, name = karate.running.runner, dialog.plan.name
+    pid = runner.local.launcher.nodes[name].pid
+
+    press(qtbot, dialog.use_button)
+
+    [watch] = [node for node in runner.planned() if node.is_sensory]
+    assert (watch.node, watch.name) == ("sensory/virtual_watch", name)
+    runner.local.start([watch])
+    assert runner.local.launcher.nodes[name].pid == pid
+
+
 def test_a_port_that_is_taken_is_told_in_a_sentence(
     karate: MainWindow, free_port: int, qtbot: QtBot
 ) -> None:

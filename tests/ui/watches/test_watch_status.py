@@ -146,6 +146,17 @@ def test_a_real_watch_goes_before_a_simulated_one(status: WatchStatus, runner: R
     assert status.words.words.startswith("A watch,")
 
 
+def test_a_watch_that_is_waited_for_is_named(status: WatchStatus, runner: Runner) -> None:
+    phone = PlannedNode("sensory/smartwatch", "watch", {"through": "phone_page"})
+    runner.local.planned["watch"] = phone
+    runner.board.update(NodeState(node="watch", type="sensory", event="ready"))
+
+    status.refresh()
+
+    assert status.state.sign == "waiting"
+    assert status.words.words == "Phone: nothing has come yet"
+
+
 def test_a_watch_that_falls_silent_is_said_to_be(status: WatchStatus) -> None:
     send(status, "watch", batch(0))
 

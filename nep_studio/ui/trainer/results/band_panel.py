@@ -12,10 +12,12 @@ from nep_studio.ui.trainer.live import Samples
 from nep_studio.ui.trainer.results.band import KINDS, Band, band_of, in_words, kind_words
 from nep_studio.ui.trainer.results.band_view import BandView
 from nep_studio.ui.trainer.results.labels import Words
+from nep_studio.ui.trainer.results.listening import is_mirrored
 from nep_studio.ui.trainer.results.looks import Looks
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.model import Model
 from nodes.perceptual.recognition.peaks import Detection
+from nodes.perceptual.recognition.wrist import mirrored
 
 LOOKED_BACK_S = 4.0
 AROUND_S = 0.5
@@ -90,6 +92,8 @@ class BandPanel(QWidget):
         movement: Samples | None = None
         if live is not None and shown is not None:
             movement = live.between(shown.t_start - AROUND_S, shown.t_end + AROUND_S)
+            if self._model is not None and is_mirrored(self._desk.wrist, self._model):
+                movement = Samples(movement.t, *mirrored(movement.acc, movement.gyr))
         gravity = live.gravity_included if live is not None else True
         self.band = None
         if self._model is not None:

@@ -18,6 +18,7 @@ from nep_studio.ui.trainer.results.looks import LookedAt
 from nodes.perceptual.recognition.model import Model
 from nodes.perceptual.recognition.model_file import read_model
 from nodes.perceptual.recognition.spotting import Spotter
+from nodes.perceptual.recognition.wrist import mirrored
 
 log = logging.getLogger(__name__)
 
@@ -28,11 +29,15 @@ MOST_WAITING = 100
 
 @dataclass(frozen=True)
 class Wanted:
-    """What to listen for: a model in base64, by which method, on what kind of sensor."""
+    """What to listen for: a model in base64, by which method, on what kind of sensor.
+
+    ``wrist`` is where the sensor is worn now.
+    """
 
     file: str
     method: str
     gravity_included: bool
+    wrist: str = ""
 
 
 class Listening(QObject):
@@ -104,30 +109,47 @@ class _Talk:
 
 def _listen(talk: _Talk) -> None:
     """What the thread does."""
-    spotter: Spotter | None = None
+    listener: _Listener | None = None
     while (order := talk.orders.get()) is not None and not talk.has_ended.is_set():
         try:
             if isinstance(order, Wanted):
-                spotter = _spotter(order, talk.news)
-            elif spotter is not None:
-                spotter.push(order.t, order.acc, order.gyr)
+                listener = _Listener(order, talk.news)
+            elif listener is not None:
+                listener.push(order)
         except RecordingError as error:
-            spotter = None
+            listener = None
             talk.news.put(error)
         except Exception as error:  # the try-out must not fall silent without a word
             log.exception("listening for gestures")
-            spotter = None
+            listener = None
             talk.news.put(RecordingError("The gestures cannot be tried out.", details=str(error)))
 
 
-def _spotter(wanted: Wanted, news: SimpleQueue[object]) -> Spotter:
-    model = _read(wanted.file)
-    made = Spotter(model, method=wanted.method, gravity_included=wanted.gravity_included)
-    made.looked = lambda end_s, certainties, lengths_s: news.put(
-        LookedAt(end_s, certainties.copy(), lengths_s)
-    )
-    news.put(model)
-    return made
+class _Listener:
+    """A spotter whose looks are told; RecordingError when the sensor does not fit the model."""
+
+    def __init__(self, wanted: Wanted, news: SimpleQueue[object]) -> None:
+        model = _read(wanted.file)
+        self._spotter = Spotter(
+            model, method=wanted.method, gravity_included=wanted.gravity_included
+        )
+        self._spotter.looked = lambda end_s, certainties, lengths_s: news.put(
+            LookedAt(end_s, certainties.copy(), lengths_s)
+        )
+        self._mirrors = is_mirrored(wanted.wrist, model)
+        news.put(model)
+
+    def push(self, samples: Samples) -> None:
+        """Look into samples, as the wrist of the recordings would have felt them."""
+        acc, gyr = samples.acc, samples.gyr
+        if self._mirrors:
+            acc, gyr = mirrored(acc, gyr)
+        self._spotter.push(samples.t, acc, gyr)
+
+
+def is_mirrored(wrist: str, model: Model) -> bool:
+    """Whether a sensor is worn on the other wrist than those of the recordings."""
+    return {wrist, model.wrist} == {"left", "right"}
 
 
 def _read(text: str) -> Model:

@@ -16,6 +16,7 @@ from nep_studio.ui.trainer.results.advice import advice_on, headline
 from nep_studio.ui.trainer.results.advice_list import AdviceList
 from nep_studio.ui.trainer.results.advice_parts import Advice, Known, takes_of_pair
 from nep_studio.ui.trainer.results.confusion_view import ConfusionView
+from nep_studio.ui.trainer.results.halves import Halves
 from nep_studio.ui.trainer.results.labels import Words, card
 from nep_studio.ui.trainer.results.point_panel import PointPanel
 from nep_studio.ui.trainer.results.train_bar import TrainBar
@@ -23,6 +24,8 @@ from nep_studio.ui.trainer.results.training import Training
 from nep_studio.ui.trainer.results.tuning import METHODS, method_words
 from nep_studio.ui.words import tr
 
+WIDE_LINES = 42
+"""So many lines of text wide, words and pictures have room beside each other."""
 _TOLD_BY_ADVICE = re.compile(r" was recorded (once|twice) only")
 
 
@@ -53,6 +56,7 @@ class ResultsView(QWidget):
         self.points = PointPanel(self.tuning, desk.look)
         self.failure = card()
         self._told_problem: Problem | None = None
+        self._shown: object = None
         self._lay_out()
         self._connect()
         self.refresh()
@@ -60,29 +64,25 @@ class ResultsView(QWidget):
     def _lay_out(self) -> None:
         inner = QWidget()
         box = QVBoxLayout(inner)
-        self.found = QWidget()
-        below = QVBoxLayout(self.found)
-        below.setContentsMargins(0, 0, 0, 0)
         self.method.setAccessibleName(tr("Recogniser"))
         self.method.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         for method in METHODS:
             self.method.addItem(method_words(method), method)
+        self.found = Halves(WIDE_LINES)
         legend = tr(
             "Rows are what was made, columns what was recognised. Press a number to see its takes."
         )
-        parts: tuple[QWidget, ...] = (
-            self.headline,
-            self.advice,
+        point = tr("How certain it must be before a gesture counts as made.")
+        self.found.add(self.headline, self.advice)
+        self.found.add_beside(
             Words(tr("What was taken for what"), "heading"),
             self.method,
             self.table,
             Words(legend, "hint"),
             Words(tr("Recognition point"), "heading"),
-            Words(tr("How certain it must be before a gesture counts as made."), "hint"),
+            Words(point, "hint"),
             self.points,
         )
-        for part in parts:
-            below.addWidget(part)
         for widget in (self.bar, self.failure, self.found):
             box.addWidget(widget)
         box.addStretch(1)
@@ -114,8 +114,12 @@ class ResultsView(QWidget):
         self.found.setVisible(findings is not None)
         self.method.setCurrentIndex(self.method.findData(self.tuning.method))
         self._show_advice()
-        self.table.show_findings(findings)
-        self.points.fill()
+        shown = (findings, [(name, one.title) for name, one in self.desk.gestures.items()])
+        if shown != self._shown:  # a table that is filled anew forgets which cell is looked at
+            self._shown = shown
+            self.table.show_findings(findings)
+            self.points.fill()
+        self.points.refresh()
 
     def _show_advice(self) -> None:
         findings = self.tuning.findings

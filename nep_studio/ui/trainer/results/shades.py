@@ -1,8 +1,11 @@
-"""Colours between two of the table, and the one of two that can be read on another."""
+"""Colours between two of the table, and those that can be read on another."""
 
 from __future__ import annotations
 
 from PySide6.QtGui import QColor
+
+READABLE = 4.5
+"""The contrast that words need on what is behind them."""
 
 
 def mixed(one: QColor, other: QColor, part: float) -> QColor:
@@ -15,8 +18,10 @@ def mixed(one: QColor, other: QColor, part: float) -> QColor:
 
 
 def legible(ground: QColor, *colours: QColor) -> QColor:
-    """Of these colours the one with the highest contrast on a ground."""
-    return max(colours, key=lambda colour: contrast(ground, colour))
+    """The first of these colours that can be read on a ground; black or white where none can."""
+    readable = (colour for colour in colours if contrast(ground, colour) >= READABLE)
+    black, white = QColor("black"), QColor("white")
+    return next(readable, max(black, white, key=lambda colour: contrast(ground, colour)))
 
 
 def contrast(one: QColor, other: QColor) -> float:

@@ -15,9 +15,13 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme import Look, icon
+from nep_studio.ui.trainer.results.halves import Halves
 from nep_studio.ui.trainer.results.labels import Sign, Words
 from nep_studio.ui.trainer.results.training import QUICK_S, Training
 from nep_studio.ui.words import tr
+
+WIDE_LINES = 30
+"""So many lines of text wide, the button and what is told have room beside each other."""
 
 
 class TrainBar(QWidget):
@@ -58,11 +62,13 @@ class TrainBar(QWidget):
         status = QHBoxLayout()
         status.addWidget(self.sign)
         status.addWidget(self.status, 1)
+        halves = Halves(WIDE_LINES)
+        halves.first.addLayout(buttons)
+        halves.second.addLayout(status)
+        halves.second.addWidget(self.by_itself)
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(buttons)
-        box.addLayout(status)
-        box.addWidget(self.by_itself)
+        box.addWidget(halves)
 
     def refresh(self) -> None:
         """Show how it stands."""

@@ -19,15 +19,19 @@ from nep_studio.ui.trainer.live import Samples
 from nep_studio.ui.trainer.results.band_panel import BandPanel
 from nep_studio.ui.trainer.results.correction_bar import CorrectionBar
 from nep_studio.ui.trainer.results.gesture_bar import GestureBar
+from nep_studio.ui.trainer.results.halves import Halves
 from nep_studio.ui.trainer.results.labels import Sign, Words
 from nep_studio.ui.trainer.results.listening import Listening, Wanted
 from nep_studio.ui.trainer.results.looks import KEPT_S, LookedAt, Looks
+from nep_studio.ui.trainer.results.point_words import both_sides
 from nep_studio.ui.trainer.results.training import Training
 from nep_studio.ui.trainer.results.trigger_timeline import TriggerTimeline
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.model import Model
 from nodes.perceptual.recognition.peaks import Detection
 
+WIDE_LINES = 38
+"""So many lines of text wide, bars and curves have room beside each other."""
 FLASH_MS = 1400
 ANNOUNCE_MS = 500
 """A screen reader says the last of several gestures that follow each other so soon."""
@@ -56,6 +60,7 @@ class TryOut(QWidget):
         self._lay_out()
         self._connect()
         self._fill_bars()
+        self.meaning.hide()
 
     def _make(self) -> None:
         look = self.desk.look
@@ -63,6 +68,7 @@ class TryOut(QWidget):
         self.said = Words(role="title")
         self.steps = Words(role="hint")
         self.bars: dict[str, GestureBar] = {}
+        self.meaning = Words(role="hint")
         self.timeline = TriggerTimeline(self._title, look)
         self.corrections = CorrectionBar(self.desk, lambda: self.looks)
         self.band = BandPanel(self.desk, self._title)
@@ -80,14 +86,10 @@ class TryOut(QWidget):
         box.addWidget(self.steps)
         self._bars_box = QVBoxLayout()
         self._bars_box.setSpacing(0)
-        self.live = QWidget()
-        below = QVBoxLayout(self.live)
-        below.setContentsMargins(0, 0, 0, 0)
-        below.addLayout(self._bars_box)
-        below.addWidget(self.timeline)
-        below.addWidget(self.corrections)
-        below.addWidget(Words(tr("Expected curve"), "heading"))
-        below.addWidget(self.band)
+        self.live = Halves(WIDE_LINES)
+        self.live.first.addLayout(self._bars_box)
+        self.live.add(self.meaning, self.timeline, self.corrections)
+        self.live.add_beside(Words(tr("Expected curve"), "heading"), self.band)
         box.addWidget(self.live)
         box.addStretch(1)
         self.area = QScrollArea()
@@ -104,6 +106,7 @@ class TryOut(QWidget):
         self.desk.heard.connect(self._on_heard)
         self.desk.changed.connect(self._on_changed)
         self.desk.sources_changed.connect(self._on_source_changed)
+        self.desk.wearer_changed.connect(self._listen)
         self.tuning.method_changed.connect(self._on_changed)
         self.tuning.point_changed.connect(self._on_point_changed)
         self.listening.model_read.connect(self._on_model_read)
@@ -134,7 +137,8 @@ class TryOut(QWidget):
                 self._begin(None)
             return
         gravity = self.desk.live.gravity_included if self.desk.live is not None else True
-        self.listening.listen_for(Wanted(recogniser.file, self.tuning.method, gravity))
+        wrist = self.desk.wrist
+        self.listening.listen_for(Wanted(recogniser.file, self.tuning.method, gravity, wrist))
 
     def _begin(self, model: Model | None) -> None:
         """Forget what was looked at by another model."""
@@ -211,7 +215,15 @@ class TryOut(QWidget):
         self._told_s = max(self._told_s, self.looks.now_s)
         if name in self.bars:
             self.bars[name].show_gesture(name)
+        self._show_meaning(name)
         self._show_looks()
+
+    def _show_meaning(self, name: str) -> None:
+        """What the recognition point that is moved means for takes and everyday movement."""
+        findings = self.tuning.findings
+        words = both_sides(findings, name, self.tuning.point(name)) if findings else ""
+        self.meaning.setText(f"{self._title(name)}: {words}" if words else "")
+        self.meaning.setVisible(bool(words))
 
     def _show_state(self) -> None:
         icon, colour, words, step = self._state()

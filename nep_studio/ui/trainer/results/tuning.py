@@ -44,7 +44,7 @@ class Tuning(QObject):
     def findings(self) -> Findings | None:
         """What the last training found out about the recogniser that is looked at."""
         recogniser = self.desk.recogniser
-        if recogniser is not self._read_from:
+        if recogniser != self._read_from:
             self._read_from = recogniser
             self._findings = findings_of(recogniser.report) if recogniser is not None else {}
         return self._findings.get(self.method)
