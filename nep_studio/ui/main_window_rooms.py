@@ -22,6 +22,7 @@ from nep_studio.ui.panels.sensors.panel import add_sensors_panel, show_topic
 from nep_studio.ui.show.mode import add_show_mode
 from nep_studio.ui.study.adding import add_study
 from nep_studio.ui.tour.tour import add_tour
+from nep_studio.ui.trainer.panel import add_trainer_panel
 from nep_studio.ui.watches.adding import add_watches
 
 if TYPE_CHECKING:
@@ -47,6 +48,8 @@ def add_rooms(window: MainWindow) -> Iterator[None]:
     yield
     add_sensors_panel(window)
     network.plot_requested.connect(lambda topic, field: show_topic(window, topic, field))
+    yield
+    add_trainer_panel(window)
     yield
     add_log_panel(window)
     yield

@@ -19,6 +19,7 @@ _UNIT = re.compile(r"\s*(?:[(\[]\s*(?P<in>[^)\]]*?)\s*[)\]]|[\s_](?P<after>[a-zÂ
 _TIME = re.compile(r"(t|ts|time|timestamp|seconds|elapsed|secondselapsed)(s|ms|us|ns)?")
 _ACC = re.compile(r"(?:lin|linear|user|total)?(?:a|acc|accel|acceleration|accelerometer)?([xyz])")
 _GYR = re.compile(r"(?:g|gyr|gyro|gyroscope|w|rot|rotation|rotationrate)([xyz])")
+_LONGEST_NAME = 60
 AXES = ("ax", "ay", "az", "gx", "gy", "gz")
 
 
@@ -79,7 +80,7 @@ def named_columns(names: Sequence[str]) -> Layout | None:
 
 def _role(name: str) -> tuple[str, str]:
     """What one name means, and its unit; "-" for what is not needed."""
-    name = name.strip().lower()
+    name = name[:_LONGEST_NAME].strip().lower()
     found = _UNIT.search(name)
     unit = (found["in"] or found["after"] or "") if found else ""
     unit = _SPELLINGS.get(unit, unit)

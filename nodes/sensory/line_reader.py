@@ -26,8 +26,11 @@ _ENOUGH = 20  # lines before the first guess, or
 _ENOUGH_FEW, _ENOUGH_S = 5, 1.0  # so few when they come slowly
 _LOOK_AGAIN = (100, 400, 1600)  # lines after which the guess is made anew
 _SEEN = 200  # lines that a guess is made from
-_SEPARATORS = re.compile(r"\s*[;,\t]\s*|\s+")
-_COMMAS = re.compile(r"\s*[;,\t]\s*")
+_COMMAS = re.compile(r"[;,\t]")
+_LONGEST_CELL = 100
+_PAIR = re.compile(r"([A-Za-z][\w. ]{0,30}?)\s*[:=]\s*(\S{1,40})")
+_DECIMAL_COMMA = re.compile(r"(\d),(\d)")  # as apps write in many languages, between semicolons
+_POINT_OR_LIST = re.compile(r"\.|^[^;\t]*$")
 _HTTP = re.compile(r"(GET|POST|PUT|HEAD|OPTIONS) \S+ HTTP/")
 _NOT_A_NUMBER = re.compile(r"\b(nan|inf|infinity|null)\b", re.IGNORECASE)
 
@@ -157,9 +160,11 @@ class LineReader:
             return read_paper_watch(line)
         if line.startswith("{"):
             return self._json(line, now_s)
-        cells = _COMMAS.split(line) if _COMMAS.search(line) else _SEPARATORS.split(line)
-        while cells and not cells[-1]:
-            cells.pop()
+        cells = _split(line)
+        if len(cells) > _MOST_COLUMNS:
+            return None
+        if pairs := _pairs(cells):
+            return self._named(pairs, now_s)
         return self._cells(cells, now_s)
 
     def _json(self, line: str, now_s: float) -> list[Reading] | None:
@@ -168,7 +173,9 @@ class LineReader:
             return None
         if is_of_an_app(message):
             return read_app(message)
-        values = dict(_numbers(message))
+        return self._named(dict(_numbers(message)), now_s)
+
+    def _named(self, values: dict[str, object], now_s: float) -> list[Reading] | None:
         names = tuple(values)
         given = named_columns(names)
         row = _row(list(values.values()))
@@ -180,7 +187,7 @@ class LineReader:
         row = _row(cells)
         if row is None:
             return self._names(cells)
-        if not 3 <= len(row) <= _MOST_COLUMNS:
+        if len(row) < 3:
             return None
         given = self._given
         if given is None and len(self._header) == len(row):
@@ -191,7 +198,7 @@ class LineReader:
 
     def _names(self, cells: list[str]) -> list[Reading] | None:
         """A header line, which names the columns of those that follow; None for any other text."""
-        if len(cells) > _MOST_COLUMNS or named_columns(cells) is None:
+        if named_columns(cells) is None:
             return None
         if self._header != tuple(cells):
             self._header = tuple(cells)
@@ -209,6 +216,27 @@ class LineReader:
         found = form.read(row[: len(given.roles)] if given else row, now_s)
         is_hopeless = form.layout is None and form.count > _ENOUGH
         return None if is_hopeless and not found else found
+
+
+def _split(line: str) -> list[str]:
+    """The cells of a line, without empty ones at its end."""
+    if _DECIMAL_COMMA.search(line) and not _POINT_OR_LIST.search(line):
+        line = _DECIMAL_COMMA.sub(r"\1.\2", line)
+    cells = [cell.strip() for cell in _COMMAS.split(line)] if _COMMAS.search(line) else line.split()
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
+
+
+def _pairs(cells: list[str]) -> dict[str, object]:
+    """Cells such as ``ax:0.1`` or ``ax=0.1`` by name; none where one of them is no such pair."""
+    found: dict[str, object] = {}
+    for cell in cells:
+        pair = _PAIR.fullmatch(cell[:_LONGEST_CELL])
+        if pair is None:
+            return {}
+        found[pair[1]] = pair[2]
+    return found
 
 
 def _row(values: Sequence[object]) -> Row | None:

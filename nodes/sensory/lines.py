@@ -63,7 +63,7 @@ def is_of_an_app(message: Mapping[str, object]) -> bool:
     """Whether an object is written as one of the known apps does, so that its units are known."""
     if "sensordata" in message or message.get("op") == "hyperimu":
         return True
-    if "type" in message and "values" in message:
+    if str(message.get("type")).startswith("android.") or {"type", "values"} <= message.keys():
         return True
     return any(_is_streamer(message.get(name)) for name in ("accelerometer", "gyroscope"))
 
@@ -74,7 +74,7 @@ def read_app(message: Mapping[str, object]) -> list[Reading] | None:
         return _read_zig_sim(message)
     if message.get("op") == "hyperimu":
         return _read_hyper_imu(message)
-    if "values" in message:
+    if "type" in message:
         return read_android(message)
     return _read_streamer(message)
 

@@ -17,7 +17,7 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.keeping import new_id
+from nep_studio.ui.trainer.keeping import LONGEST_TAKE_S, SHORTEST_TAKE_S, new_id
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,9 @@ def add_imported(desk: TrainerDesk, imported: Sequence[Imported]) -> bool:
         edits.append(keep_recording(recording_id, one.recording))
         for take in one.takes:
             name = _gesture(take, gestures)
-            kept = OwnTake(new_id("t"), recording_id, take.start_s, take.end_s, take.left_out)
+            can_be_learned = SHORTEST_TAKE_S <= take.end_s - take.start_s <= LONGEST_TAKE_S
+            is_out = take.left_out or not can_be_learned
+            kept = OwnTake(new_id("t"), recording_id, take.start_s, take.end_s, is_out)
             gestures[name] = replace(gestures[name], takes=(*gestures[name].takes, kept))
             changed[name] = None
     edits += [keep_gesture(name, gestures[name]) for name in changed]

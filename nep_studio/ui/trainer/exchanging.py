@@ -54,6 +54,16 @@ class Exchange:
         self._desk, self._over = desk, over
         self.files = GestureFiles()
 
+    def entries(self) -> list[tuple[str, str, Callable[[], object], bool]]:
+        """The entries of a menu: sign, words, what it does, whether it can be done now."""
+        is_open, has_some = self._desk.editor is not None, bool(self._desk.recordings)
+        return [
+            ("upload", tr("Import a file…"), self.ask_for_file, is_open),
+            ("folder-open", tr("Import a folder of CSV files…"), self.ask_for_folder, is_open),
+            ("download", tr("Export as CSV files…"), self.ask_to_export_csv, has_some),
+            ("download", tr("Export as MCAP…"), self.ask_to_export_mcap, has_some),
+        ]
+
     # What is asked for
 
     def ask_for_file(self) -> None:

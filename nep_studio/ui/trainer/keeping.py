@@ -22,7 +22,10 @@ from nep_studio.ui.trainer.kept_samples import packed, thinned
 from nep_studio.ui.trainer.live import Samples
 
 Span = tuple[float, float]
-SHORTEST_TAKE_S = 0.1
+SHORTEST_TAKE_S, LONGEST_TAKE_S = 0.2, 8.0
+"""Shorter and longer ones cannot be learned."""
+_BETWEEN_S = 0.04
+"""Two takes never touch: they would be one."""
 _DIGITS = 4
 
 
@@ -145,15 +148,14 @@ class Keeping:
             self._desk.change(label, edits)
 
     def trim_take(self, take_id: str, start_s: float, end_s: float) -> None:
-        """Let a take begin and end elsewhere in its recording."""
+        """Let a take begin and end elsewhere in its recording, as far as there is room."""
         found = self._desk.find_take(take_id)
         if found is None:
             return
         name, old = found
-        recording = self._desk.recordings.get(old.recording)
-        last_s = recording.seconds if recording is not None else end_s
-        start_s, end_s = max(0.0, start_s), min(last_s, end_s)
-        if end_s - start_s < SHORTEST_TAKE_S:
+        first_s, last_s = self.room_of(old)
+        start_s, end_s = max(first_s, start_s), min(last_s, end_s)
+        if not SHORTEST_TAKE_S <= end_s - start_s <= LONGEST_TAKE_S:
             return
         new = replace(old, start_s=round(start_s, _DIGITS), end_s=round(end_s, _DIGITS))
         gesture = self._desk.gestures[name]
@@ -161,6 +163,20 @@ class Keeping:
         if new != old:
             edit = keep_gesture(name, replace(gesture, takes=takes))
             self._desk.change("change where a take begins and ends", [edit])
+
+    def room_of(self, take: OwnTake) -> Span:
+        """From where to where a take may go: its recording, up to the takes beside it."""
+        recording = self._desk.recordings.get(take.recording)
+        first_s, last_s = 0.0, recording.seconds if recording is not None else take.end_s
+        for gesture in self._desk.gestures.values():
+            for other in gesture.takes:
+                if other.recording != take.recording or other.id == take.id:
+                    continue
+                if other.end_s <= take.start_s:
+                    first_s = max(first_s, other.end_s + _BETWEEN_S)
+                elif other.start_s >= take.end_s:
+                    last_s = min(last_s, other.start_s - _BETWEEN_S)
+        return min(first_s, take.start_s), max(last_s, take.end_s)
 
     # People
 

@@ -162,7 +162,11 @@ class TrainerPage(QWidget):
         self.bar.tell(everyday_words(samples, self.keeping.keep_everyday(samples)))
 
     def _on_session_changed(self) -> None:
-        self.head.setVisible(not self.session.is_on)  # the graph has its room meanwhile
+        is_on = self.session.is_on
+        if self.head.isHidden() != is_on:
+            self.head.setVisible(not is_on)  # the graph has its room meanwhile
+        if not is_on and not self.isVisible():
+            self.desk.listen(False)
         if self.beeps and self.session.state == "countdown":
             QApplication.beep()
 
@@ -217,21 +221,7 @@ class TrainerPage(QWidget):
         show_menu(menu, button.mapToGlobal(QPoint(0, button.height())))
 
     def _on_more_asked(self) -> None:
-        button, exchange = self.head.more, self.exchange
-        is_open, has_some = self.desk.editor is not None, bool(self.desk.recordings)
-        menu = self.menus.of_panel(
-            [
-                ("upload", tr("Import a file…"), exchange.ask_for_file, is_open),
-                (
-                    "folder-open",
-                    tr("Import a folder of CSV files…"),
-                    exchange.ask_for_folder,
-                    is_open,
-                ),
-                ("download", tr("Export as CSV files…"), exchange.ask_to_export_csv, has_some),
-                ("download", tr("Export as MCAP…"), exchange.ask_to_export_mcap, has_some),
-            ]
-        )
+        button, menu = self.head.more, self.menus.of_panel(self.exchange.entries())
         menu.addSeparator()
         beep = menu.addAction(tr("Beep while recording"))
         beep.setCheckable(True)

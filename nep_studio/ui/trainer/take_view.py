@@ -9,7 +9,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 from nep_studio.blocks.own_gestures import OwnTake
 from nep_studio.ui.trainer.curves import Window
 from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.keeping import SHORTEST_TAKE_S, Keeping
+from nep_studio.ui.trainer.keeping import LONGEST_TAKE_S, SHORTEST_TAKE_S, Keeping
 from nep_studio.ui.trainer.live import Samples
 from nep_studio.ui.trainer.strip_marks import Mark
 from nep_studio.ui.words import tr
@@ -107,13 +107,18 @@ class TakeView(QObject):
             self.changed.emit()
 
     def drag(self, time_s: float) -> None:
-        """Move the end that is held."""
+        """Move the end that is held, as far as there is room."""
+        take = self._take()
+        if take is None:
+            return
         start_s, end_s = self._ends
-        first_s, last_s = self._bounds()
+        first_s, last_s = self._keeping.room_of(take)
         if self.held == "start":
-            start_s = min(max(time_s, first_s), end_s - SHORTEST_TAKE_S)
+            earliest_s = max(first_s, end_s - LONGEST_TAKE_S)
+            start_s = min(max(time_s, earliest_s), end_s - SHORTEST_TAKE_S)
         else:
-            end_s = max(min(time_s, last_s), start_s + SHORTEST_TAKE_S)
+            latest_s = min(last_s, start_s + LONGEST_TAKE_S)
+            end_s = max(min(time_s, latest_s), start_s + SHORTEST_TAKE_S)
         self._ends = start_s, end_s
         self.changed.emit()
 
@@ -150,11 +155,6 @@ class TakeView(QObject):
     def _take(self) -> OwnTake | None:
         found = self._desk.find_take(self._desk.chosen_take)
         return found[1] if found is not None else None
-
-    def _bounds(self) -> tuple[float, float]:
-        """From where to where the recording goes."""
-        recorded = self.samples.t
-        return (float(recorded[0]), float(recorded[-1])) if len(recorded) else (0.0, 0.0)
 
     def _on_chosen(self, _take_id: str) -> None:
         self._stop()

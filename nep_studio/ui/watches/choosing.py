@@ -79,7 +79,9 @@ class OfferCard(QPushButton):
         row = QHBoxLayout(self)
         row.setContentsMargins(line * 2 // 3, line // 2, line * 2 // 3, line // 2)
         row.setSpacing(line * 2 // 3)
-        row.addWidget(self._picture(offer.icon, look, line * 1.7))
+        self._look = look
+        self._pictures: list[tuple[QLabel, str, int]] = []
+        row.addWidget(self._picture(offer.icon, round(line * 1.7)))
         title, sentence = QLabel(offer.title), QLabel(offer.sentence)
         title.setProperty("role", "heading")
         sentence.setProperty("role", "hint")
@@ -91,18 +93,24 @@ class OfferCard(QPushButton):
             words.addWidget(label)
         row.addLayout(words, 1)
         chevron = "chevron-left" if is_right_to_left() else "chevron-right"
-        row.addWidget(self._picture(chevron, look, line * 1.1))
+        row.addWidget(self._picture(chevron, round(line * 1.1)))
+        self.redraw()
         policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
 
-    def _picture(self, name: str, look: Look, side: float) -> QLabel:
+    def _picture(self, name: str, side: int) -> QLabel:
         label = QLabel()
         label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        size = QSize(round(side), round(side))
-        label.setPixmap(icon(name, look.theme).pixmap(size, self.devicePixelRatioF()))
-        label.setFixedWidth(size.width())
+        label.setFixedWidth(side)
+        self._pictures.append((label, name, side))
         return label
+
+    def redraw(self) -> None:
+        """Draw the icons in another theme."""
+        for label, name, side in self._pictures:
+            picture = icon(name, self._look.theme)
+            label.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter opens it too."""

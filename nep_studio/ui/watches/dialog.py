@@ -79,14 +79,14 @@ class WatchDialog(QDialog):
         self.choosing = ChoosingPage(look)
         self.page: WayPage | None = None
         self.pages = QStackedWidget()
-        back = "arrow-right" if is_right_to_left() else "arrow-left"
-        self.back_button = QPushButton(icon(back, look.theme), tr("Something else"))
+        self.back_button = QPushButton(tr("Something else"))
         self.close_button = QPushButton(tr("Close"))
         self.use_button = QPushButton(tr("Use this watch"))
         self._waiting_since_s = 0.0
         self._settling = QTimer(self, singleShot=True, interval=SETTLE_MS)
         self._lay_out()
         self._connect()
+        self._on_theme_changed()
         self._update()
 
     # Layout
@@ -127,6 +127,7 @@ class WatchDialog(QDialog):
         self.trial.changed.connect(self._on_trial_changed)
         self.ear.changed.connect(self._update)
         self._settling.timeout.connect(self._on_settled)
+        self._look.theme_changed.connect(self._on_theme_changed)
 
     # What happens
 
@@ -196,6 +197,14 @@ class WatchDialog(QDialog):
         else:
             self.trial.want(planned)
         self._update()
+
+    def _on_theme_changed(self) -> None:
+        back = "arrow-right" if is_right_to_left() else "arrow-left"
+        self.back_button.setIcon(icon(back, self._look.theme))
+        for card in self.choosing.cards.values():
+            card.redraw()
+        if self.page is not None:
+            self.page.redraw()
 
     def _on_trial_changed(self) -> None:
         if self.trial.state == "listening":

@@ -166,6 +166,12 @@ class LiveView(QFrame):
                 self._grades[at] = figure.grade
                 self._draw_sign(sign, figure.grade)
 
+    def redraw(self) -> None:
+        """Draw the signs in another theme."""
+        for at, row in enumerate(self.rows):
+            if self._grades[at]:
+                self._draw_sign(row[0], self._grades[at])
+
     def _draw_sign(self, sign: QLabel, grade: str) -> None:
         name, colour = SIGNS[grade]
         side = round(self.fontMetrics().height() * 0.95)

@@ -53,7 +53,9 @@ class RecordingQuestion(QWidget):
         super().__init__(parent)
         self.path = ""
         self._folder = folder
-        self.button = QPushButton(icon("folder-open", look.theme), tr("Choose a recording…"))
+        self._look = look
+        self.button = QPushButton(tr("Choose a recording…"))
+        self.redraw()
         self.button.setAutoDefault(False)
         line = self.fontMetrics().height()
         self.button.setIconSize(QSize(line, line))
@@ -68,6 +70,10 @@ class RecordingQuestion(QWidget):
         self.name.hide()
         self.button.clicked.connect(self._on_choose)
         self.repeats.toggled.connect(self.changed)
+
+    def redraw(self) -> None:
+        """Draw the icon in another theme."""
+        self.button.setIcon(icon("folder-open", self._look.theme))
 
     @property
     def settings(self) -> dict[str, Setting] | None:

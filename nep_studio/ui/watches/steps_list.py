@@ -69,7 +69,9 @@ class CopyLine(QWidget):
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.text.setAlignment(Qt.AlignmentFlag.AlignLeft)
         self._words = words
-        self.button = QPushButton(icon("copy", look.theme), words)
+        self._look = look
+        self.button = QPushButton(words)
+        self.redraw()
         self.button.setAutoDefault(False)
         line = self.fontMetrics().height()
         self.button.setIconSize(QSize(line, line))
@@ -80,6 +82,10 @@ class CopyLine(QWidget):
         row.addWidget(self.text, 1)
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignLeading)
         self.button.clicked.connect(self._on_copy)
+
+    def redraw(self) -> None:
+        """Draw the icon in another theme."""
+        self.button.setIcon(icon("copy", self._look.theme))
 
     def show_text(self, text: str) -> None:
         """Show this; what is long shows its beginning."""

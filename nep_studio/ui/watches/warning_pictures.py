@@ -119,6 +119,12 @@ class WarningHelp(QWidget):
         self.words.hide()
         self.picture.hide()
 
+    def redraw(self) -> None:
+        """Show the picture for another theme."""
+        for phone, button in self.buttons.items():
+            if button.isChecked():
+                self.show_phone(phone)
+
     def show_phone(self, phone: str) -> None:
         """Show how it is on this kind of phone."""
         told = {

@@ -129,6 +129,15 @@ class WayPage(QWidget):
             self._update()
             self.came_into_view.emit(self.live)
 
+    def redraw(self) -> None:
+        """Draw icons and pictures in another theme."""
+        self.live.redraw()
+        self.recording.redraw()
+        self.warning.redraw()
+        for line in self.steps.copy_lines:
+            if line is not None:
+                line.redraw()
+
     # Layout
 
     def _extras(self) -> dict[str, QWidget]:

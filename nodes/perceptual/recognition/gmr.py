@@ -32,10 +32,10 @@ from nodes.perceptual.recognition.trees import Trees, fit_trees
 GATE_TREES = 60
 _SHRINK = 0.3
 _FLOOR = 0.05
-_MOST_CURVES = 80  # to make an expected curve from
+_MOST_CURVES = 40  # to make an expected curve from
 _SLACK = 5  # points that a movement may be ahead of its curve, or behind
 _BATCH = 512  # windows at once: what is worked on stays small
-_WORTH_A_LOOK = 0.1  # how likely any gesture must be for the curves to be asked
+_WORTH_A_LOOK = 0.2  # how likely any gesture must be for the curves to be asked
 _SHARPNESS = 0.5  # neighbouring points are nearly the same: they do not count in full
 _NO_WAY = np.float32(1e9)
 

@@ -9,7 +9,7 @@ import numpy as np
 from nodes.perceptual.recognition.stream import Floats
 
 COMPONENTS = 6
-_ROUNDS = 15
+_ROUNDS = 8
 _NOISE = 1e-3
 
 

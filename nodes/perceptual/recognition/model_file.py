@@ -181,11 +181,11 @@ def _recogniser(
     usual = arrays["usual_score"].astype(float)
     if usual.shape != (gestures,) or not np.all(np.isfinite(usual) & (usual > 0)):
         raise ValueError("its usual scores do not fit")
-    count = (feature_count_1 if found.features == 1 else feature_count)(channels)
     scorer: Scorer
     match found.method:
         case "trees":
-            scorer = Trees.from_arrays(arrays, gestures, count)
+            count = feature_count_1 if found.features == 1 else feature_count
+            scorer = Trees.from_arrays(arrays, gestures, count(channels))
         case "gmr":
             scorer = Gmr.from_arrays(arrays, gestures, channels)
         case _:

@@ -25,7 +25,8 @@ from nodes.perceptual.recognition.validation import Validation, cross_validate, 
 from nodes.recordings import Recording
 
 _MOST_MINUTES = 90
-_TREES_TO_CHECK = 40  # fewer than are used in the end: each part left out grows its own
+_TREES_TO_CHECK = 25  # fewer than are used in the end: each part left out grows its own
+_TREES_WITHOUT = 60  # for sensors that lack what most of them have
 
 
 def train(
@@ -54,7 +55,8 @@ def train(
     recognisers = []
     for channels in (Channels(gravity, with_gyr) for with_gyr in sorted({gyroscope, False})):
         tell(f"Training {' and '.join(methods)} with {channels.in_words} ...")
-        scorers = _fit(methods, seed, TREES, material.examples(channels))
+        count = TREES if channels == best else _TREES_WITHOUT
+        scorers = _fit(methods, seed, count, material.examples(channels))
         recognisers += [
             Recogniser(method, channels, scorers[method], validations[method].usual)
             for method in methods

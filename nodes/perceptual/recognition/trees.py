@@ -61,13 +61,13 @@ class Trees:
         """The first ``trees`` of these trees, asked only whether it is any gesture at all."""
         nodes = int(self.roots[trees]) if trees < len(self.roots) else len(self.right)
         any_or_none = np.stack([1 - self.votes[:, -1], self.votes[:, -1]], axis=1)
-        votes, which = np.unique(any_or_none, axis=0, return_inverse=True)
+        votes, which = _distinct(any_or_none)
         return Trees(
             self.roots[:trees],
             self.feature[:nodes],
             self.threshold[:nodes],
             self.right[:nodes],
-            which.ravel()[self.leaf[:nodes]].astype(np.int32),
+            which[self.leaf[:nodes]].astype(np.int32),
             votes,
         )
 
@@ -135,9 +135,9 @@ def flatten(forest: Any, classes: int) -> Trees:
         votes[:, forest.classes_] = shares
         leaf_votes.append(votes)
         is_leaf.append(ends)
-    votes, which = np.unique(np.concatenate(leaf_votes), axis=0, return_inverse=True)
+    votes, which = _distinct(np.concatenate(leaf_votes))
     leaf = np.zeros(len(np.concatenate(is_leaf)), np.int32)
-    leaf[np.concatenate(is_leaf)] = which.ravel()
+    leaf[np.concatenate(is_leaf)] = which
     return Trees(
         roots=roots.astype(np.int32),
         feature=np.concatenate(feature).astype(np.int16),
@@ -146,6 +146,19 @@ def flatten(forest: Any, classes: int) -> Trees:
         leaf=leaf,
         votes=votes.astype(np.float32),
     )
+
+
+def _distinct(votes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
+    """The different rows of votes, and which of them each row is.
+
+    Nearly all leaves vote for one class alone: only the others need sorting.
+    """
+    classes = votes.shape[1]
+    which = votes.argmax(axis=1)
+    mixed = votes.max(axis=1) < 1
+    others, which_other = np.unique(votes[mixed], axis=0, return_inverse=True)
+    which[mixed] = classes + which_other.ravel()
+    return np.concatenate([np.eye(classes, dtype=votes.dtype), others]), which
 
 
 def _rounded_down(threshold: Floats) -> Floats:

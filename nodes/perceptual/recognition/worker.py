@@ -41,7 +41,7 @@ STEPS = (READING, LEARNING, CHECKING, WRITING)
 
 _LONGEST_LINE = 1_000_000
 _PARENT_S = 1.0
-_READ, _LEARNED = 0.15, 0.95  # of the progress
+_READ, _CHECKED, _LEARNED = 0.1, 0.65, 0.95  # of the progress
 
 
 class _Order(msgspec.Struct, forbid_unknown_fields=True):
@@ -112,8 +112,7 @@ def _train(order: _Order, told: _Told) -> None:
     material = read_material(Path(order.train))
     if order.everyday:
         material = material.with_everyday(everybodys_movement())
-    learning = _Learning(told, len(order.methods) * (1 + material.has_rotation))
-    told.progress(_READ, LEARNING)
+    learning = _Learning(told, 1 + material.has_rotation)
     model = learn(material, order.methods, tell=learning.go_on)
     told.progress(_LEARNED, WRITING)
     write_model(output, model)
@@ -128,19 +127,20 @@ def _train(order: _Order, told: _Told) -> None:
 
 
 class _Learning:
-    """The progress of a training, which tells when each of its recognisers begins."""
+    """The progress of a training, which tells when it begins to check, and to learn for good."""
 
     def __init__(self, told: _Told, count: int) -> None:
         self._told = told
-        self._count = max(1, count)
-        self._begun = 0
+        self._steps = iter(
+            [(_READ, CHECKING)]
+            + [(_CHECKED + (_LEARNED - _CHECKED) * n / count, LEARNING) for n in range(count)]
+        )
 
     def go_on(self, _what: str) -> None:
-        """One recogniser more begins."""
-        part = min(self._begun / self._count, 1.0)
-        self._begun += 1
-        step = LEARNING if part < 0.5 else CHECKING
-        self._told.progress(_READ + part * (_LEARNED - _READ), step)
+        """The next part of the training begins."""
+        for part, step in self._steps:
+            self._told.progress(part, step)
+            return
 
 
 class _Told:

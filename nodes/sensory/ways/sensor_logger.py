@@ -28,13 +28,15 @@ _GREETING = "NEP Studio hears Sensor Logger here. Give the app this address as i
 _NO_MESSAGE = "This is no message of Sensor Logger: it is a JSON object with a payload."
 _TOO_LARGE = "This is larger or slower than can be taken in. Choose a shorter batch period."
 _MOST_DEVICES = 16
+_LONGEST_ID = 64
 _MOST_READINGS = 4_000  # in a message; a second of a watch has 100
 
 
 class _Device:
-    """One device that pushes: its messages in their order."""
+    """One device that pushes: its messages in their order, and what users call it."""
 
-    def __init__(self) -> None:
+    def __init__(self, name: str) -> None:
+        self.name = name
         self.session = ""
         self.order: Ordering[Message] = Ordering()
         self.wears_watch = False
@@ -46,7 +48,7 @@ class SensorLoggerWay:
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
         self._door: socket.socket | None = None
-        self._devices: dict[str, _Device] = {}
+        self._devices: dict[tuple[str, str], _Device] = {}
         self._background = Background(self._serve)
 
     @property
@@ -108,27 +110,36 @@ class SensorLoggerWay:
     def _take(self, address: str, message: Message) -> None:
         """Hand over what is in its order now."""
         now_s = time.monotonic()
-        sender = f"{address} ({message.deviceId[:6]})" if message.deviceId else address
-        device = self._devices.pop(sender, None) or _Device()
-        self._devices[sender] = device
-        if len(self._devices) > _MOST_DEVICES:
-            del self._devices[next(iter(self._devices))]
-        if device.session != message.sessionId:
-            device.session, device.order, device.wears_watch = message.sessionId, Ordering(), False
+        device = self._device(address, message.deviceId[:_LONGEST_ID])
+        session = message.sessionId[:_LONGEST_ID]
+        if device.session != session:
+            device.session, device.order, device.wears_watch = session, Ordering(), False
         if message.messageId is None:
-            self._hand_over(sender, device, None, message, now_s)
+            self._hand_over(device, None, message, now_s)
             return
         for number, one in device.order.put(message.messageId, message, now_s):
-            self._hand_over(sender, device, number, one, now_s)
+            self._hand_over(device, number, one, now_s)
+
+    def _device(self, address: str, identity: str) -> _Device:
+        """A device by its address, and by its identity where two have one address."""
+        key = (address, identity)
+        device = self._devices.pop(key, None)
+        if device is None:
+            has_namesake = any(one.name == address for one in self._devices.values())
+            device = _Device(f"{address} ({identity[:6]})" if has_namesake else address)
+        self._devices[key] = device
+        if len(self._devices) > _MOST_DEVICES:
+            del self._devices[next(iter(self._devices))]
+        return device
 
     def _hand_over(
-        self, sender: str, device: _Device, number: int | None, message: Message, now_s: float
+        self, device: _Device, number: int | None, message: Message, now_s: float
     ) -> None:
         pushed = readings_of(message, self._settings.units, follows_wrist=device.wears_watch)
         device.wears_watch = device.wears_watch or pushed.has_wrist
-        trouble = _trouble(sender, pushed, is_watch=device.wears_watch)
+        trouble = _trouble(device.name, pushed, is_watch=device.wears_watch)
         told = pushed.used if pushed.readings else ""
-        self._background.put(Arrived(sender, pushed.readings, now_s, trouble, told, number))
+        self._background.put(Arrived(device.name, pushed.readings, now_s, trouble, told, number))
 
     def _complain(self, sender: str, trouble: str) -> None:
         self._background.put(Arrived(sender, arrived_s=time.monotonic(), trouble=trouble))

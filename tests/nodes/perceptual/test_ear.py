@@ -58,35 +58,43 @@ def names_of(found):
 
 
 @pytest.fixture
+def usual(model, stranger):
+    """What is recognised when nothing is unusual."""
+    found = Listening(model).hear(batches_of(stranger))
+    assert match(takes_of(stranger), found).recall >= 5 / 6
+    return names_of(found)
+
+
+@pytest.fixture
 def turned(stranger):
     return replace(stranger, acc=stranger.acc * TURNED, gyr=stranger.gyr * TURNED)
 
 
-def test_a_watch_on_the_other_wrist_is_mirrored_and_that_is_told(model, stranger):
+def test_a_watch_on_the_other_wrist_is_mirrored_and_that_is_told(model, stranger, usual):
     acc, gyr = mirrored(stranger.acc, stranger.gyr)
     left = replace(stranger, acc=acc, gyr=gyr)
     listening = Listening(replace(model, wrist="right"))
 
     found = listening.hear(batches_of(left, wrist="left"))
 
-    assert names_of(found) == names_in(stranger)
+    assert names_of(found) == usual
     assert "so they are mirrored" in listening.ear.description
 
 
 @pytest.mark.parametrize(("wrist", "of_model"), [("", "right"), ("left", ""), ("hand", "left")])
-def test_without_two_known_wrists_nothing_is_mirrored(model, stranger, wrist, of_model):
+def test_without_two_known_wrists_nothing_is_mirrored(model, stranger, usual, wrist, of_model):
     listening = Listening(replace(model, wrist=of_model))
 
     found = listening.hear(batches_of(stranger, wrist=wrist))
 
-    assert names_of(found) == names_in(stranger)
+    assert names_of(found) == usual
     assert listening.ear.description.startswith("listens to watch")
     assert ("in the hand" in listening.ear.description) is (wrist == "hand")
 
 
-def test_a_watch_that_is_worn_turned_is_understood_when_that_is_said(model, stranger, turned):
-    assert names_of(Listening(model, "turned").hear(batches_of(turned))) == names_in(stranger)
-    assert names_of(Listening(model).hear(batches_of(turned))) != names_in(stranger)
+def test_a_watch_that_is_worn_turned_is_understood_when_that_is_said(model, turned, usual):
+    assert names_of(Listening(model, "turned").hear(batches_of(turned))) == usual
+    assert names_of(Listening(model).hear(batches_of(turned))) != usual
 
 
 def test_how_a_watch_is_worn_is_found_out_from_the_first_gestures(model, stranger, turned):
@@ -95,7 +103,7 @@ def test_how_a_watch_is_worn_is_found_out_from_the_first_gestures(model, strange
 
         found = listening.hear(batches_of(recording))
 
-        assert names_of(found) == names_in(stranger)
+        assert match(takes_of(stranger), found).recall >= 5 / 6
         assert listening.told == [f"watch is worn {how}, as its gestures show"]
 
 
@@ -114,9 +122,10 @@ def at_rates(recording, *rates_hz, pause_s=0.0):
 
 @pytest.mark.parametrize("rate_hz", [100, 50, 25, 16])
 def test_the_rate_of_the_sensor_does_not_matter(model, stranger, rate_hz):
-    found = Listening(model).hear(at_rates(stranger, rate_hz))
+    tally = match(takes_of(stranger), Listening(model).hear(at_rates(stranger, rate_hz)))
 
-    assert names_of(found) == names_in(stranger)
+    assert tally.recall >= 5 / 6
+    assert tally.fired <= tally.made + 1
 
 
 def test_a_rate_that_changes_in_the_middle_does_not_matter(model, stranger):

@@ -56,7 +56,7 @@ class Sender:
         A second recording comes later on the sender's clock, by the time that passed since.
         """
         began_s, batch, end_s = time.monotonic(), [], period_s
-        since_s = self._since_switched_on_s(began_s) * speed
+        since_s = self._since_switched_on_s(began_s, speed)
         for t, acc, gyr in rows(recording):
             while t >= end_s:
                 if self._stopped.wait(max(0.0, began_s + end_s / speed - time.monotonic())):
@@ -68,11 +68,11 @@ class Sender:
         if batch:
             yield batch
 
-    def _since_switched_on_s(self, now_s: float) -> float:
+    def _since_switched_on_s(self, now_s: float, speed: float) -> float:
         if self._switched_on_s is None:
             self._switched_on_s = now_s
             return 0.0
-        return max(now_s - self._switched_on_s, self._last_t + 0.01)
+        return max((now_s - self._switched_on_s) * speed, self._last_t + 0.01)
 
     def send(self, recording: Recording, speed: float = 1.0) -> None:
         """Send all of a recording; returns when it was sent."""

@@ -146,6 +146,27 @@ def test_a_header_names_the_columns():
     assert readings[0].gyr == pytest.approx([math.radians(one) for one in (1, 2, 3)])
 
 
+def test_commas_are_points_between_semicolons():
+    lines = [csv(t, *acc).replace(",", ";").replace(".", ",") for t, acc, _ in movement()]
+
+    readings, reader = heard(lines)
+
+    assert reader.told == "t (s), ax, ay, az (m/s²)"
+    assert math.hypot(*readings[9].acc) == pytest.approx(G, rel=0.02)
+
+
+@pytest.mark.parametrize("between", [":", "=", " : "])
+def test_names_may_stand_before_the_numbers(between):
+    lines = [
+        ", ".join(f"{name}{between}{value:.5f}" for name, value in zip("xyz", acc, strict=True))
+        for _, acc, _ in movement()
+    ]
+
+    _, reader = heard(lines)
+
+    assert reader.told == "ax, ay, az (m/s²)"
+
+
 def test_a_persons_own_columns_are_taken_whatever_the_numbers_say():
     lines = [csv(t, *acc) for t, acc, _ in movement()]
 

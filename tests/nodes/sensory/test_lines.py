@@ -1,6 +1,7 @@
 """Lines of apps that say what they are become readings, and no line is a danger."""
 
 import json
+import time
 
 import pytest
 from hypothesis import given
@@ -30,6 +31,7 @@ def read(*lines, now_s=0.0, reader=None):
             [Reading(None, GYR, 5000, 1e-9)],
         ),
         ('{"type":"android.sensor.light","timestamp":5000,"values":[12]}', []),
+        ('{"type":"android.gps","longitude":5.0,"latitude":1.0,"time":7}', []),
         (
             '{"op":"hyperimu","Timestamp":15,"Accelerometer":[0.5,-1,9.8],"Gyroscope":[0.1,0.2,-0.3]}',
             [Reading(ACC, GYR, 15, 1e-3)],
@@ -118,6 +120,16 @@ def test_what_is_wrong_with_a_line_is_told_in_a_sentence(line, words):
 
     assert words in told
     assert told.isprintable()
+
+
+@pytest.mark.parametrize("sign", [" ", ",", ";", "\t", "a", "(", "1,", "{", "[", "x:", "=", "-"])
+def test_no_line_takes_long_to_read(sign):
+    line = ("a" + sign * 9000)[:8190] + "b"
+    began_s = time.perf_counter()
+
+    LineReader().read([line.encode()] * 20, 0.0)
+
+    assert time.perf_counter() - began_s < 0.5
 
 
 @given(st.lists(st.binary(max_size=300), max_size=30))

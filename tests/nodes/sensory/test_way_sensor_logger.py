@@ -110,6 +110,20 @@ def test_without_the_sensor_gravity_it_says_so():
     assert pushed.readings[0].gyr is None
 
 
+def test_two_phones_at_one_address_are_told_apart():
+    with opened("sensor_logger") as heard:
+        for device in ("aaaa1111", "bbbb2222", "aaaa1111"):
+            with logger(heard, device=device) as sender:
+                sender.push(messages(1, device=device)[0])
+        heard.until(lambda: len(heard.arrivals) == 3)
+
+    assert [one.sender for one in heard.arrivals] == [
+        "127.0.0.1",
+        "127.0.0.1 (bbbb22)",
+        "127.0.0.1",
+    ]
+
+
 def test_a_phone_beside_a_watch_is_left_aside():
     with opened("sensor_logger") as heard, logger(heard) as sender:
         of_watch, of_phone = messages(4, watch=True), messages(4)

@@ -3,21 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QApplication, QSplitter, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.messages import Imu
+from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.messages import Messages
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.running.tap import Heard, Tap
 from nep_studio.ui.theme import Look
 from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.trainer.page import TrainerPage
+from nep_studio.ui.trainer.results.training import Training
 from tests.ui.trainer.results_desk import OpenProject
 from tests.ui.window.conftest import answer, chooser, home, studio, window
 
 __all__ = ["answer", "chooser", "home", "studio", "window"]
+
+
+class Silence(QObject):
+    """A network in which nobody says anything."""
+
+    def tap(
+        self, topic: str, *, kind: type | None = None, most: int = 2000, parent: QObject
+    ) -> Tap:
+        return Tap(topic, kind, most=most, parent=parent)
 
 
 class Clock:
@@ -47,9 +62,43 @@ def desk(look: Look, clock: Clock, qtbot: QtBot) -> Iterator[TrainerDesk]:
     """A desk over a project of its own, without the whole window around it."""
     owner = QWidget()
     qtbot.addWidget(owner)
-    made = TrainerDesk(OpenProject(), None, Messages(owner), look, owner, now=clock)
+    made = TrainerDesk(OpenProject(), Silence(owner), Messages(owner), look, owner, now=clock)
     yield made
     made.deleteLater()
+
+
+@pytest.fixture
+def canvas(desk: TrainerDesk) -> Canvas:
+    """The page of blocks, which the page of the trainer stands below."""
+    return Canvas(desk.editor, desk.look.theme)
+
+
+@pytest.fixture
+def page(
+    desk: TrainerDesk,
+    canvas: Canvas,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> Iterator[TrainerPage]:
+    """The page of the trainer, which learns only when it is asked to."""
+    desk.runner = Runner(list, desk.parent(), logs=tmp_path / "logs")
+    monkeypatch.setattr(Training, "warm", lambda _self: None)
+    training = Training(desk, desk)
+    training.trains_by_itself = False
+    made = TrainerPage(desk, training, canvas)
+    outer = QSplitter(Qt.Orientation.Vertical)
+    qtbot.addWidget(outer)
+    for part in (canvas, made):
+        outer.addWidget(part)
+    outer.resize(1100, 900)
+    outer.setSizes([350, 550])
+    outer.show()
+    qtbot.waitExposed(outer)
+    yield made
+    made.session.cancel()
+    training.close()
+    desk.runner.close()
 
 
 Push = Callable[..., None]

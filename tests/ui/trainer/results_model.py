@@ -1,31 +1,30 @@
-"""The recogniser that comes with the program, as a project keeps it: tests need not train one."""
+"""A small recogniser of two simulated gestures, learned once for all tests of the try-out."""
 
 from __future__ import annotations
 
 from base64 import b64encode
+from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 from nep_studio.blocks.own_gestures import OwnRecogniser
 from nodes.perceptual.recognition.model import Model
-from nodes.perceptual.recognition.model_file import read_model
-from nodes.resources import resource_folder
+from nodes.perceptual.recognition.model_file import model_bytes
+from nodes.perceptual.recognition.training import train
+from nodes.sensory.arm.simulate import simulate_everyday
+from tests.ui.trainer.results_material import session
 
 GESTURES = ["karate", "katana"]
-"""Those that the tests' projects have; the recogniser knows more."""
-
-
-def _path() -> Path:
-    return resource_folder() / "gestures" / "paper.gestures"
 
 
 @cache
-def shipped_model() -> Model:
-    return read_model(_path())
+def small_model() -> Model:
+    """Learned without rotation, which is quicker."""
+    takes, everyday = session(GESTURES, 4), simulate_everyday(1, 20.0)
+    return train([replace(takes, gyr=None)], [replace(everyday, gyr=None)])
 
 
 @cache
-def shipped_recogniser() -> OwnRecogniser:
-    model = shipped_model()
-    text = b64encode(_path().read_bytes()).decode("ascii")
+def small_recogniser() -> OwnRecogniser:
+    model = small_model()
+    text = b64encode(model_bytes(model)).decode("ascii")
     return OwnRecogniser("then", model.names, text, dict(model.report))

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.own_gestures import OwnGesture
-from nep_studio.ui.trainer.results.advice import advice_on, headline
+from nep_studio.ui.trainer.results.advice import advice_on, false_triggers, headline
 from nep_studio.ui.trainer.results.advice_parts import Known
 from nep_studio.ui.trainer.results.findings import (
     Findings,
@@ -191,3 +191,14 @@ def test_without_everyday_movement_false_triggers_are_not_known() -> None:
     found = findings(("karate", "karate", 10), everyday_s=0.0)
 
     assert "not known yet" in both_sides(found, "karate", 0.75)
+
+
+def test_false_triggers_are_told_an_hour_and_simulated_people_are_called_so() -> None:
+    found = findings(("karate", "karate", 10), everyday_s=600.0)
+    none = findings(("karate", "karate", 10), everyday_s=0.0)
+
+    said = false_triggers(found, is_simulated=False)
+
+    assert said == "About 6 false triggers an hour, in 10 min of everyday movement"
+    assert false_triggers(found, is_simulated=True).endswith("of simulated people")
+    assert false_triggers(none, is_simulated=True) == ""

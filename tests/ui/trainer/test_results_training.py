@@ -153,6 +153,20 @@ def test_a_program_that_is_not_there_is_told(recorded: TrainerDesk, qtbot: QtBot
     training.close()
 
 
+def test_a_process_that_ends_while_it_waits_is_started_again_by_the_next_training(
+    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
+) -> None:
+    training = make_training(LEARNS)
+    training.warm()
+    qtbot.waitUntil(lambda: training._worker.is_ready)
+    training._worker._process.kill()
+    qtbot.waitUntil(lambda: not training._worker.is_running)
+
+    assert training.problem is None
+    with qtbot.waitSignal(training.trained):
+        training.train()
+
+
 def test_a_full_disk_is_told(
     recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot, monkeypatch
 ) -> None:

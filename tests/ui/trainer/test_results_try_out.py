@@ -22,7 +22,7 @@ from nodes.recordings import Recording
 from nodes.sensory.arm.simulate import perform
 from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import samples_of, spans_of
-from tests.ui.trainer.results_model import GESTURES, shipped_model, shipped_recogniser
+from tests.ui.trainer.results_model import GESTURES, small_model, small_recogniser
 
 __all__ = ["desk", "look"]
 
@@ -35,7 +35,7 @@ def trained(desk: TrainerDesk) -> TrainerDesk:
     edits = [
         keep_gesture(name, OwnGesture(name.capitalize(), at)) for at, name in enumerate(GESTURES)
     ]
-    desk.change("train the gestures", [*edits, keep_recogniser(shipped_recogniser())])
+    desk.change("train the gestures", [*edits, keep_recogniser(small_recogniser())])
     return desk
 
 
@@ -104,24 +104,31 @@ def test_a_gesture_that_is_made_flashes_and_is_on_the_timeline(tried: TryOut) ->
     assert "Karate" in tried.band.sentence.text()
 
 
-def test_a_higher_point_takes_triggers_away_at_once_and_is_one_step(
+def test_a_mark_that_is_dragged_shows_its_effect_at_once_and_is_one_step(
     tried: TryOut, trained: TrainerDesk, qtbot: QtBot
 ) -> None:
-    bar = tried.bars["karate"]
-    before = trained.editor.history.undo_label
-    certainty = tried.looks.triggers[0].certainty
-    groove = bar.groove()
-    start = QPoint(round(groove.left() + groove.width() * 0.75), round(groove.center().y()))
+    bar, groove = tried.bars["karate"], tried.bars["karate"].groove()
+    steps = trained.editor.history.steps
+    tried.looks.add(LookedAt(tried.looks.now_s + 9, np.array([0.8, 0.0]), np.array([1.0, 1.0])))
+    for later in (9.1, 9.2, 9.3):
+        nothing = LookedAt(tried.looks.now_s + later, np.zeros(2), np.array([1.0, 1.0]))
+        tried.looks.add(nothing)
+    before = len(tried.looks.triggers)
 
-    qtbot.mousePress(bar, Qt.MouseButton.LeftButton, pos=start)
-    while bar.value() / 100 <= certainty and bar.value() < 95:
-        start += QPoint(4, 0)
-        qtbot.mouseMove(bar, start)
-    assert all(one.certainty > certainty for one in tried.looks.triggers)
-    assert trained.editor.history.undo_label == before
-    qtbot.mouseRelease(bar, Qt.MouseButton.LeftButton, pos=start)
+    def at(share: float) -> QPoint:
+        x = groove.left() + groove.width() * share
+        return QPoint(round(x), round(groove.center().y()))
 
-    assert trained.gestures["karate"].certainty == bar.value() / 100 > 0.75
+    qtbot.mousePress(bar, Qt.MouseButton.LeftButton, pos=at(0.75))
+    qtbot.mouseMove(bar, at(0.85))
+    qtbot.mouseMove(bar, at(0.9))
+    assert len(tried.looks.triggers) == before - 1
+    assert tried.meaning.text().startswith("Karate: Caught ")
+    assert trained.editor.history.steps == steps
+    qtbot.mouseRelease(bar, Qt.MouseButton.LeftButton, pos=at(0.9))
+
+    assert abs(trained.gestures["karate"].certainty - 0.9) <= 0.02
+    assert trained.editor.history.steps == steps + 1
     assert trained.editor.history.undo_label == "set a recognition point"
     trained.editor.history.undo()
     trained.refresh()
@@ -186,7 +193,7 @@ def test_nobody_listens_while_nobody_looks(tried: TryOut) -> None:
 def test_a_damaged_recogniser_is_told(trained: TrainerDesk, try_out: TryOut, qtbot: QtBot) -> None:
     from msgspec.structs import replace
 
-    trained.change("train", [keep_recogniser(replace(shipped_recogniser(), file="bm9uZQ=="))])
+    trained.change("train", [keep_recogniser(replace(small_recogniser(), file="bm9uZQ=="))])
 
     qtbot.waitUntil(lambda: try_out.problem is not None)
 
@@ -196,7 +203,7 @@ def test_a_damaged_recogniser_is_told(trained: TrainerDesk, try_out: TryOut, qtb
 
 def looks_with(*certainties: tuple[float, float]) -> Looks:
     """Looks at two gestures, a tenth of a second apart."""
-    found = Looks([one for one in shipped_model().gestures if one.name in GESTURES])
+    found = Looks(small_model().gestures)
     for at, pair in enumerate(certainties):
         found.add(LookedAt(10 + at / 10, np.array(pair), np.array([1.0, 1.0])))
     return found
@@ -229,17 +236,17 @@ def test_the_band_holds_a_take_of_its_gesture_better_than_one_of_another() -> No
         recording = perform(made, 0, 5)
         [(_, start_s, end_s)] = spans_of(recording)
         movement = samples_of(recording).between(start_s, end_s)
-        band = band_of(shipped_model(), "karate", movement, gravity_included=True)
+        band = band_of(small_model(), "karate", movement, gravity_included=True)
         shares[made] = band.share_inside
-        assert band.kinds == ("body", "rotation", "gravity")
-        assert len(band.columns("rotation")) == 3
+        assert band.kinds == ("body", "gravity")
+        assert len(band.columns("gravity")) == 3
         assert "%" in in_words(band, "Karate")
 
     assert shares["karate"] > shares["katana"] + 0.1
 
 
 def test_without_a_movement_the_band_alone_is_shown() -> None:
-    band = band_of(shipped_model(), "katana", None, gravity_included=True)
+    band = band_of(small_model(), "katana", None, gravity_included=True)
 
     assert band.live is None
     assert "Make the gesture" in in_words(band, "Katana")

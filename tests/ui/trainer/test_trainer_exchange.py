@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pytestqt.qtbot import QtBot
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import Message

@@ -98,6 +98,21 @@ def test_a_take_is_left_out_trimmed_and_both_can_be_undone(
     assert undone(desk) == "leave out a take"
 
 
+def test_a_take_is_never_trimmed_into_the_one_beside_it(
+    desk: TrainerDesk, keeping: Keeping
+) -> None:
+    name = keeping.new_gesture("Wave")
+    first, second, third = keep(keeping, name, (1, 2), (3, 4), (5, 6))
+
+    keeping.trim_take(second, 0.0, 8.0)
+
+    takes = {take.id: take for take in desk.gestures[name].takes}
+    assert takes[first].end_s < takes[second].start_s < takes[second].end_s
+    assert takes[second].end_s < takes[third].start_s
+    keeping.trim_take(third, 5.9, 6.0)
+    assert desk.find_take(third)[1] == takes[third]
+
+
 def test_people_are_renamed_and_deleted_with_what_they_recorded(
     desk: TrainerDesk, keeping: Keeping
 ) -> None:

@@ -2,52 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
 from PySide6.QtGui import QAction, QDropEvent
 from PySide6.QtWidgets import QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.trainer.desk import TrainerDesk
 from nep_studio.ui.trainer.hint import hint_words, next_step
 from nep_studio.ui.trainer.page import TrainerPage
-from nep_studio.ui.trainer.panel import TrainerPanel, add_trainer_panel
 from nep_studio.ui.trainer.shape import shape_for
 from nep_studio.ui.trainer.takes_list import TAKES_MIME
 from tests.ui.trainer.test_trainer_desk import samples
 from tests.ui.trainer.trainer_data import rest, takes
-
-
-@pytest.fixture
-def panel(window: MainWindow) -> TrainerPanel:
-    window.resize(1500, 1000)
-    if window.files.document is None:
-        window.files.new()
-    return window.workbench.findChild(TrainerPanel) or add_trainer_panel(window)
-
-
-@pytest.fixture
-def page(
-    panel: TrainerPanel, window: MainWindow, clock, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[TrainerPage]:
-    monkeypatch.setattr("nep_studio.ui.trainer.results.training.Training.warm", lambda _self: None)
-    window.workbench.panels.show(panel)
-    made = panel.opened()
-    made.training.trains_by_itself = False
-    made.desk.now = clock
-    qtbot.waitUntil(made.isVisible)
-    yield made
-    made.session.cancel()
-    made.training.close()
-
-
-@pytest.fixture
-def desk(page: TrainerPage) -> TrainerDesk:
-    """The desk of the page, which ``push`` lets hear."""
-    return page.desk
 
 
 def with_takes(page: TrainerPage, title: str, count: int = 3) -> str:
@@ -64,14 +32,6 @@ def choose(menu: QMenu, words: str) -> None:
     assert entries, [one.text() for one in menu.actions()]
     entries[0].trigger()
     menu.deleteLater()
-
-
-def test_the_panel_is_empty_until_it_is_shown(panel: TrainerPanel, window: MainWindow) -> None:
-    assert panel.page is None
-
-    window.workbench.panels.show(panel)
-
-    assert panel.page is not None
 
 
 def test_from_the_name_to_five_takes_with_keys_alone(
@@ -114,8 +74,6 @@ def test_without_a_watch_record_says_what_is_missing(page: TrainerPage, qtbot: Q
 
 
 def test_the_connect_button_asks_for_a_watch(page: TrainerPage, qtbot: QtBot) -> None:
-    page.connect_asked.disconnect()
-
     with qtbot.waitSignal(page.connect_asked):
         qtbot.mouseClick(page.head.watch.button, Qt.MouseButton.LeftButton)
 
@@ -223,10 +181,10 @@ def test_a_name_is_typed_on_the_card(page: TrainerPage, desk: TrainerDesk, qtbot
 
 
 def test_the_chip_is_dragged_onto_the_canvas_and_a_click_adds_the_block(
-    page: TrainerPage, window: MainWindow, qtbot: QtBot
+    page: TrainerPage, canvas: Canvas, qtbot: QtBot
 ) -> None:
     name = with_takes(page, "Wave")
-    chip, canvas = page.cards.cards[name].chip, window.workbench.canvas
+    chip = page.cards.cards[name].chip
     start, viewport = chip.rect().center(), canvas.viewport()
     target = chip.mapFromGlobal(viewport.mapToGlobal(QPoint(120, 100)))
 
@@ -255,7 +213,7 @@ def test_people_are_added_renamed_and_deleted(
     wearer.add_person("Ana")
     assert desk.person == "Ana"
     with_takes(page, "Blow")
-    assert [wearer.person.itemText(row) for row in range(wearer.person.count())] == ["Ana"] + ["Me"]
+    assert [wearer.person.itemText(row) for row in range(wearer.person.count())] == ["Ana", "Me"]
     wearer.wrist.setCurrentIndex(2)
     wearer.wrist.activated.emit(2)
     assert desk.wrist == "hand"
@@ -341,15 +299,3 @@ def test_forty_gestures_with_twenty_takes_are_shown_at_once(
 
     assert len(page.cards.cards) == 40
     assert len(page.cards._pictures._kept) < 200  # only those in view were painted
-
-
-def test_without_a_project_the_page_says_what_to_do(
-    page: TrainerPage, window: MainWindow, desk: TrainerDesk
-) -> None:
-    window.files.document.editor.history.drop(0)
-    window.files._show(None)
-    page.cards.refresh()
-
-    assert next_step(desk) == ("project", "")
-    assert not page.cards.new_button.isEnabled()
-    assert not page.bar.everyday.isEnabled()

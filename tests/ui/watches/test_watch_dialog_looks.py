@@ -47,6 +47,25 @@ def test_a_code_is_drawn_in_whole_pixels_black_on_white(qtbot: QtBot, qapp: QApp
     Look(qapp, "light")
 
 
+def test_an_open_dialog_follows_the_theme(
+    qtbot: QtBot, qapp: QApplication, runner: RecordingRunner
+) -> None:
+    look = Look(qapp, "light")
+    made = WatchDialog(runner, Plan("watch"), TOKEN, look, None, lambda: [ADDRESS])
+    qtbot.addWidget(made)
+    made.begin()
+    [picture, *_] = made.choosing.cards["phone_page"].findChildren(QLabel)
+    before = picture.pixmap().toImage()
+
+    look.choose("dark")
+
+    assert picture.pixmap().toImage() != before
+    made.show_way("sensor_logger")
+    look.choose("light")
+    assert picture.pixmap().toImage() == before
+    made.close()
+
+
 @pytest.mark.parametrize("theme", themes())
 @pytest.mark.parametrize("scale", [1.0, 2.0])
 def test_no_button_of_it_is_cut_off_in_any_look(

@@ -66,6 +66,33 @@ def headline(findings: Findings) -> str:
     )
 
 
+def false_triggers(findings: Findings, *, is_simulated: bool) -> str:
+    """How often everyday movement was taken for a gesture; ``is_simulated``: by nobody real."""
+    if not findings.everyday_s or not findings.is_checked:
+        return ""
+    minutes, count = max(1, round(findings.everyday_s / 60)), findings.everyday_triggers
+    rate = _rounded(count * HOUR_S / findings.everyday_s)
+    if is_simulated and not count:
+        return tr(
+            "No false trigger in {minutes} min of everyday movement of simulated people",
+            minutes=minutes,
+        )
+    if is_simulated:
+        return tr(
+            "About {rate} false triggers an hour, in {minutes} min of everyday movement of"
+            " simulated people",
+            rate=rate,
+            minutes=minutes,
+        )
+    if not count:
+        return tr("No false trigger in {minutes} min of everyday movement", minutes=minutes)
+    return tr(
+        "About {rate} false triggers an hour, in {minutes} min of everyday movement",
+        rate=rate,
+        minutes=minutes,
+    )
+
+
 def _too_few_to_check(findings: Findings, known: Known) -> Iterator[Advice]:
     for name, count in findings.takes.items():
         if count < 2:

@@ -10,15 +10,9 @@ from nep_core.errors import RecordingError
 from nep_studio.ui.panels.sensors.ring import Floats
 from nep_studio.ui.trainer.live import Samples
 from nep_studio.ui.words import tr
-from nodes.perceptual.recognition.features import (
-    POINTS,
-    Channels,
-    Integers,
-    cut_windows,
-    signals_of,
-)
+from nodes.perceptual.recognition.features import POINTS, Integers, Singles, cut_windows
 from nodes.perceptual.recognition.gmr import Gmr
-from nodes.perceptual.recognition.model import Model
+from nodes.perceptual.recognition.model import Model, Recogniser
 from nodes.perceptual.recognition.stream import EvenStream
 
 WIDE = 2.0
@@ -97,27 +91,28 @@ def band_of(
         return None
     number, curves = model.names.index(gesture), recogniser.scorer.curves
     mean, spread = curves.expected(number)
-    channels, live = recogniser.channels, None
+    live = None
     if movement is not None:
-        signals = _windows(movement, channels, model.lengths[model.fits[:, number]])
+        signals = _windows(movement, recogniser, model.lengths[model.fits[:, number]])
         if len(signals):
-            live = signals[curves.distances(signals.astype(np.float32))[:, number].argmin()]
-    return Band(gesture, channels.signal_names, mean, spread, live)
+            live = signals[curves.distances(signals)[:, number].argmin()].astype(float)
+    return Band(gesture, recogniser.channels.signal_names, mean, spread, live)
 
 
-def _windows(movement: Samples, channels: Channels, lengths: Integers) -> Floats:
+def _windows(movement: Samples, recogniser: Recogniser, lengths: Integers) -> Singles:
     """All windows of a movement as the recogniser sees them; (n, 32, signals)."""
+    channels = recogniser.channels
     parts = [movement.acc] if movement.gyr is None else [movement.acc, movement.gyr]
     values = np.hstack(parts)[:, : channels.columns]
     stretches = list(EvenStream().push(movement.t, values))
     rows = max((one.values for one in stretches), key=len, default=values[:0])
     if len(rows) < _LEAST_SAMPLES:
-        return np.empty((0, POINTS, channels.signals))
+        return np.empty((0, POINTS, channels.signals), np.float32)
     usable = lengths[lengths <= len(rows)]
     sizes = usable if len(usable) else np.array([len(rows)])
     pairs = [(last, size) for size in sizes.tolist() for last in range(size - 1, len(rows), _STEP)]
     last, length = np.array(pairs, np.intp).T
-    return signals_of(cut_windows(rows, last, length), channels)
+    return recogniser.windows(cut_windows(rows, last, length), length).signals
 
 
 def kind_words(kind: str) -> str:

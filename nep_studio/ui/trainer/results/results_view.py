@@ -12,7 +12,7 @@ from nep_studio.problems import Problem
 from nep_studio.ui.messages import Message
 from nep_studio.ui.messages_card import MessageText
 from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.results.advice import advice_on, headline
+from nep_studio.ui.trainer.results.advice import advice_on, false_triggers, headline
 from nep_studio.ui.trainer.results.advice_list import AdviceList
 from nep_studio.ui.trainer.results.advice_parts import Advice, Known, takes_of_pair
 from nep_studio.ui.trainer.results.confusion_view import ConfusionView
@@ -50,6 +50,7 @@ class ResultsView(QWidget):
         self.desk, self.training, self.tuning = desk, training, training.tuning
         self.bar = TrainBar(training, desk.look)
         self.headline = Words(role="heading")
+        self.everyday = Words(role="hint")
         self.advice = AdviceList(desk.look)
         self.method = QComboBox()
         self.table = ConfusionView(self._title, desk.look)
@@ -73,7 +74,7 @@ class ResultsView(QWidget):
             "Rows are what was made, columns what was recognised. Press a number to see its takes."
         )
         point = tr("How certain it must be before a gesture counts as made.")
-        self.found.add(self.headline, self.advice)
+        self.found.add(self.headline, self.everyday, self.advice)
         self.found.add_beside(
             Words(tr("What was taken for what"), "heading"),
             self.method,
@@ -126,10 +127,13 @@ class ResultsView(QWidget):
         if findings is None:
             self.advice.show_advice(())
             return
+        known = self._known()
         self.headline.setText(headline(findings))
+        self.everyday.setText(false_triggers(findings, is_simulated=not known.everyday_s))
+        self.everyday.setVisible(bool(self.everyday.text()))
         remarks = [one for one in self.training.remarks if not _TOLD_BY_ADVICE.search(one)]
         told = [Advice("tip", tr(remark)) for remark in remarks]
-        self.advice.show_advice([*advice_on(findings, self._known()), *told])
+        self.advice.show_advice([*advice_on(findings, known), *told])
 
     def _known(self) -> Known:
         everyday = (one.seconds for one in self.desk.recordings.values() if one.everyday)

@@ -246,7 +246,7 @@ class Training(QObject):
     def _on_ended(self, why: str) -> None:
         if self.is_training:
             self._fail(worker_ended(why))
-        elif not self.problem:
+        elif not self._worker.was_ready:  # else the next training starts another one
             self.problem = worker_ended(why)
             self.changed.emit()
 

@@ -30,6 +30,8 @@ class Worker(QObject):
     def __init__(self, command: Callable[[], Sequence[str]], parent: QObject) -> None:
         super().__init__(parent)
         self.is_ready = False
+        self.was_ready = False
+        """Whether the process, or the one before it, had loaded what it needs."""
         self._command = command
         self._process: QProcess | None = None
         self._begun = b""
@@ -44,6 +46,7 @@ class Worker(QObject):
         """Start a process where there is none."""
         if self._process is not None:
             return
+        self.was_ready = False
         process = self._process = QProcess(self)
         process.readyReadStandardOutput.connect(partial(self._on_output, process))
         process.finished.connect(partial(self._on_finished, process))
@@ -82,7 +85,7 @@ class Worker(QObject):
 
     def _tell(self, said: Line) -> None:
         if isinstance(said, Ready):
-            self.is_ready = True
+            self.is_ready = self.was_ready = True
         self.told.emit(said)
 
     def _on_finished(self, process: QProcess, code: int, _status: QProcess.ExitStatus) -> None:
