@@ -23,7 +23,7 @@ _RATE_HZ = 32.0
 _PEOPLE = [number for number in range(200, 216) if number % 10 != 9]  # right-handed, as theirs
 _TAKES = 3
 _PHASES = (0.02, 0.25, 0.5, 0.75, 0.98)
-_GOALS = {"correlation": 0.85, "gravity angle": 30.0, "order of peaks": 0.6}
+_GOALS = {"correlation": 0.9, "gravity angle": 20.0, "order of peaks": 0.6}
 
 
 def run() -> list[dict[str, Any]]:

@@ -35,6 +35,8 @@ LONGEST_S = 3600.0
 LARGEST_RECOGNISER_TEXT = 7_000_000
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 _ID = re.compile(r"[A-Za-z0-9_]{1,40}")
+_NO_GESTURE = frozenset(("none", "nothing"))
+"""In a recording these words stand for no gesture, so none can have them as its name."""
 
 
 class OwnTake(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -156,7 +158,7 @@ def free_gesture_name(title: str, taken: Container[str]) -> str:
     name = re.sub(r"[^a-z0-9]+", "_", letters).strip("_")[:32].strip("_")
     name = name if name[:1].isalpha() else f"gesture_{name}"[:32].rstrip("_")
     number, found = 2, name
-    while found in taken:
+    while found in taken or found in _NO_GESTURE:
         found, number = f"{name}_{number}", number + 1
     return found
 

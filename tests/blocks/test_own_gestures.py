@@ -120,6 +120,7 @@ def test_only_gestures_that_are_still_there_count_as_learned(editor):
         ("Wave", ("wave", "wave_2"), "wave_3"),
         ("空手", (), "gesture"),
         ("3 claps", (), "gesture_3_claps"),
+        ("Nothing", (), "nothing_2"),
     ],
 )
 def test_a_title_becomes_a_name_that_no_other_gesture_has(title, taken, name):

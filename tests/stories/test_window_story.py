@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtWidgets import QPushButton, QWidget
+from PySide6.QtWidgets import QDialog, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core import messages as m
@@ -48,7 +48,7 @@ class Newcomer(Person):
         """Look at the window; a picture is kept where they are collected."""
         self._step += 1
         if self._folder:
-            dialogs = [one for one in self.window.findChildren(NeedsDialog) if one.isVisible()]
+            dialogs = [one for one in self.window.findChildren(QDialog) if one.isVisible()]
             shown = dialogs[0] if dialogs else self.window
             shown.grab().save(str(Path(self._folder) / f"story-{self._step}-{name}.png"))
 

@@ -68,7 +68,8 @@ class ListInterface(QAccessibleInterface):
         if kind == QAccessible.Text.Name:
             return self.widget.accessibleName()
         if kind == QAccessible.Text.Description:
-            return tr("Arrow keys choose, Enter inserts, typing searches.")
+            own = self.widget.accessibleDescription()
+            return own or tr("Arrow keys choose, Enter inserts, typing searches.")
         return ""
 
     def setText(self, kind: QAccessible.Text, text: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
@@ -43,7 +44,6 @@ class HintLine(QWidget):
         self.button.clicked.connect(lambda: self.asked.emit(*next_step(desk)))
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self.refresh)
-        self._looking.start()  # whether a watch is heard changes without anybody telling
         desk.changed.connect(self.refresh)
         desk.sources_changed.connect(self.refresh)
         desk.look.theme_changed.connect(self._dress)
@@ -59,6 +59,17 @@ class HintLine(QWidget):
         if pressed != self.button.text():
             self.button.setText(pressed)
         self.button.setVisible(bool(pressed))
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Look on: whether a watch is heard changes without anybody telling."""
+        super().showEvent(event)
+        self._looking.start()
+        self.refresh()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Nobody looks."""
+        super().hideEvent(event)
+        self._looking.stop()
 
     def _dress(self) -> None:
         theme, line = self._desk.look.theme, self.fontMetrics().height()

@@ -154,8 +154,10 @@ class TrainerPage(QWidget):
         self.strip.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _on_ended(self, session: Session) -> None:
-        if keep_session(self.keeping, session):
-            self.cards.show_card(session.gesture)
+        if session.takes and not keep_session(self.keeping, session):
+            self.bar.tell(tr("The takes could not be kept. Is the gesture still there?"))
+            return
+        self.cards.show_card(session.gesture)
         self.bar.tell(session_words(session))
 
     def _on_everyday_ended(self, samples: Samples) -> None:

@@ -58,6 +58,7 @@ class _Run:
     source: str
     wanted: float
     finder: MovementFinder = field(default_factory=MovementFinder)
+    editor: object = None
     parts: list[Samples] = field(default_factory=list)
     movements: list[Movement] = field(default_factory=list)
     start_s: float = 0.0
@@ -92,6 +93,7 @@ class TakeSession(QObject):
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self._on_look)
         desk.heard.connect(self._on_heard)
+        desk.changed.connect(self._on_project_changed)
 
     # What is going on
 
@@ -173,7 +175,7 @@ class TakeSession(QObject):
         live = self._desk.live
         if self.is_on or live is None or not self._desk.is_hearing:
             return False
-        self._run = _Run(gesture, live.source, wanted)
+        self._run = _Run(gesture, live.source, wanted, editor=self._desk.editor)
         self.state, self.count = "countdown", COUNTED_FROM
         self._counting.start()
         self._looking.start()
@@ -228,6 +230,11 @@ class TakeSession(QObject):
             self.changed.emit()
         if run.taken >= run.wanted:
             self._end("complete")
+
+    def _on_project_changed(self) -> None:
+        """What is recorded for a project is nothing for another one."""
+        if self._desk.editor is not self._run.editor:
+            self.cancel()
 
     def _is_another(self) -> bool:
         return self._desk.live is None or self._desk.live.source != self._run.source

@@ -55,6 +55,9 @@ class TakesList(QWidget):
         policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
+        self.setAccessibleDescription(
+            tr("Arrow keys choose a take, Enter looks at it, Delete deletes it.")
+        )
         make_list_accessible(self, self)
         desk.take_chosen.connect(self._on_take_chosen)
         desk.look.theme_changed.connect(self._on_take_chosen)

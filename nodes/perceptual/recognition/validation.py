@@ -193,6 +193,5 @@ def _usual_scores(
             best[take.gesture].append(_best_near(found, take, column))
     every = [value for values in best.values() for value in values]
     middle = float(np.median(every)) or UNCHECKED_SCORE
-    own = np.array([np.median(values) if values else middle for values in best.values()])
-    usual: Floats = np.maximum(own, middle / 4) ** _OWN * USUAL_SCORE ** (1 - _OWN)
+    usual: Floats = np.full(len(gestures), middle**_OWN * USUAL_SCORE ** (1 - _OWN))
     return usual

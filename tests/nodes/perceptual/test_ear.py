@@ -163,7 +163,7 @@ def halves(session):
 @pytest.mark.real_data
 def test_real_people_are_understood_at_every_rate(shared_data):
     sessions = [one for one in read_recordings(shared_data / "uhh_gestures") if one.person == "j"]
-    chosen = [one for one in sessions if {*one.labels} & {"left", "shake_ud", "turn_right"}]
+    chosen = [one for one in sessions if {*one.labels} & {"left", "shake_ud"}]
     parts = [list(halves(one)) for one in chosen]
     model = train([first for first, _ in parts], (), ["gmr"])
 
@@ -178,10 +178,8 @@ def test_real_people_are_understood_at_every_rate(shared_data):
             caught, made = caught + tally.right, made + tally.made
         return caught / made
 
-    found = [recall(rate_hz) for rate_hz in (100, 50, 25, 16)]
-    assert min(found[:3]) >= 0.75, found
-    assert found[3] >= 0.5, found
-    assert recall(100, 16, 50, 25) >= 0.65
+    found = [recall(100), recall(16), recall(100, 16, 50, 25)]
+    assert min(found) >= 0.8, found
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
 from PySide6.QtGui import QAction, QDropEvent
@@ -299,3 +301,60 @@ def test_forty_gestures_with_twenty_takes_are_shown_at_once(
 
     assert len(page.cards.cards) == 40
     assert len(page.cards._pictures._kept) < 200  # only those in view were painted
+
+
+def test_a_recording_ends_with_its_project_and_says_when_its_gesture_is_gone(
+    page: TrainerPage, desk: TrainerDesk, push
+) -> None:
+    name = page.keeping.new_gesture("Wave")
+    push(*rest(2.0))
+    page.record(name)
+    page.session.skip_countdown()
+    push(*takes(2))
+
+    page.keeping.delete_gesture(name)
+    page.record_or_stop()
+    assert page.bar.words.text().startswith("The takes could not be kept.")
+
+    again = page.keeping.new_gesture("Wave")
+    page.cards.refresh()
+    page.record(again)
+    desk.files.new()
+    assert not page.session.is_on
+    assert not desk.recordings
+
+
+def test_the_menu_with_more_imports_exports_and_beeps(page: TrainerPage) -> None:
+    class Asked:
+        """Notes what was asked for."""
+
+        def __init__(self) -> None:
+            self.asked: list[str] = []
+
+        def choose_file(self, *_what: object) -> None:
+            self.asked.append("file")
+
+        def choose_folder(self, *_what: object) -> None:
+            self.asked.append("folder")
+
+        def choose_place(self, *_what: object) -> None:
+            self.asked.append("place")
+
+    page.exchange.files = Asked()
+    page.desk.files.document.folder, page.desk.files.document.title = "", "Mine"
+    page.exchange._folder = lambda: Path()
+    assert [is_possible for *_, is_possible in page.exchange.entries()] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+    with_takes(page, "Wave")
+
+    for _sign, _words, do, is_possible in page.exchange.entries():
+        assert is_possible
+        do()
+    page._on_beep_chosen(True)
+
+    assert page.exchange.files.asked == ["file", "folder", "folder", "place"]
+    assert page.beeps

@@ -19,4 +19,4 @@ def test_gravity_points_where_it_did_for_the_authors(shared_data, gesture, end):
     )
 
     cosine = ours @ theirs / np.linalg.norm(ours) / np.linalg.norm(theirs)
-    assert np.degrees(np.arccos(cosine)) < 35
+    assert np.degrees(np.arccos(cosine)) < 25
