@@ -38,13 +38,14 @@ def rows_of(
     notes: Sequence[str],
 ) -> list[Row]:
     """All figures, and what was left out."""
-    rows = [_row(f"left out: {note}", None, "") for note in notes]
+    rows = [_row(f"note: {note}", None, "") for note in notes]
     if folder is not None:
         rows += _about(folder)
         best = at_best(scores)
         for score in best:
             if score.sensor == CLEAN:
                 rows += _clean_rows(folder.name, score, best)
+                rows += _calm_rows(folder.name, score, scores)
         rows += [row for score in best for row in _other_rows(folder.name, score)]
     return rows + [row for score in figure for row in _figure_rows(score)]
 
@@ -64,7 +65,10 @@ def as_data(
         "simulated": folder.is_simulated if folder else True,
         "everyday_s": round(idle_s, 1),
         "notes": list(notes),
-        "scores": [_score_data(score) for score in at_best(scores)],
+        "scores": [
+            _score_data(score) | {"f1_when_calm": _f1_when_calm(score, scores)}
+            for score in at_best(scores)
+        ],
         "simulated_figure": [_score_data(score) for score in figure],
     }
 
@@ -85,7 +89,9 @@ def _worth(score: Score) -> tuple[float, int]:
 
 def _about(folder: Folder) -> Iterator[Row]:
     kind = "simulated people" if folder.is_simulated else "people"
-    who = f"{folder.name}: {len(folder.people)} {kind}, {len(folder.gestures)} gestures"
+    count = len(folder.people)
+    people = kind if count != 1 else kind.replace("people", "person")
+    who = f"{folder.name}: {count} {people}, {len(folder.gestures)} gestures"
     sessions = [one for every in folder.people.values() for one in every]
     minutes = sum(float(one.t[-1]) for one in sessions) / 60
     yield _row(f"{who}: their streams", round(minutes, 2), "minutes")
@@ -117,6 +123,25 @@ def _clean_rows(name: str, score: Score, best: Sequence[Score]) -> Iterator[Row]
         yield _row(f"{who}: false triggers", score.false_a_minute, "a minute", at_most=most)
     if score.accuracy is not None:
         yield _row(f"{who}: told apart when cut out", score.accuracy, "of gestures")
+
+
+def _calm_rows(name: str, score: Score, scores: Sequence[Score]) -> Iterator[Row]:
+    """A reference at another threshold: with no more false triggers than are allowed to ours."""
+    f1 = _f1_when_calm(score, scores)
+    if score.method in REFERENCES and f1 is not None:
+        most = f"at most {MOST_FALSE_A_MINUTE:g} false triggers a minute"
+        yield _row(f"{name}: {score.trial}, {score.method} ({most}): F1", f1, "")
+
+
+def _f1_when_calm(score: Score, scores: Sequence[Score]) -> float | None:
+    """The best F1 of all thresholds with no more false triggers than are allowed."""
+    same = (one for one in scores if one.key[:3] == score.key[:3])
+    calm = [
+        one.tally.f1
+        for one in same
+        if one.false_a_minute is not None and one.false_a_minute <= MOST_FALSE_A_MINUTE
+    ]
+    return round(max(calm), 4) if calm else None
 
 
 def _other_rows(name: str, score: Score) -> Iterator[Row]:

@@ -204,6 +204,20 @@ def test_goals_are_for_ours_and_a_reference_is_named_with_its_threshold(folder, 
     assert "goal" not in by_name[f"{name}, DTW 1-NN (best threshold 0.6): F1"]
 
 
+def test_a_reference_is_also_told_with_no_more_false_triggers_than_ours_may_have(folder, idle):
+    good = Tally((("karate", "karate"),))
+    half = Tally((("karate", "karate"), ("karate", "")))
+    loose = Score("other people", trials.WARPING, CLEAN, 0.5, good, false=3, idle_s=60.0)
+    strict = replace(loose, threshold=0.6, tally=half, false=0)
+
+    rows = rows_of(read_gesture_folder(folder), [loose, strict], [], [])
+
+    values = {row["name"].partition(": ")[2]: row["value"] for row in rows}
+    assert values["other people, DTW 1-NN (best threshold 0.5): F1"] == 1.0
+    calm = "other people, DTW 1-NN (at most 0.1 false triggers a minute): F1"
+    assert values[calm] == 0.667
+
+
 def test_the_data_for_programs_counts_every_pair(folder):
     score = Score("personal", "trees", CLEAN, 0.75, Tally((("a", "a"), ("a", "a"), ("", "b"))))
 

@@ -59,7 +59,8 @@ def _cut(whole: Recording, start_s: float, end_s: float) -> Recording:
     t = whole.t[inside]
     step_s = float(np.median(np.diff(whole.t)))
     still = np.zeros((round(REST_S / step_s), 3))
-    acc = np.vstack([still, whole.acc[inside], still]) + [0.0, 0.0, 9.80665]
+    acc = np.vstack([still, whole.acc[inside], still])
+    acc[:, 2] += 9.80665
     assert whole.gyr is not None
     gyr = np.vstack([still, whole.gyr[inside], still])
     times = np.arange(len(acc)) * step_s

@@ -40,7 +40,8 @@ class Runner(QObject):
 
     ``arrived`` gives (topic, message) pairs of what was heard, at most 30 times a second;
     ``node_failed`` the NepError of a node that could not be started by hand; ``master_changed``
-    what became of a master that ended unexpectedly (a MasterEvent), and how it ended.
+    what became of a master that ended unexpectedly (a MasterEvent), and how it ended; ``closing``
+    that all is about to end.
     """
 
     state_changed = Signal(str)
@@ -52,6 +53,7 @@ class Runner(QObject):
     ended = Signal(object)
     node_failed = Signal(str, object)
     master_changed = Signal(str, str)
+    closing = Signal()
     _came_up = Signal()
 
     def __init__(
@@ -190,6 +192,7 @@ class Runner(QObject):
     def close(self) -> None:
         """Stop everything and wait for it; before the window goes. Nothing starts after it."""
         self._is_closed = True
+        self.closing.emit()
         if self.play is not None:
             self.play.end()
             self.play.wait()

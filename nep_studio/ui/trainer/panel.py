@@ -79,7 +79,10 @@ def _page(window: MainWindow) -> TrainerPage:
     from nep_studio.ui.watches.adding import open_watches
 
     desk = desk_of(window)
-    training = desk.findChild(Training) or Training(desk, desk)
+    training = desk.findChild(Training)
+    if training is None:
+        training = Training(desk, desk)
+        desk.runner.closing.connect(training.close)
     page = TrainerPage(desk, training, window.workbench.canvas)
     page.connect_asked.connect(lambda: open_watches(window))
     return page

@@ -8,10 +8,14 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
+import numpy as np
+
+from nep_core.errors import RecordingError
 from nep_core.messages import Wrist
 from nodes.perceptual.recognition.everyday import simulated_everyday
 from nodes.perceptual.recognition.model import Model, Sensor
 from nodes.perceptual.recognition.passages import UNKNOWN, takes_of
+from nodes.perceptual.recognition.stream import MAX_GAP_S
 from nodes.perceptual.recognition.training import train
 from nodes.perceptual.recognition.wrist import mirrored
 from nodes.recordings import Recording, read_recordings
@@ -20,6 +24,7 @@ EVERYDAY = "everyday"
 """The folder, in a folder of recordings, for those of movement without gestures."""
 LEAST_TAKES = 3
 _MOST_SENSORS = 20
+_LEAST_NOTHING_S = 3.0
 
 
 @dataclass(frozen=True)
@@ -76,8 +81,31 @@ def learn(
     tell: Callable[[str], None] = lambda progress: None,
 ) -> Model:
     """The model of the gestures in the material; RecordingError says why there can be none."""
+    _check_pauses(material)
     model = train(material.recordings, material.everyday, methods, tell=tell)
     return replace(model, wrist=material.wrist, sensors=_sensors(material.recordings))
+
+
+def _check_pauses(material: Material) -> None:
+    every = (*material.recordings, *material.everyday)
+    if sum(_nothing_s(one) for one in every) < _LEAST_NOTHING_S:
+        raise RecordingError(
+            "There is hardly anything but gestures in the recordings: to know a gesture is to know"
+            " what is none, too.",
+            checklist=(
+                "Keep a second of rest before and after each gesture in the recording.",
+                f"Or put recordings of everyday movement into the folder {EVERYDAY}.",
+            ),
+        )
+
+
+def _nothing_s(recording: Recording) -> float:
+    """For how long a recording has no gesture in it, in s."""
+    steps_s = np.minimum(np.diff(recording.t), MAX_GAP_S)
+    if recording.labels is None:
+        return float(steps_s.sum())
+    is_nothing = np.array([not label for label in recording.labels])
+    return float(steps_s[is_nothing[1:]].sum())
 
 
 def _without_gestures(recording: Recording) -> Recording:

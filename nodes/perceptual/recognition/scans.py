@@ -15,13 +15,14 @@ from nodes.perceptual.recognition.features import (
     cut_windows,
     describe,
 )
-from nodes.perceptual.recognition.passages import Passage, Take
+from nodes.perceptual.recognition.passages import LONGEST_S, SHORTEST_S, Passage, Take
 from nodes.perceptual.recognition.stream import RATE_HZ, Floats
 
 HOP = 4
 """Samples between two looks at the stream: 80 ms."""
 WINDOW_LENGTHS = 8
 _SHORTER, _LONGER = 0.7, 1.2
+_FASTER, _SLOWER = 0.85, 1.25  # the takes of people who have not been recorded
 
 
 @dataclass(frozen=True)
@@ -67,13 +68,18 @@ class Scan:
         return overlap
 
 
-def gestures_in(takes: Sequence[Take]) -> tuple[Gesture, ...]:
-    """The gestures of the takes, by name."""
+def gestures_in(takes: Sequence[Take], people: int = 1) -> tuple[Gesture, ...]:
+    """The gestures of the takes, by name.
+
+    Who taught together with others teaches for others: these may be slower or faster than any.
+    """
+    slower, faster = (_SLOWER, _FASTER) if people > 1 else (1.0, 1.0)
 
     def described(name: str) -> Gesture:
         durations = [take.duration_s for take in takes if take.gesture == name]
-        low, middle, high = min(durations), float(np.median(durations)), max(durations)
-        return Gesture(name, low, middle, high, len(durations))
+        low = max(min(durations) * faster, SHORTEST_S)
+        high = min(max(durations) * slower, LONGEST_S)
+        return Gesture(name, low, float(np.median(durations)), high, len(durations))
 
     return tuple(described(name) for name in sorted({take.gesture for take in takes}))
 

@@ -45,7 +45,9 @@ def train(
     gravity = all(recording.gravity_included for recording in (*recordings, *everyday))
     passages = passages_of((*recordings, *everyday), gyroscope)
     _check_length(passages)
-    gestures = gestures_in([take for passage in passages for take in passage.takes])
+    people = {passage.person for passage in passages if passage.takes}
+    takes = [take for passage in passages for take in passage.takes]
+    gestures = gestures_in(takes, len(people))
     _check(recordings, gestures)
     lengths = window_lengths(gestures)
     material = _Material([one for one in passages if is_long_enough(one, lengths)], gestures, seed)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.material import learn, read_material
 from nodes.perceptual.recognition.wrist import mirrored
 from nodes.recordings import write_recording
@@ -102,3 +103,20 @@ def test_gestures_that_were_recorded_too_seldom_are_named(tmp_path):
     assert material.remarks == (
         "karate was recorded once only: record it 3 times at least, better 5.",
     )
+
+
+def test_recordings_without_a_pause_are_told(tmp_path, session):
+    first = session.labels.index("karate")
+    end = session.labels.index("", first)
+    part = slice(first, end)
+    cut = replace(
+        session,
+        t=session.t[part] - session.t[first],
+        acc=session.acc[part],
+        gyr=session.gyr[part],
+        labels=session.labels[part],
+    )
+
+    with pytest.raises(RecordingError, match="hardly anything but gestures") as told:
+        learn(read_material(folder_of(tmp_path, cut, cut)), ["trees"])
+    assert told.value.checklist
