@@ -18,7 +18,7 @@ DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 SHORTEST_S, LONGEST_S = 0.2, 8.0
 SLOWEST_HZ = 10.0
 SOMEBODY = "somebody"
-_EVERYDAY_NAMES = ("everyday", "everyday_watch")
+_EVERYDAY = "everyday"
 _SESSION = re.compile(r"(?:[_\- ]*session|[_\- ]s)?[_\- (]*\d+\)?$", re.IGNORECASE)
 _NOT_KNOWN = "?"
 
@@ -62,6 +62,7 @@ def read_gesture_folder(folder: Path, everyday: Path | None = None) -> Folder:
     the folder, beside it, and in the shared data, if no folder is named.
     """
     notes: list[str] = []
+    folder = _with_files(folder)
     sessions = [
         cleaned for one in _readable(_files(folder), notes) for cleaned in _cleaned(one, notes)
     ]
@@ -188,10 +189,28 @@ def _by_person(sessions: Iterator[Recording]) -> dict[str, Sessions]:
 
 
 def _everyday_of(folder: Path) -> Path | None:
-    places = [folder / name for name in _EVERYDAY_NAMES]
-    places += [folder.resolve().parent / name for name in _EVERYDAY_NAMES]
-    places.append(DATA / "everyday_watch")
-    return next((place for place in places if any(place.glob("*.[cC][sS][vV]"))), None)
+    """A folder with a name such as everyday_watch: in this one, beside it, or the shared one."""
+    places = [*_folders_in(folder), *_folders_in(folder.resolve().parent), *_folders_in(DATA)]
+    return next((place for place in places if place.name.startswith(_EVERYDAY)), None)
+
+
+def _folders_in(folder: Path) -> list[Path]:
+    """The folders within that have CSV files."""
+    if not folder.is_dir():
+        return []
+    return sorted(place for place in folder.iterdir() if place.is_dir() and _has_files(place))
+
+
+def _has_files(folder: Path) -> bool:
+    return any(path.suffix.lower() == ".csv" for path in folder.iterdir())
+
+
+def _with_files(folder: Path) -> Path:
+    """The folder, or the only one in it, besides everyday movement, that has CSV files."""
+    if not folder.is_dir() or _has_files(folder):
+        return folder
+    inside = [one for one in _folders_in(folder) if not one.name.startswith(_EVERYDAY)]
+    return inside[0] if len(inside) == 1 else folder
 
 
 def _spans(one: Recording) -> Iterator[tuple[str, int, int]]:

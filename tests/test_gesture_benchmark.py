@@ -65,6 +65,19 @@ def test_a_folder_has_people_their_gestures_and_everyday_movement(folder, idle):
     assert found.notes == ()
 
 
+def test_a_folder_of_folders_is_read_as_that_with_the_gestures(folder, idle, tmp_path):
+    place = tmp_path / "data"
+    (place / "gestures_of_ann").mkdir(parents=True)
+    idle.rename(place / "everyday_watch")
+    for path in folder.glob("*.csv"):
+        path.rename(place / "gestures_of_ann" / path.name)
+
+    found = read_gesture_folder(place)
+
+    assert found.name == "gestures_of_ann"
+    assert [one.source for one in found.everyday] == ["somebody"]
+
+
 def test_the_first_takes_are_learned_from_and_the_rest_of_the_stream_is_tested_on(folder):
     sessions = read_gesture_folder(folder).people["p103"]
 

@@ -18,6 +18,7 @@ from nodes.perceptual.recognition.spotting import Spotter
 from nodes.resources import resource_folder
 
 _MOST_SENSORS = 8
+_LONGEST_NAME = 60
 _FORGOTTEN_S = 10.0
 """A sensor that is silent for so long may give way to another one."""
 _SILENCE_S = 0.3
@@ -160,8 +161,9 @@ class _Ears:
         if is_new and len(self._heard_s) >= _MOST_SENSORS and not self._forget_silent():
             if not self._is_full:
                 self._is_full = True
+                source = batch.source[:_LONGEST_NAME]
                 self._node.warn(
-                    f"{batch.source[:60]} is not heard: {_MOST_SENSORS} watches and phones send"
+                    f"{source} is not heard: {_MOST_SENSORS} watches and phones send"
                     " movement already. Switch off those that nobody wears."
                 )
             return False
@@ -171,13 +173,20 @@ class _Ears:
 
     def _listen_to(self, batch: Imu) -> SensorEar | None:
         make = partial(self._make_spotter, gravity_included=batch.gravity_included)
+        node, source = self._node, batch.source[:_LONGEST_NAME]
         try:
-            ear = SensorEar(batch, self._model, make, self._worn, self._node.warn)
+            ear = SensorEar(batch, self._model, make, self._worn, self._remark, node.warn)
         except RecordingError as error:
-            self._node.warn(" ".join([error.sentence, *error.checklist]))
+            node.warn(" ".join([error.sentence, *error.checklist]))
             return None
-        self._node.state("running", ear.description)
+        if batch.gyr is None:
+            node.state("running", f"listens to {source}, which sends no rotation")
+        else:
+            node.state("running", f"listens to {source}")
         return ear
+
+    def _remark(self, sentence: str) -> None:
+        self._node.state("running", sentence)
 
     def _forget_silent(self) -> bool:
         """Forget the sensor that has been silent for longest, if that was long."""

@@ -18,6 +18,7 @@ _NEAR = 0.35  # how far a usual size may be from gravity's, as a natural logarit
 _FASTEST_TURN_RAD_S = 40.0  # phones and watches measure up to 35 (2,000 °/s)
 _MAGNETIC = (15.0, 0.1)  # a larger size that changes less than this share is the earth's field
 _LONG_S = 0.3  # arrivals over less than this do not tell the unit of time
+_LEAST_SPAN = 1e-9  # no clock counts so little in any unit, and a smaller number may vanish
 _TWICE = 0.8  # as a natural logarithm, with some room: how well the arrivals must fit
 
 
@@ -68,6 +69,8 @@ def _time_unit(column: Sequence[float], arrived_s: Sequence[float]) -> str:
     span, arrived_span_s = column[-1] - column[0], arrived_s[-1] - arrived_s[0]
     if arrived_span_s < _LONG_S:
         return "" if _is_counter(column) else _by_step(median(steps))
+    if not _LEAST_SPAN < span < math.inf:
+        return ""
     errors = {
         unit: abs(math.log(span * unit_s / arrived_span_s)) for unit, unit_s in TIME_UNITS_S.items()
     }

@@ -9,6 +9,7 @@ import numpy as np
 
 from nep_core.errors import ParameterError
 from nodes.perceptual.recognition.passages import Take, takes_of
+from nodes.perceptual.recognition.wrist import usual_wrist, worn_at
 from nodes.recordings import Recording, read_recordings
 from nodes.sensory.arm.gestures import GESTURES, Gesture
 from nodes.sensory.arm.sensor import GRAVITY_M_S2
@@ -69,14 +70,17 @@ class Repertoire:
 def read_repertoire(folder: str) -> Repertoire:
     """The paper's gestures, and those of the recordings in a folder ("" is none).
 
-    RecordingError says which recording cannot be read.
+    What was recorded on the other wrist than most is mirrored, as training does. RecordingError
+    says which recording cannot be read.
     """
     takes: dict[str, list[RecordedTake]] = {}
-    for recording in read_recordings(Path(folder)) if folder else ():
+    found = read_recordings(Path(folder)) if folder else []
+    wrist = usual_wrist(found)
+    for recording in (worn_at(one, wrist) for one in found):
         for take in takes_of(recording):
-            found = recorded_take(recording, take)
-            if found is not None and len(takes.setdefault(take.gesture, [])) < _MOST_TAKES:
-                takes[take.gesture].append(found)
+            made = recorded_take(recording, take)
+            if made is not None and len(takes.setdefault(take.gesture, [])) < _MOST_TAKES:
+                takes[take.gesture].append(made)
     return Repertoire({name: OwnGesture(name, tuple(each)) for name, each in takes.items() if each})
 
 

@@ -87,4 +87,5 @@ def _message(recording: Recording, part: slice, clock_s: float) -> Imu:
         gyr=None if recording.gyr is None else rows(recording.gyr[part]),
         gravity_included=recording.gravity_included,
         simulated=recording.simulated,
+        wrist=recording.wrist,
     )

@@ -36,8 +36,7 @@ class SampleStream:
         self._gyr: Vector | None = None
         self._gyr_t = 0.0
         self._last_t: float | None = None
-        self._sizes: deque[float] = deque(maxlen=_SIZES_OVER)
-        self._gravity_told = True
+        self._gravity = _GravitySign()
         self._arrived_s: float | None = None
         self.flow = Flow()
 
@@ -49,8 +48,7 @@ class SampleStream:
     @property
     def gravity_included(self) -> bool:
         """Whether the sensor feels gravity: told by the sender, and usually near 9.81 m/s²."""
-        usual = sorted(self._sizes)[len(self._sizes) // 2] if self._sizes else 9.81
-        return self._gravity_told and _EARTH_M_S2[0] < usual < _EARTH_M_S2[1]
+        return self._gravity.is_there()
 
     @property
     def measures(self) -> dict[str, float]:
@@ -93,10 +91,36 @@ class SampleStream:
             return None
         self._last_t = t
         self.flow.add(t, is_stamped=reading.stamp is not None)
-        self._sizes.append(sum(axis * axis for axis in reading.acc) ** 0.5)
-        self._gravity_told = reading.gravity_included
+        self._gravity.note(reading.acc, reading.gravity_included)
         fresh = self._gyr is not None and abs(t - self._gyr_t) < _GYRO_LASTS_S
         return Sample(t, reading.acc, self._gyr if fresh else None)
+
+
+class _GravitySign:
+    """Tells by the sizes of accelerations whether gravity is in them, once they are calm.
+
+    While somebody shakes the sensor they say nothing, and what they said before still holds.
+    """
+
+    def __init__(self) -> None:
+        self._sizes: deque[float] = deque(maxlen=_SIZES_OVER)
+        self._is_told = self._is_felt = True
+
+    def note(self, acc: Vector, is_told: bool) -> None:
+        """An acceleration, and what its sender says of it."""
+        self._sizes.append(sum(axis * axis for axis in acc) ** 0.5)
+        self._is_told = is_told
+
+    def is_there(self) -> bool:
+        """Whether gravity is in them."""
+        if self._is_told and self._sizes:
+            sizes = sorted(self._sizes)
+            calm, usual = sizes[len(sizes) // 5], sizes[len(sizes) // 2]
+            if usual <= _EARTH_M_S2[0]:
+                self._is_felt = False
+            elif calm > _EARTH_M_S2[0]:
+                self._is_felt = usual < _EARTH_M_S2[1]
+        return self._is_told and self._is_felt
 
 
 class _SenderClock:

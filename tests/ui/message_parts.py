@@ -111,6 +111,12 @@ PARTS = {
         "acceleration and rotation",
         "acceleration with gravity and rotation",
     ],
+    "nodes/perceptual/recognition/worker.py": [
+        "Reading the recordings…",
+        "Learning the gestures…",
+        "Checking what it learned…",
+        "Keeping what it learned…",
+    ],
     "nodes/recording_table.py": [
         "Line {line_number} of {name}",
         "about {samples}",

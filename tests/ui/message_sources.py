@@ -43,9 +43,6 @@ NOT_SHOWN = (
     "nep_studio/ui/show/command.py",
     "nodes/perceptual/recognition/command.py",
     "nodes/perceptual/recognition/report.py",
-    # Training, which is started in a terminal.
-    "nodes/perceptual/recognition/passages.py",
-    "nodes/perceptual/recognition/training.py",
     # What the robot on the screen answers to programs of others, in the language of NAOqi.
     "nodes/action/naoqi/server/directory.py",
     "nodes/action/naoqi/wire/bound.py",

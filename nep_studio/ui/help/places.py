@@ -42,6 +42,7 @@ PAGES_OF_ACTIONS = {
     f"{RUN}#needs": "needs",
     "howto/museum": "show_mode show_at_start startup",
     "howto/cue-panel": "cues",
+    "howto/connect-watch": "connect_watch",
 }
 
 PAGES_OF_WIDGETS = {
@@ -69,6 +70,8 @@ PAGES_OF_WIDGETS = {
     "howto/museum": "ShowWindow StartupDialog",
     "howto/cue-panel": "CuePanel CueBoard ArrangeDialog",
     "howto/first-steps": "StartPage",
+    "howto/teach-gestures": "TrainerPanel",
+    "howto/connect-watch": "WatchDialog",
 }
 
 

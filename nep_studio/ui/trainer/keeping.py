@@ -22,8 +22,8 @@ from nep_studio.ui.trainer.kept_samples import packed, thinned
 from nep_studio.ui.trainer.live import Samples
 
 Span = tuple[float, float]
-SHORTEST_TAKE_S, LONGEST_TAKE_S = 0.2, 8.0
-"""Shorter and longer ones cannot be learned."""
+SHORTEST_TAKE_S, LONGEST_TAKE_S = 0.3, 7.9
+"""Shorter and longer ones cannot be learned, whatever the rate of the sensor."""
 _BETWEEN_S = 0.04
 """Two takes never touch: they would be one."""
 _DIGITS = 4

@@ -9,7 +9,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_studio.ui.trainer.desk import TrainerDesk
 from nep_studio.ui.trainer.live import Samples, joined
-from nodes.perceptual.recognition.segments import Movement, MovementFinder
+from nodes.perceptual.recognition.performances import PerformanceFinder
+from nodes.perceptual.recognition.segments import Movement
 
 State = Literal["idle", "countdown", "takes", "everyday"]
 Ending = Literal["complete", "stopped", "lost", "late"]
@@ -57,7 +58,7 @@ class _Run:
     gesture: str
     source: str
     wanted: float
-    finder: MovementFinder = field(default_factory=MovementFinder)
+    finder: PerformanceFinder = field(default_factory=PerformanceFinder)
     editor: object = None
     parts: list[Samples] = field(default_factory=list)
     movements: list[Movement] = field(default_factory=list)

@@ -19,7 +19,6 @@ Worn = Literal["as recorded", "turned", "automatic"]
 """How a watch sits: as in the recordings, the strap the other way round, or either."""
 
 SLOWEST_HZ = 10.0
-_AT = {"left": "on the left wrist", "right": "on the right wrist", "hand": "in the hand"}
 _TURNED = np.array([-1.0, -1.0, 1.0])  # half a turn about the axis out of the screen
 _LONGEST_NAME = 60
 _ENOUGH_PROOFS = 3
@@ -42,8 +41,9 @@ class _Way:
 
 
 class SensorEar:
-    """Spots gestures in the samples of one sensor; ``tell`` gets a sentence once a trouble.
+    """Spots gestures in the samples of one sensor.
 
+    ``tell`` gets a sentence when it finds out how the watch is worn, ``warn`` one for each trouble.
     RecordingError when the sensor lacks what the model needs.
     """
 
@@ -54,6 +54,7 @@ class SensorEar:
         make_spotter: Callable[[], Spotter],
         worn: Worn,
         tell: Callable[[str], None],
+        warn: Callable[[str], None],
     ) -> None:
         self.source = first.source[:_LONGEST_NAME]
         self._tell = tell
@@ -63,8 +64,9 @@ class SensorEar:
         self._last: Detection | None = None
         for way in self._ways:
             way.spotter.listen(first.gyr is not None)
-        self._troubles = _Troubles(self.source, tell)
-        self.description = self._description(first, model)
+        self._troubles = _Troubles(self.source, warn)
+        if about_wrist := self._about_wrist(first, model):
+            tell(about_wrist)
 
     @property
     def certainties(self) -> Mapping[str, float]:
@@ -104,21 +106,22 @@ class SensorEar:
         fewest, most = sorted(self._ways, key=lambda way: way.proofs)
         if most.proofs - fewest.proofs >= _ENOUGH_PROOFS:
             self._ways = [most]
-            how = "turned round" if most.is_turned else "as in the recordings"
-            self._tell(f"{self.source} is worn {how}, as its gestures show")
+            if most.is_turned:
+                self._tell(f"{self.source} is worn turned round, as its gestures show.")
+            else:
+                self._tell(f"{self.source} is worn as in the recordings, as its gestures show.")
 
-    def _description(self, first: Imu, model: Model) -> str:
-        told = f"listens to {self.source}"
-        if first.gyr is None:
-            told += ", which sends no rotation"
+    def _about_wrist(self, first: Imu, model: Model) -> str:
+        """What a person should know of where the sensor is worn; "" for nothing."""
+        source = self.source
         if self._mirrors:
-            told += (
-                f"; it is worn on the {first.wrist} wrist and the gestures were recorded on the"
-                f" {model.wrist} one, so they are mirrored"
+            return (
+                f"{source} is not worn on the wrist on which the gestures were recorded: its"
+                " movement is mirrored."
             )
-        elif "" not in (first.wrist, model.wrist) and first.wrist != model.wrist:
-            told += f"; it is {_AT[first.wrist]}, and the gestures were recorded {_AT[model.wrist]}"
-        return told
+        if "" not in (first.wrist, model.wrist) and first.wrist != model.wrist:
+            return f"{source} is not worn where the gestures were recorded, so some may be missed."
+        return ""
 
 
 def _overlap(one: Detection, other: Detection) -> bool:
@@ -128,9 +131,9 @@ def _overlap(one: Detection, other: Detection) -> bool:
 class _Troubles:
     """What a stream of samples lacks to be understood; each is told once."""
 
-    def __init__(self, source: str, tell: Callable[[str], None]) -> None:
+    def __init__(self, source: str, warn: Callable[[str], None]) -> None:
         self._source = source
-        self._tell = tell
+        self._warn = warn
         self._told: set[str] = set()
         self._batches = self._breaks = self._samples = self._numbers = self._steps = 0
         self._moving_s = 0.0
@@ -182,4 +185,4 @@ class _Troubles:
     def _once(self, trouble: str, sentence: str) -> None:
         if trouble not in self._told:
             self._told.add(trouble)
-            self._tell(sentence)
+            self._warn(sentence)

@@ -126,22 +126,24 @@ def signals_of(raw: Floats, channels: Channels) -> Floats:
 def features_of(signals: Floats) -> Floats:
     """Statistics of each signal, of its eighths, and of each pair."""
     n, _, count = signals.shape
-    mean = signals.mean(axis=1)
+    points = np.ascontiguousarray(signals.transpose(1, 0, 2))  # time first: sums are much faster
+    mean = points.mean(axis=0)
     square = np.matmul(signals.transpose(0, 2, 1), signals) / POINTS
     power = np.sqrt(np.einsum("nii->ni", square))
     first, second = np.triu_indices(count, 1)
     together = square[:, first, second] / (power[:, first] * power[:, second] + 1e-6)
-    positive = signals > 0
+    positive = points > 0
+    eighths = points.reshape(_SEGMENTS, -1, n, count).mean(axis=1)
     return np.concatenate(
         [
-            signals.max(axis=1),
+            points.max(axis=0),
             mean,
-            signals.min(axis=1),
+            points.min(axis=0),
             np.sqrt(np.maximum(power**2 - mean**2, 0.0)),
-            np.abs(signals).mean(axis=1),
-            (positive[:, 1:] != positive[:, :-1]).mean(axis=1),
+            np.abs(points).mean(axis=0),
+            (positive[1:] != positive[:-1]).mean(axis=0, dtype=np.float32),
             power,
-            signals.reshape(n, _SEGMENTS, -1, count).mean(axis=2).reshape(n, -1),
+            eighths.transpose(1, 0, 2).reshape(n, -1),
             together,
         ],
         axis=1,

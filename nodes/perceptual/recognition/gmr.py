@@ -29,7 +29,7 @@ from nodes.perceptual.recognition.mixture import expected_curve, fit_mixture
 from nodes.perceptual.recognition.stream import Floats
 from nodes.perceptual.recognition.trees import Trees, fit_trees
 
-GATE_TREES = 60
+GATE_TREES = 40
 _SHRINK = 0.3
 _FLOOR = 0.05
 _MOST_CURVES = 40  # to make an expected curve from

@@ -17,7 +17,7 @@ from nodes.perceptual.recognition.model import Model, Sensor
 from nodes.perceptual.recognition.passages import UNKNOWN, takes_of
 from nodes.perceptual.recognition.stream import MAX_GAP_S
 from nodes.perceptual.recognition.training import train
-from nodes.perceptual.recognition.wrist import mirrored
+from nodes.perceptual.recognition.wrist import usual_wrist, worn_at
 from nodes.recordings import Recording, read_recordings
 
 EVERYDAY = "everyday"
@@ -58,12 +58,12 @@ def read_material(folder: Path, everyday: Path | None = None) -> Material:
     has_own = everyday is not None or (own.is_dir() and any(own.glob("*.[cC][sS][vV]")))
     found = read_recordings(folder)
     idle = [_without_gestures(one) for one in read_recordings(own)] if has_own else []
-    wrist = _usual_wrist(found)
+    wrist = usual_wrist(found)
     used = [one for one in idle if _is_as_good(one, found)]
     remarks = (*_remarks(found, wrist), *_about_left_out(len(idle) - len(used), len(idle)))
     return Material(
-        tuple(_worn(one, wrist) for one in found),
-        tuple(_worn(one, wrist) for one in used),
+        tuple(worn_at(one, wrist) for one in found),
+        tuple(worn_at(one, wrist) for one in used),
         wrist,
         remarks,
     )
@@ -116,19 +116,6 @@ def _without_gestures(recording: Recording) -> Recording:
     return replace(recording, labels=labels)
 
 
-def _usual_wrist(recordings: Sequence[Recording]) -> Wrist:
-    counts = Counter(one.wrist for one in recordings if one.wrist)
-    return counts.most_common(1)[0][0] if counts else ""
-
-
-def _worn(recording: Recording, wrist: Wrist) -> Recording:
-    """The recording as the other wrist would have made it, if it was the other one."""
-    if {recording.wrist, wrist} != {"left", "right"}:
-        return recording
-    acc, gyr = mirrored(recording.acc, recording.gyr)
-    return replace(recording, acc=acc, gyr=gyr, wrist=wrist)
-
-
 def _is_as_good(idle: Recording, recordings: Sequence[Recording]) -> bool:
     """Whether everyday movement has all that the gestures have: else they would lose it too."""
     gyroscope = all(one.gyr is not None for one in recordings)
@@ -164,20 +151,19 @@ def _remarks(recordings: Sequence[Recording], wrist: Wrist) -> list[str]:
         )
     if others:
         remarks.append(
-            f"{others} of {count} recordings were not made on the {wrist} wrist as the others."
-            if wrist != "hand"
-            else f"{others} of {count} recordings were not made with the sensor in the hand."
+            f"{others} of {count} recordings were made on another wrist than most, or in the hand."
         )
     return remarks
 
 
 def _few_takes(recordings: Sequence[Recording]) -> list[str]:
     takes = Counter(take.gesture for one in recordings for take in takes_of(one))
+    few = {name: count for name, count in sorted(takes.items()) if count < LEAST_TAKES}
     return [
-        f"{name} was recorded {'once' if count == 1 else 'twice'} only: record it"
-        f" {LEAST_TAKES} times at least, better 5."
-        for name, count in sorted(takes.items())
-        if count < LEAST_TAKES
+        f"{name} was recorded only once: record it 3 times at least, better 5."
+        if count == 1
+        else f"{name} was recorded only twice: record it 3 times at least, better 5."
+        for name, count in few.items()
     ]
 
 

@@ -116,10 +116,13 @@ def _check(recording: Recording, take: Take) -> None:
         )
     if SHORTEST_S <= take.duration_s <= LONGEST_S:
         return
-    size = "short" if take.duration_s < SHORTEST_S else "long"
+    source, name = recording.source, take.gesture
+    start_s, duration_s = f"{take.start_s:.2f}", f"{take.duration_s:.2f}"
+    sentence = f'{source}: the gesture "{name}" at {start_s} s lasts {duration_s} s, too long.'
+    if take.duration_s < SHORTEST_S:
+        sentence = f'{source}: the gesture "{name}" at {start_s} s lasts {duration_s} s, too short.'
     raise RecordingError(
-        f'{recording.source}: the gesture "{take.gesture}" at {take.start_s:.2f} s lasts'
-        f" {take.duration_s:.2f} s, which is too {size}.",
+        sentence,
         checklist=(
             f"A gesture lasts {SHORTEST_S} to {LONGEST_S:.0f} seconds.",
             "Mark it anew in the recording, or leave it out.",

@@ -25,8 +25,8 @@ from nodes.perceptual.recognition.validation import Validation, cross_validate, 
 from nodes.recordings import Recording
 
 _MOST_MINUTES = 90
-_TREES_TO_CHECK = 25  # fewer than are used in the end: each part left out grows its own
-_TREES_WITHOUT = 60  # for sensors that lack what most of them have
+_TREES_TO_CHECK = 20  # fewer than are used in the end: each part left out grows its own
+_TREES_WITHOUT = 50  # for sensors that lack what most of them have
 
 
 def train(
@@ -52,11 +52,11 @@ def train(
     lengths = window_lengths(gestures)
     material = _Material([one for one in passages if is_long_enough(one, lengths)], gestures, seed)
     best = Channels(gravity, gyroscope)
-    tell(f"Checking what it learned with {best.in_words} ...")
+    tell(f"Checking what it learned with {best.in_words}…")
     validations = material.validate(best, methods)
     recognisers = []
     for channels in (Channels(gravity, with_gyr) for with_gyr in sorted({gyroscope, False})):
-        tell(f"Training {' and '.join(methods)} with {channels.in_words} ...")
+        tell(f"Training {' and '.join(methods)} with {channels.in_words}…")
         count = TREES if channels == best else _TREES_WITHOUT
         scorers = _fit(methods, seed, count, material.examples(channels))
         recognisers += [

@@ -20,8 +20,8 @@ from nodes.perceptual.recognition.stream import RATE_HZ, Floats
 Fit = Callable[[Examples], Mapping[str, Scorer]]
 """What makes a scorer of each method."""
 
-USUAL_SCORE = 0.78
-_OWN = 0.25  # how much a set's own scores count beside USUAL_SCORE
+USUAL_SCORE = 0.84
+_OWN = 0.4  # how much a set's own scores count beside USUAL_SCORE
 UNCHECKED_SCORE = 0.4
 """The usual score of a gesture that was recorded too seldom to leave a take out."""
 _SAME = 0.5  # a window that shares so much with a take may be the one that finds it

@@ -28,10 +28,12 @@ class Background:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._task: asyncio.Task[None] | None = None
         self._lost = 0
+        self._is_stopped = False
         self._fault: BaseException | None = None
 
     def start(self) -> None:
         """Start the thread; an error of ``serve`` is raised by the next ``take``."""
+        self._is_stopped = False
         self._thread = threading.Thread(target=self._run, name="way", daemon=True)
         self._thread.start()
 
@@ -61,6 +63,7 @@ class Background:
         """Cancel ``serve`` and wait for it, but not long."""
         if self._thread is None:
             return
+        self._is_stopped = True  # a thread that has no task yet sees it before it serves
         loop, task = self._loop, self._task
         if loop is not None and task is not None and not loop.is_closed():
             loop.call_soon_threadsafe(task.cancel)
@@ -79,4 +82,5 @@ class Background:
     async def _main(self) -> None:
         self._loop = asyncio.get_running_loop()
         self._task = asyncio.current_task()
-        await self._serve()
+        if not self._is_stopped:
+            await self._serve()

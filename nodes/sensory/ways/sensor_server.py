@@ -78,7 +78,7 @@ class SensorServerWay:
                 timeout = ClientTimeout(total=None, sock_connect=_CONNECT_S)
                 async with ClientSession(timeout=timeout) as session:
                     await self._both(session)
-            except (ClientError, OSError, TimeoutError):
+            except (ClientError, OSError, TimeoutError, ValueError):  # the last: no name of a host
                 self._say(
                     f"SensorServer at {self._host}, port {self._port} does not answer. Is its "
                     "server started, and the phone in the same network?"

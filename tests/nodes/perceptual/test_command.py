@@ -66,7 +66,7 @@ def moving(seconds, rate_hz, gesture):
     [
         (moving(4, 50, lambda n: 0), "No gesture is marked in the recordings ann_wave"),
         (moving(4, 50, lambda n: int(n == 20)), '"wave" at 0.40 s lasts 0.00 s'),
-        (moving(30, 50, lambda n: int(n > 50)), "which is too long"),
+        (moving(30, 50, lambda n: int(n > 50)), "s, too long."),
         (moving(9, 5, lambda n: int(n % 10 > 5)), "5.0 samples a second, which is too few"),
         (["0,1,2,three,0"], "ann_wave.csv"),
         (moving(4, 50, lambda n: "\x1b[2J" if n < 50 else 0), "has a name that is too long, or"),

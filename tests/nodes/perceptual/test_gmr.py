@@ -90,3 +90,34 @@ def test_the_distance_is_a_likelihood():
     squares = np.einsum("nts,sr,ntr->nt", away, np.linalg.inv(covariance), away)
     expected = squares.mean(axis=1) + np.log(np.linalg.det(covariance))
     assert distances[:, 0] == pytest.approx(expected)
+
+
+def _curves_that_bend():
+    times = np.linspace(0, 1, 32)
+    shapes = np.stack([np.sin(2 * np.pi * times), np.cos(2 * np.pi * times)])[..., None]
+    return Curves(
+        scale=np.ones(1),
+        mean=shapes,
+        whiten=np.full((2, 32, 1, 1), 4.0),
+        log_det=np.zeros(2),
+    )
+
+
+def test_a_movement_that_is_early_on_its_curve_is_near_it_when_aligned():
+    curves = _curves_that_bend()
+    late = np.sin(2 * np.pi * np.clip(np.linspace(0, 1, 32) - 3 / 31, 0, 1))[None, :, None]
+
+    plain, aligned = curves.distances(late), curves.aligned_distances(late)
+
+    assert aligned[0, 0] < plain[0, 0] / 3
+    assert aligned[0, 0] < aligned[0, 1]
+
+
+def test_aligning_never_makes_a_movement_farther():
+    curves = _curves_that_bend()
+    any_signals = np.random.default_rng(4).normal(size=(700, 32, 1))
+
+    plain, aligned = curves.distances(any_signals), curves.aligned_distances(any_signals)
+
+    assert (aligned <= plain + 1e-4).all()
+    assert curves.aligned_distances(any_signals[:0]).shape == (0, 2)

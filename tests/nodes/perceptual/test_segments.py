@@ -18,7 +18,6 @@ from nodes.perceptual.recognition.segments import (
     find_movements,
 )
 from nodes.recordings import Recording, read_recording
-from nodes.sensory.arm.simulate import perform
 
 RATE_HZ = 50.0
 
@@ -64,17 +63,6 @@ def test_the_gestures_of_real_people_are_found_with_sensible_borders(
 
     assert found >= 0.95 * made
     assert others <= 2
-
-
-def test_a_simulated_blow_is_found_where_it_is_made() -> None:
-    recording = perform("karate", person=1, take=0)
-
-    movements = find_movements(recording.t, recording.acc, recording.gyr)
-
-    start_s, end_s = marked(recording)[0]
-    good = [one for one in movements if not one.fault]
-    assert any(one.start_s < end_s and one.end_s > start_s for one in good)
-    assert all(2.0 < one.start_s < one.end_s < recording.t[-1] for one in good)
 
 
 def test_each_movement_is_told_once_it_is_over() -> None:

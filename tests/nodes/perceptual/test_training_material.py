@@ -92,7 +92,7 @@ def test_a_recording_of_the_other_wrist_is_learned_from_as_its_mirror_image(tmp_
     assert np.allclose(material.recordings[2].acc, session.acc, atol=1e-4)
     assert np.allclose(material.recordings[2].gyr, session.gyr, atol=1e-4)
     assert material.recordings[0].device == "Pixel Watch"
-    assert "1 of 3 recordings were not made on the right wrist" in material.remarks[0]
+    assert "1 of 3 recordings were made on another wrist" in material.remarks[0]
 
 
 def test_gestures_that_were_recorded_too_seldom_are_named(tmp_path):
@@ -101,7 +101,7 @@ def test_gestures_that_were_recorded_too_seldom_are_named(tmp_path):
     material = read_material(folder_of(tmp_path, few))
 
     assert material.remarks == (
-        "karate was recorded once only: record it 3 times at least, better 5.",
+        "karate was recorded only once: record it 3 times at least, better 5.",
     )
 
 

@@ -10,6 +10,7 @@ from nep_core.errors import ParameterError, RecordingError
 from nodes.perceptual.recognition.passages import takes_of
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.training import train
+from nodes.perceptual.recognition.wrist import mirrored
 from nodes.recordings import write_recording
 from nodes.sensory.arm.gestures import gesture_named
 from nodes.sensory.arm.simulate import simulate_session
@@ -69,6 +70,17 @@ def test_recorded_gestures_can_be_asked_for_beside_those_of_the_paper(folder):
     with pytest.raises(ParameterError, match='knows no gesture "wave"') as told:
         repertoire.find("wave")
     assert "chop, ask" in told.value.checklist[0] or "ask, chop" in told.value.checklist[0]
+
+
+def test_what_was_recorded_on_the_other_wrist_is_mirrored(session, tmp_path):
+    acc, gyr = mirrored(session.acc, session.gyr)
+    write_recording(tmp_path / "a.csv", replace(session, wrist="right"))
+    write_recording(tmp_path / "b.csv", replace(session, acc=acc, gyr=gyr, wrist="left"))
+
+    takes = read_repertoire(str(tmp_path)).find("chop").takes
+
+    assert len(takes) == 6
+    assert np.allclose(takes[0].gyr, takes[3].gyr, atol=1e-3)
 
 
 def test_a_folder_that_cannot_be_read_is_told(tmp_path):
