@@ -190,26 +190,21 @@ def _by_person(sessions: Iterator[Recording]) -> dict[str, Sessions]:
 
 def _everyday_of(folder: Path) -> Path | None:
     """A folder with a name such as everyday_watch: in this one, beside it, or the shared one."""
-    places = [*_folders_in(folder), *_folders_in(folder.resolve().parent), *_folders_in(DATA)]
-    return next((place for place in places if place.name.startswith(_EVERYDAY)), None)
-
-
-def _folders_in(folder: Path) -> list[Path]:
-    """The folders within that have CSV files."""
-    if not folder.is_dir():
-        return []
-    return sorted(place for place in folder.iterdir() if place.is_dir() and _has_files(place))
+    around = (folder, folder.resolve().parent, DATA)
+    places = (place for one in around for place in sorted(one.glob(f"{_EVERYDAY}*")))
+    return next((place for place in places if _has_files(place)), None)
 
 
 def _has_files(folder: Path) -> bool:
-    return any(path.suffix.lower() == ".csv" for path in folder.iterdir())
+    return folder.is_dir() and any(folder.glob("*.[cC][sS][vV]"))
 
 
 def _with_files(folder: Path) -> Path:
     """The folder, or the only one in it, besides everyday movement, that has CSV files."""
     if not folder.is_dir() or _has_files(folder):
         return folder
-    inside = [one for one in _folders_in(folder) if not one.name.startswith(_EVERYDAY)]
+    inside = [one for one in folder.iterdir() if not one.name.startswith(_EVERYDAY)]
+    inside = [one for one in inside if _has_files(one)]
     return inside[0] if len(inside) == 1 else folder
 
 

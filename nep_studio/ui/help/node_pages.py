@@ -13,10 +13,6 @@ from nep_studio.help.texts import node_texts
 from nep_studio.ui.words import language_code, tr
 
 
-MAY_BREAK = "\u200b"
-"""A place at which a narrow column may cut a long name in two."""
-
-
 def manifests() -> Mapping[str, Manifest]:
     """The manifests of all nodes that can be launched, by id; wrong ones are left out."""
     found: dict[str, Manifest] = {}
@@ -78,8 +74,7 @@ def _row(name: str, parameter: Parameter) -> str:
         shown = tr("on") if usual else tr("off")
     else:
         shown = "" if usual in ("", None) else f"{usual:g}" if _is_number(usual) else str(usual)
-    parts = (tr(parameter.help), _limits(parameter))
-    told = "<br>".join(escape(part).replace("_", f"_{MAY_BREAK}") for part in parts if part)
+    told = "<br>".join(escape(part) for part in (tr(parameter.help), _limits(parameter)) if part)
     return (
         f'<tr><td><a name="setting-{name}"></a><b>{escape(name)}</b></td>'
         f"<td>{told}</td><td>{escape(shown)}</td></tr>"
