@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
@@ -90,10 +91,11 @@ class PaperMatching:
                 examples.setdefault(take.gesture, []).append(even[start:])
                 lengths.setdefault(take.gesture, []).append(round(take.duration_s * RATE_HZ))
         self.names = tuple(sorted(examples))
-        self.gestures = tuple(
-            learn(name, examples[name], int(np.median(lengths[name])), limits)
-            for name in self.names
-        )
+        with _one_thread():  # the matrices are small: threads would wait for each other
+            self.gestures = tuple(
+                learn(name, examples[name], int(np.median(lengths[name])), limits)
+                for name in self.names
+            )
 
     def classify(self, recording: Recording, take: Take) -> str:
         """The gesture of the highest possibility; without the cut at 0, which favours it."""
@@ -204,6 +206,11 @@ def _centres(rows: Floats) -> Floats:
             if silhouette_score(rows, found.labels_, metric="sqeuclidean") < _LEAST_SILHOUETTE:
                 break
     return chosen
+
+
+def _one_thread() -> AbstractContextManager[Any]:
+    limits: AbstractContextManager[Any] = import_module("threadpoolctl").threadpool_limits(1)
+    return limits
 
 
 def _median_of_three(values: Floats) -> Floats:

@@ -159,7 +159,9 @@ def _other_rows(name: str, score: Score) -> Iterator[Row]:
 def _figure_rows(score: Score) -> Iterator[Row]:
     who = f"simulated people, paper's five gestures, {score.method}"
     is_ours = score.method not in REFERENCES
-    if score.tally.pairs:
+    if score.tally.pairs and score.sensor:
+        yield _row(f"{who}, {score.sensor} unsaid: recall", score.tally.recall, "of gestures")
+    elif score.tally.pairs:
         goal = SIMULATED_RECALL if is_ours else None
         yield _row(f"{who}: recall", score.tally.recall, "of gestures", at_least=goal)
         yield _row(f"{who}: precision", score.tally.precision, "of triggers")

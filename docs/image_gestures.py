@@ -62,7 +62,7 @@ class Drawing:
 
 def confusion_picture(scores: Sequence[Score], title: str) -> QImage:
     """A square of counts for each method: rows are what was made, columns what was recognised."""
-    scores = [score for score in scores if score["pairs"]]
+    scores = [score for score in scores if score["pairs"] and not score["sensor"]]
     names = sorted({made for score in scores for made, _, _ in score["pairs"]} - {NOTHING})
     side = (len(names) + 1) * CELL
     width = len(scores) * (NAMES_WIDE + side + GAP) + GAP

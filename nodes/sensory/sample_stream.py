@@ -17,6 +17,7 @@ _EARLIEST_S = 5.0  # and one that is so long ahead of when its readings can have
 _SHORT_S = 0.001
 _SIZES_OVER = 200  # samples
 _EARTH_M_S2 = (6.0, 14.0)
+_STEADY = 0.8  # four of five sizes are more than this part of the usual one: nobody shakes it
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,7 @@ class _GravitySign:
             calm, usual = sizes[len(sizes) // 5], sizes[len(sizes) // 2]
             if usual <= _EARTH_M_S2[0]:
                 self._is_felt = False
-            elif calm > _EARTH_M_S2[0]:
+            elif calm > _STEADY * usual:
                 self._is_felt = usual < _EARTH_M_S2[1]
         return self._is_told and self._is_felt
 

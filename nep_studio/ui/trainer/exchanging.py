@@ -139,9 +139,10 @@ class Exchange:
         if is_whole:
             self._confirm(" ".join(said))
             return
+        said.append(tr("What is before its end was imported."))
+        checklist = (tr("Copy or download the file once more, and import it again."),)
         title = tr("The file ends in the middle")
-        said.append(tr("What is before its end was imported. Get the file once more for the rest."))
-        self._desk.messages.tell(Message("warning", title, " ".join(said)))
+        self._desk.messages.tell(Message("warning", title, " ".join(said), checklist))
 
     def _confirm(self, words: str) -> None:
         self._desk.messages.tell(Message("success", words, passes=True))

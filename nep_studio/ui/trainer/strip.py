@@ -223,6 +223,7 @@ class Strip(QWidget):
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Show that it is elsewhere."""
         super().focusOutEvent(event)
+        self.take.let_go()
         self.update()
 
     # Mouse and keyboard
@@ -254,3 +255,9 @@ class Strip(QWidget):
             super().keyPressEvent(event)
         elif self.take.is_open and event.key() in (Qt.Key.Key_Left, Qt.Key.Key_Right):
             announce(self, self.take.words)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Keep what a key has moved."""
+        super().keyReleaseEvent(event)
+        if not event.isAutoRepeat():
+            self.take.let_go()

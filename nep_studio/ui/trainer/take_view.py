@@ -130,7 +130,10 @@ class TakeView(QObject):
             self.changed.emit()
 
     def press_key(self, key: Qt.Key) -> bool:
-        """Do what a key means for a take; False when it means nothing."""
+        """Do what a key means for a take; False when it means nothing.
+
+        An end that a key moves is kept once the key is up: a key held down is one step.
+        """
         if not self.is_open:
             return False
         steps = {Qt.Key.Key_Left: -STEP_S, Qt.Key.Key_Right: STEP_S}
@@ -138,7 +141,6 @@ class TakeView(QObject):
         if key in steps:
             self.is_dragged = True
             self.drag(self.ends[self.held] + steps[key])
-            self.let_go()
         elif key in held:
             self.held = held[key]
             self.changed.emit()

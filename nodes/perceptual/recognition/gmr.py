@@ -36,7 +36,7 @@ _MOST_CURVES = 40  # to make an expected curve from
 _SLACK = 5  # points that a movement may be ahead of its curve, or behind
 _BATCH = 512  # windows at once: what is worked on stays small
 _WORTH_A_LOOK = 0.2  # how likely any gesture must be for the curves to be asked
-_SHARPNESS = 0.5  # neighbouring points are nearly the same: they do not count in full
+_SHARPNESS = 4.0  # shared by the signals: these, and neighbouring points, tell nearly the same
 _NO_WAY = np.float32(1e9)
 
 
@@ -114,7 +114,8 @@ class Gmr:
         scores = np.zeros((len(windows), len(self.curves.mean)))
         asked = moving >= _WORTH_A_LOOK
         distances = self.curves.aligned_distances(windows.signals[asked])
-        scores[asked] = moving[asked, None] * _shares(-_SHARPNESS * distances)
+        sharpness = _SHARPNESS / windows.signals.shape[2]
+        scores[asked] = moving[asked, None] * _shares(-sharpness * distances)
         return scores
 
     def arrays(self) -> dict[str, NDArray[Any]]:

@@ -39,7 +39,7 @@ def report_of(gestures: Sequence[Gesture], validation: Validation) -> dict[str, 
 
 def _rounded(figures: Mapping[str, Any]) -> dict[str, Any]:
     return {
-        name: round(value, 4) if isinstance(value, float) else value
+        name: round(float(value), 4) if isinstance(value, float) else value
         for name, value in figures.items()
     }
 

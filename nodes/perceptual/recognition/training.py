@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+import numpy as np
+
 from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.examples import Examples, collect
 from nodes.perceptual.recognition.features import Channels
@@ -21,7 +23,12 @@ from nodes.perceptual.recognition.scans import (
     window_lengths,
 )
 from nodes.perceptual.recognition.trees import TREES, fit_trees
-from nodes.perceptual.recognition.validation import Validation, cross_validate, unchecked
+from nodes.perceptual.recognition.validation import (
+    USUAL_SCORE,
+    Validation,
+    cross_validate,
+    unchecked,
+)
 from nodes.recordings import Recording
 
 _MOST_MINUTES = 90
@@ -59,10 +66,10 @@ def train(
         tell(f"Training {' and '.join(methods)} with {channels.in_words}…")
         count = TREES if channels == best else _TREES_WITHOUT
         scorers = _fit(methods, seed, count, material.examples(channels))
-        recognisers += [
-            Recogniser(method, channels, scorers[method], validations[method].usual)
-            for method in methods
-        ]
+        for method in methods:
+            usual = validations[method].usual
+            checked = usual if channels == best else np.maximum(usual, USUAL_SCORE)
+            recognisers.append(Recogniser(method, channels, scorers[method], checked))
     report = {method: report_of(gestures, validations[method]) for method in methods}
     return Model(gestures, tuple(recognisers), _in_words(recordings, everyday), report)
 

@@ -35,7 +35,10 @@ class PageMessage(msgspec.Struct, kw_only=True):
 
 def read_message(text: bytes | str) -> PageMessage:
     """The message, checked; raises ValueError with a reason when it is not one of our page."""
-    message = _DECODER.decode(text)
+    try:
+        message = _DECODER.decode(text)
+    except RecursionError as error:
+        raise ValueError("it is nested too deep") from error
     rows = [message.acc] if message.gyr is None else [message.acc, message.gyr]
     if any(len(vectors) != len(message.t) for vectors in rows):
         raise ValueError("times and values differ in number")

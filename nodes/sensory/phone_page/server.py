@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import dataclasses
 import socket
+import ssl
 import threading
 from collections.abc import AsyncIterator, Iterable
 from pathlib import Path
@@ -30,6 +31,7 @@ MOST_CONNECTIONS = 32
 START_S = 5.0
 CLOSE_S = 0.1  # for saying goodbye; then a connection is given up
 HANDSHAKE_S = 5.0
+AGAIN_S = 0.1
 LINGER_S = 1.0  # for the rest of what is refused
 IDLE_CONNECTION_S = 15.0
 
@@ -113,15 +115,15 @@ class PhonePage:
 
     async def _serve(self, door: socket.socket, files: PageFiles, ready: threading.Event) -> None:
         try:
-            async with self._serving(door, files):
+            async with self._serving(door, files) as connections:
                 ready.set()
-                await asyncio.Future()
+                await connections.let_in()
         finally:
             ready.set()
             door.close()
 
     @contextlib.asynccontextmanager
-    async def _serving(self, door: socket.socket, files: PageFiles) -> AsyncIterator[None]:
+    async def _serving(self, door: socket.socket, files: PageFiles) -> AsyncIterator[_Connections]:
         from aiohttp import web
 
         assert self._receiving is not None and self.certificate is not None
@@ -134,39 +136,46 @@ class PhonePage:
             shutdown_timeout=CLOSE_S,
         )
         await runner.setup()
-        connections = _Connections(runner)
-        server = await asyncio.get_running_loop().create_server(
-            connections.protocol,
-            sock=door,
-            ssl=self.certificate.context(),
-            ssl_handshake_timeout=HANDSHAKE_S,
-            ssl_shutdown_timeout=CLOSE_S,
-        )
+        connections = _Connections(runner, door, self.certificate.context())
         try:
-            yield
+            yield connections
         finally:
-            server.close()
             await connections.close()
 
 
 class _Connections:
-    """All connections to the page: not too many, and all closed in the end."""
+    """All connections to the page: not too many, and all closed in the end.
 
-    def __init__(self, runner: web.AppRunner) -> None:
-        self._runner = runner
+    They are let in one by one, as a server of asyncio would greet any number of callers at once,
+    each with a buffer of its own.
+    """
+
+    def __init__(self, runner: web.AppRunner, door: socket.socket, safety: ssl.SSLContext) -> None:
+        self._runner, self._door, self._safety = runner, door, safety
+        self._coming: set[asyncio.Task[None]] = set()
         self._open: list[web.RequestHandler] = []
 
-    def protocol(self) -> asyncio.BaseProtocol:
-        """Who speaks on a new connection; nobody when there are too many already."""
-        assert self._runner.server is not None
-        if len(self._runner.server.connections) >= MOST_CONNECTIONS:
-            return _TurnedAway()
-        handler = self._runner.server()
-        self._open = [one for one in self._open if one.transport is not None] + [handler]
-        return handler
+    async def let_in(self) -> None:
+        """Let callers in, for ever; one that is too many is turned away at once."""
+        loop = asyncio.get_running_loop()
+        while True:
+            try:
+                caller, _address = await loop.sock_accept(self._door)
+            except OSError:  # it has left already, or too many files are open
+                await asyncio.sleep(AGAIN_S)
+                continue
+            if self._is_full:
+                caller.close()
+                continue
+            greeting = loop.create_task(self._greet(caller))
+            self._coming.add(greeting)
+            greeting.add_done_callback(self._coming.discard)
 
     async def close(self) -> None:
         """End what is going on; those who do not say goodbye are not waited for."""
+        for greeting in self._coming:
+            greeting.cancel()
+        await asyncio.gather(*self._coming, return_exceptions=True)
         transports = [one.transport for one in self._open]
         await self._runner.cleanup()
         for transport in filter(None, transports):
@@ -174,11 +183,25 @@ class _Connections:
         if self._open:
             await asyncio.sleep(2 * CLOSE_S)
 
+    @property
+    def _is_full(self) -> bool:
+        assert self._runner.server is not None
+        there = len(self._runner.server.connections)
+        return there >= MOST_CONNECTIONS or len(self._coming) >= MOST_CONNECTIONS
 
-class _TurnedAway(asyncio.Protocol):
-    """Closes a connection at once."""
-
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Close it."""
-        assert isinstance(transport, asyncio.Transport)
-        transport.abort()
+    async def _greet(self, caller: socket.socket) -> None:
+        """Agree on TLS with a caller; who does not is left."""
+        assert self._runner.server is not None
+        handler = self._runner.server()
+        try:
+            await asyncio.get_running_loop().connect_accepted_socket(
+                lambda: handler,
+                caller,
+                ssl=self._safety,
+                ssl_handshake_timeout=HANDSHAKE_S,
+                ssl_shutdown_timeout=CLOSE_S,
+            )
+        except OSError:
+            caller.close()
+            return
+        self._open = [one for one in self._open if one.transport is not None] + [handler]

@@ -24,6 +24,8 @@ _WITHIN_NS = 50e6
 _G_SIZES = (0.3, 3.0)  # a gravity of such a size is counted in g
 _WRIST = "wristmotion"
 _MOST_NAMES, _LONGEST_NAME = 8, 30
+_PARTS = ("rotationRate", "gravity", "acceleration")
+_USED = (*"xyz", *(f"{part}{axis}" for part in _PARTS for axis in "XYZ"))
 
 
 class Message(msgspec.Struct):
@@ -69,9 +71,26 @@ class _Sensors:
 def read_message(body: bytes) -> Message | None:
     """A pushed body; None when it is none."""
     try:
-        return msgspec.json.decode(body, type=Message)
+        message = msgspec.json.decode(body, type=Message)
     except (msgspec.DecodeError, RecursionError):
         return None
+    message.payload = [_needed(one) for one in message.payload]
+    return message
+
+
+def _needed(one: Mapping[str, object]) -> dict[str, object]:
+    """What is used of one sensor: messages may be held back, so what else it says must go."""
+    values, time = one.get("values"), one.get("time")
+    kept: dict[str, object] = {"name": str(one.get("name"))[:_LONGEST_NAME]}
+    if _is_short(time):
+        kept["time"] = time
+    if isinstance(values, dict):
+        kept["values"] = {name: values[name] for name in _USED if _is_short(values.get(name))}
+    return kept
+
+
+def _is_short(value: object) -> bool:
+    return isinstance(value, (int, float)) or (isinstance(value, str) and len(value) < 40)
 
 
 def readings_of(message: Message, units: str, *, follows_wrist: bool = False) -> Pushed:
@@ -95,7 +114,7 @@ def _sensors(payload: Iterable[Mapping[str, object]]) -> _Sensors:
         if not isinstance(values, dict):
             continue
         if name == _WRIST:
-            for part in ("rotationRate", "gravity", "acceleration"):
+            for part in _PARTS:
                 three = vector([values.get(f"{part}{axis}") for axis in "XYZ"])
                 found.add(f"{name}.{part.lower()}", time, three)
         elif "x" in values:

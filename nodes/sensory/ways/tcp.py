@@ -13,6 +13,7 @@ from nodes.sensory.ways.doors import missing_words, open_tcp
 from nodes.sensory.ways.way import Arrived, Settings
 
 _MOST_CLIENTS = 16
+_GONE_S = 10.0  # a connection that was silent for so long makes room: its device may be gone
 _LONGEST_LINE = 8_192
 _READ_BYTES = 8_192  # so few lines that a flood does not hold the node up
 _MOST_READS = 200  # in one batch; a flood beyond that waits on the sender's side
@@ -25,6 +26,7 @@ class Client:
     sender: str
     rest: bytes = b""
     is_endless: bool = False  # its line grew too long: all up to the next line break is left out
+    heard_s: float = 0.0
 
     def lines(self, data: bytes) -> list[bytes]:
         """The lines that ``data`` ends."""
@@ -94,14 +96,24 @@ class TcpWay:
             connection, (sender, _port) = self._door.accept()
         except OSError:  # it left before it was taken
             return []
+        now_s = time.monotonic()
+        self._make_room(now_s)
         if len(self._clients) >= _MOST_CLIENTS:
             connection.close()
             told = f"More than {_MOST_CLIENTS} devices connect at once; {sender} is turned away."
-            return [Arrived(sender, arrived_s=time.monotonic(), trouble=told)]
+            return [Arrived(sender, arrived_s=now_s, trouble=told)]
         connection.setblocking(False)
-        self._clients[connection] = Client(sender)
+        self._clients[connection] = Client(sender, heard_s=now_s)
         self._selector.register(connection, selectors.EVENT_READ)
-        return [Arrived(sender, arrived_s=time.monotonic())]
+        return [Arrived(sender, arrived_s=now_s)]
+
+    def _make_room(self, now_s: float) -> None:
+        """Where all places are taken, leave the one that was silent longest if that is long."""
+        if len(self._clients) < _MOST_CLIENTS:
+            return
+        silent = min(self._clients, key=lambda one: self._clients[one].heard_s)
+        if now_s - self._clients[silent].heard_s > _GONE_S:
+            self._leave(silent)
 
     def _read(self, connection: socket.socket) -> list[Arrived]:
         client = self._clients[connection]
@@ -115,6 +127,7 @@ class TcpWay:
         if not data:  # a line that had not ended is not whole: it is left out
             self._leave(connection)
             return []
+        client.heard_s = now_s
         was_endless = client.is_endless
         arrived = self._senders.arrived(client.sender, client.lines(data), now_s)
         if client.is_endless and not was_endless:

@@ -26,7 +26,7 @@ def test_each_gesture_of_a_stranger_fires_once(model, stranger, method, gyroscop
 
     tally = match(takes_of(stranger), found)
     assert tally.recall >= 5 / 6
-    assert tally.fired - tally.right <= (1 if method == "trees" else 4)
+    assert tally.fired - tally.right <= (2 if method == "trees" else 4)
 
 
 def test_everyday_movement_fires_nothing(model):

@@ -293,3 +293,28 @@ def test_the_way_tells_where_and_keeps_the_users_token_for_itself(folder):
     assert "listen on" in own.missing
     assert own.hand == ""
     own.close()
+
+
+def test_callers_who_never_greet_are_turned_away_before_they_take_memory(own_page, monkeypatch):
+    monkeypatch.setattr(server, "MOST_CONNECTIONS", 3)
+    silent = [socket.create_connection(("127.0.0.1", own_page.port)) for _ in range(8)]
+
+    ends = [one for one in silent if _is_left(one)]
+    began_s = time.monotonic()
+    own_page.stop()
+
+    assert len(ends) == 5
+    assert time.monotonic() - began_s < 1.0
+    for one in silent:
+        one.close()
+
+
+def _is_left(caller):
+    """Whether the page closes this connection at once."""
+    caller.settimeout(0.2)
+    try:
+        return caller.recv(1) == b""
+    except ConnectionResetError:
+        return True
+    except TimeoutError:
+        return False

@@ -6,8 +6,12 @@ from collections.abc import Iterator
 
 import pytest
 from pytestqt.qtbot import QtBot
+from shiboken6 import isValid
 
+from nep_core.messages import Imu
+from nep_studio.ui.app import Studio
 from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.running.tap import Heard
 from nep_studio.ui.trainer.hint import next_step
 from nep_studio.ui.trainer.panel import TrainerPanel, add_trainer_panel
 from nep_studio.ui.trainer.results.training import Training
@@ -18,7 +22,7 @@ def panel(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> Iterator[Train
     monkeypatch.setattr(Training, "warm", lambda _self: None)
     made = window.workbench.findChild(TrainerPanel) or add_trainer_panel(window)
     yield made
-    if made.page is not None:
+    if isValid(made) and made.page is not None:
         made.page.training.close()
 
 
@@ -47,3 +51,25 @@ def test_the_panel_is_made_when_it_is_shown_and_follows_the_project(
     assert next_step(page.desk) == ("project", "")
     assert not page.cards.new_button.isEnabled()
     assert not page.bar.everyday.isEnabled()
+
+
+def test_in_another_language_the_panel_goes_on_with_what_was_heard(
+    panel: TrainerPanel, window: MainWindow, studio: Studio, qtbot: QtBot
+) -> None:
+    window.files.new()
+    window.workbench.panels.show(panel)
+    desk = panel.page.desk
+    panel.page.keeping.new_gesture("Wave")
+    message = Imu(source="watch", rate_hz=50, t=[0.0, 0.02], acc=[(0, 0, 9.8)] * 2)
+
+    studio.choose_language("qps-rtl")
+    made = window.workbench.findChild(TrainerPanel)
+    made.opened()
+    desk.hear([Heard(0.0, message, "node")])
+
+    assert made is not panel
+    assert made.page.desk is desk
+    assert list(made.page.cards.cards) == ["wave"]
+    assert made.page.strip.samples.t.size == 2
+    made.page.grab()
+    made.page.training.close()
