@@ -5,10 +5,12 @@ from __future__ import annotations
 import binascii
 import hashlib
 import os
+import re
 import shutil
 from array import array
 from base64 import b64decode
-from collections.abc import Iterator, Mapping
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,7 +33,11 @@ EVERYDAY = "everyday"
 NEITHER = "?"
 """The label of movement that is neither a gesture nor nothing: a take that was left out."""
 MOST_KEPT = 20
+_JUST_S = 1e-6  # a sample at the very end of a take is part of it
 _HEADER = ("t", "ax", "ay", "az", "gx", "gy", "gz")
+
+Gestures = Mapping[str, OwnGesture]
+Span = tuple[float, float, str]
 
 
 @dataclass(frozen=True)
@@ -53,6 +59,7 @@ class RecogniserFile:
     def write(self) -> None:
         """Write it if it is not there. Raises OSError."""
         if self.path.is_file():
+            _note_use(self.folder)
             return
         try:
             data = b64decode(self.text, validate=True)
@@ -70,7 +77,7 @@ class TakeFiles:
     """The recordings of a project as CSV files in a folder of their own."""
 
     folder: Path
-    gestures: Mapping[str, OwnGesture]
+    gestures: Gestures
     recordings: Mapping[str, OwnRecording]
 
     def moved(self, folder: Path) -> TakeFiles:
@@ -80,6 +87,7 @@ class TakeFiles:
     def write(self) -> None:
         """Write them if they are not there. Raises OSError."""
         if self.folder.is_dir():
+            _note_use(self.folder)
             return
         part = self.folder.with_suffix(f".{os.getpid()}.part")
         try:
@@ -115,7 +123,7 @@ def take_files(project: Project) -> TakeFiles | None:
 
 
 def write_recordings(
-    folder: Path, gestures: Mapping[str, OwnGesture], recordings: Mapping[str, OwnRecording]
+    folder: Path, gestures: Gestures, recordings: Mapping[str, OwnRecording]
 ) -> None:
     """Write each recording as a CSV file, everyday movement into a folder within. Raises OSError.
 
@@ -130,19 +138,47 @@ def write_recordings(
         (place / f"{key}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def _lines(key: str, recording: OwnRecording, gestures: Mapping[str, OwnGesture]) -> Iterator[str]:
+def _lines(key: str, recording: OwnRecording, gestures: Gestures) -> Iterator[str]:
     columns = 7 if recording.has_rotation else 4
     numbers = _numbers(recording)
-    spans = sorted(_spans(key, recording, gestures))
-    yield f"# person: {recording.person}"
+    labels = labels_of(numbers[::columns], spans_of(key, recording, gestures))
+    yield f"# person: {_one_word(recording.person)}"
     yield f"# gravity_included: {'yes' if recording.gravity_included else 'no'}"
     yield f"# simulated: {'yes' if recording.simulated else 'no'}"
     yield f"# wrist: {recording.wrist}"
     yield ",".join((*_HEADER[:columns], "gesture"))
-    for at in range(0, len(numbers) - columns + 1, columns):
-        t = numbers[at]
-        label = next((name for start_s, end_s, name in spans if start_s <= t <= end_s), "")
-        yield ",".join((*(f"{number:.7g}" for number in numbers[at : at + columns]), label))
+    row = ",".join(["%.7g"] * columns)
+    for at, label in enumerate(labels[: len(numbers) // columns]):
+        yield f"{row % tuple(numbers[at * columns : (at + 1) * columns])},{label}"
+
+
+def spans_of(key: str, recording: OwnRecording, gestures: Gestures) -> tuple[Span, ...]:
+    """From when to when something else than nothing is made; what counts more comes later."""
+    takes = [
+        (take.start_s, take.end_s, NEITHER if take.left_out else name)
+        for name, gesture in gestures.items()
+        for take in gesture.takes
+        if take.recording == key
+    ]
+    unknown = [(start_s, end_s, NEITHER) for start_s, end_s in recording.forgotten]
+    return (*unknown, *sorted(takes, key=lambda span: (span[2] != NEITHER, span)))
+
+
+def labels_of(times: Sequence[float], spans: Sequence[Span]) -> list[str]:
+    """What is made at each of these times, which rise."""
+    labels = [""] * len(times)
+    for start_s, end_s, name in spans:
+        first = bisect_left(times, start_s - _JUST_S)
+        last = bisect_left(times, end_s + _JUST_S)
+        labels[first:last] = [name] * (last - first)
+        if first and labels[first - 1] == name != NEITHER:
+            labels[first - 1] = ""  # two takes of a gesture that touch stay two
+    return labels
+
+
+def _one_word(text: str) -> str:
+    """A text as a line of the file can have it."""
+    return re.sub(r'[\s,;"]+', "_", text)
 
 
 def _numbers(recording: OwnRecording) -> array[float]:
@@ -152,15 +188,10 @@ def _numbers(recording: OwnRecording) -> array[float]:
         raise OSError(str(error)) from error
 
 
-def _spans(
-    key: str, recording: OwnRecording, gestures: Mapping[str, OwnGesture]
-) -> Iterator[tuple[float, float, str]]:
-    for name, gesture in gestures.items():
-        for take in gesture.takes:
-            if take.recording == key:
-                yield take.start_s, take.end_s, NEITHER if take.left_out else name
-    for start_s, end_s in recording.forgotten:
-        yield start_s, end_s, NEITHER
+def _note_use(folder: Path) -> None:
+    """What is used stays in the cache longer than what is not."""
+    with suppress(OSError):
+        os.utime(folder)
 
 
 def _forget_old(newest: Path) -> None:

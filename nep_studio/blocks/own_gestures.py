@@ -13,7 +13,9 @@ import math
 import re
 import unicodedata
 from collections.abc import Container, Iterator, Mapping
+from itertools import chain
 from typing import Any, Literal, get_args
+from weakref import WeakKeyDictionary
 
 import msgspec
 
@@ -35,6 +37,7 @@ LONGEST_S = 3600.0
 LARGEST_RECOGNISER_TEXT = 7_000_000
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 _ID = re.compile(r"[A-Za-z0-9_]{1,40}")
+_DIGESTS: WeakKeyDictionary[Project, tuple[int, str]] = WeakKeyDictionary()
 _NO_GESTURE = frozenset(("none", "nothing"))
 """In a recording these words stand for no gesture, so none can have them as its name."""
 
@@ -137,7 +140,19 @@ def keep_recogniser(recogniser: OwnRecogniser | None) -> SetExtra:
 
 
 def training_digest(project: Project) -> str:
-    """A short text that differs when there is something else to learn from."""
+    """A short text that differs when there is something else to learn from.
+
+    It is reckoned once for each change of what the project keeps: recordings are long, and plans
+    ask for it often.
+    """
+    revision, digest = _DIGESTS.get(project, (-1, ""))
+    if revision != project.extra_revision:
+        digest = _digest(project)
+        _DIGESTS[project] = project.extra_revision, digest
+    return digest
+
+
+def _digest(project: Project) -> str:
     gestures = {name: one.takes for name, one in own_gestures(project).items() if one.takes}
     recordings = {key: (one, one.samples) for key, one in own_recordings(project).items()}
     data = msgspec.json.encode([sorted(gestures.items()), sorted(recordings.items())])
@@ -208,7 +223,7 @@ def _shape_of_recording(recording_id: str, value: object) -> str | None:
     for text in (recording.person, recording.source, recording.recorded):
         if (reason := why_not_text(text)) is not None:
             return reason
-    numbers = (recording.seconds, recording.rate_hz, *sum(recording.forgotten, ()))
+    numbers = (recording.seconds, recording.rate_hz, *chain.from_iterable(recording.forgotten))
     if not all(map(math.isfinite, numbers)) or min(numbers) < 0:
         return "each number must be finite, and not below 0."
     if recording.seconds > LONGEST_S:

@@ -19,6 +19,7 @@ _FASTEST_TURN_RAD_S = 40.0  # phones and watches measure up to 35 (2,000 °/s)
 _MAGNETIC = (15.0, 0.1)  # a larger size that changes less than this share is the earth's field
 _LONG_S = 0.3  # arrivals over less than this do not tell the unit of time
 _LEAST_SPAN = 1e-9  # no clock counts so little in any unit, and a smaller number may vanish
+_FEW_STEPS, _MOVES = 4, 0.3  # a clock that changes in fewer of its steps is none
 _TWICE = 0.8  # as a natural logarithm, with some room: how well the arrivals must fit
 
 
@@ -48,7 +49,10 @@ def guess_units(
     """The units of these columns; those that are ``given`` are kept."""
     given = given or Layout(layout.roles)
     columns = dict(zip(layout.roles, zip(*rows, strict=True), strict=False))
-    if "t" in columns:
+    if "t" in columns and _stands_still(columns["t"]):
+        del columns["t"]
+        layout = replace(layout, roles=tuple("-" if one == "t" else one for one in layout.roles))
+    elif "t" in columns:
         unit = given.time_unit or _time_unit(columns["t"], arrived_s) or "s"
         layout = replace(layout, time_unit=unit)
     if "ax" in columns:
@@ -76,6 +80,12 @@ def _time_unit(column: Sequence[float], arrived_s: Sequence[float]) -> str:
     }
     best = min(errors, key=errors.__getitem__)
     return best if errors[best] < _TWICE else ""
+
+
+def _stands_still(column: Sequence[float]) -> bool:
+    """Whether a clock counts too seldom to tell samples apart, such as one of whole seconds."""
+    steps = [after - before for before, after in pairwise(column)]
+    return len(steps) >= _FEW_STEPS and sum(step != 0 for step in steps) < _MOVES * len(steps)
 
 
 def _by_step(step: float) -> str:

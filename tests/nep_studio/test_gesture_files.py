@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from array import array
 from base64 import b64encode
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import SetField
@@ -19,10 +21,21 @@ from nep_studio.blocks.own_gestures import (
     keep_gesture,
     keep_recogniser,
     keep_recording,
+    own_gestures,
+    own_recordings,
     training_digest,
 )
 from nep_studio.blocks.packed_samples import packed_samples
-from nep_studio.gesture_files import FOLDER, MOST_KEPT, RecogniserFile, recogniser_file, take_files
+from nep_studio.gesture_files import (
+    FOLDER,
+    MOST_KEPT,
+    RecogniserFile,
+    TakeFiles,
+    labels_of,
+    recogniser_file,
+    spans_of,
+    take_files,
+)
 from nep_studio.node_checks import all_problems
 from nep_studio.plan import Choices, PlannedNode, plan
 from nep_studio.studio_language import studio_language
@@ -127,3 +140,41 @@ def test_only_the_newest_files_are_kept_in_the_cache(tmp_path, monkeypatch):
 
     assert len(list((tmp_path / "cache" / FOLDER).iterdir())) == MOST_KEPT
     assert len(list((tmp_path / "mine").iterdir())) == 25
+
+
+def test_a_model_that_is_used_again_is_not_forgotten_for_newer_ones(tmp_path, monkeypatch):
+    monkeypatch.setattr("nep_studio.gesture_files.cache_folder", lambda: tmp_path)
+    text = b64encode(MODEL).decode()
+    files = [RecogniserFile(tmp_path / FOLDER / f"{number}", text) for number in range(25)]
+    for age, file in enumerate(files[:MOST_KEPT]):
+        file.write()
+        os.utime(file.folder, (1000 + age, 1000 + age))
+
+    files[0].write()  # as the project does before it starts a node with it
+    for file in files[MOST_KEPT:]:
+        file.write()
+
+    assert files[0].path.is_file()
+    assert not files[1].folder.exists()
+
+
+def test_a_name_of_several_lines_stays_in_its_line(editor, tmp_path):
+    gestures, recordings = own_gestures(editor.project), own_recordings(editor.project)
+    named = {key: replace(one, person='A\nB, "C"') for key, one in recordings.items()}
+
+    TakeFiles(tmp_path / "takes", gestures, named).write()
+    (recording,) = read_recordings(tmp_path / "takes")
+
+    assert recording.person == "A_B_C_"
+    assert len(recording.t) == 300
+
+
+def test_a_take_counts_more_than_a_deleted_one_that_it_covers():
+    gesture = OwnGesture("Wave", takes=(OwnTake("a", "r", 1.0, 2.0), OwnTake("b", "r", 2.0, 3.0)))
+    recording = OwnRecording(4.0, 2.0, "", forgotten=((1.5, 3.5),))
+
+    labels = labels_of(
+        [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5], spans_of("r", recording, {"wave": gesture})
+    )
+
+    assert labels == ["", "", "wave", "", "wave", "wave", "wave", "?"]

@@ -30,6 +30,7 @@ SHOWN = {
     "apply": slice(1, 2),
     "_label": slice(4, 5),  # "Undo “{step}”" of ui/actions_edit.py
     "Fix": slice(1, 2),
+    "change": slice(0, 1),  # of the trainer's desk: the label of a step
 }
 """Functions whose words are shown in the language of the person: which arguments."""
 

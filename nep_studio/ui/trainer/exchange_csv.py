@@ -7,10 +7,11 @@ from pathlib import Path
 
 from nep_core.errors import RecordingError
 from nep_studio.blocks.own_gestures import OwnGesture, OwnRecording, Wrist
+from nep_studio.gesture_files import EVERYDAY, NEITHER, spans_of
 from nep_studio.ui.trainer.exchange_parts import Imported, ImportedTake
 from nep_studio.ui.trainer.kept_samples import packed, thinned
 from nep_studio.ui.trainer.live import Samples
-from nep_studio.ui.trainer.results.training_folder import EVERYDAY, NEITHER, labelled, spans_of
+from nep_studio.ui.trainer.results.training_folder import labelled
 from nodes.recordings import Recording, read_recording, read_recordings, write_recording
 
 _MAY_WRITE = (

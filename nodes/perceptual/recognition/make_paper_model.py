@@ -17,7 +17,7 @@ from nodes.resources import resource_folder
 from nodes.sensory.arm.gestures import GESTURES
 from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
 
-_PEOPLE = range(0, 12)
+_PEOPLE = range(0, 6)
 _REPETITIONS = 2
 _EVERYDAY_PEOPLE = range(60, 68)
 _EVERYDAY_S = 60.0

@@ -243,3 +243,15 @@ def test_a_sender_that_mixes_all_kinds_of_lines_takes_no_more_memory():
             reader.read([csv(*range(1, width + 1)).encode()], 0.0)
 
     assert len(reader._forms) <= 4
+
+
+@pytest.mark.parametrize("gyroscope", ["", ',"gx":0.1,"gy":0.2,"gz":{at}'])
+def test_a_clock_of_whole_seconds_does_not_take_the_samples_between_them_away(gyroscope):
+    form = '{{"time":{second},"ax":0.{at:03d},"ay":0.2,"az":9.8' + gyroscope + "}}"
+    lines = [form.format(second=1_732_000_000 + at // RATE_HZ, at=at) for at in range(200)]
+
+    readings, reader = heard(lines)
+
+    assert len(readings) > 150
+    assert {one.stamp for one in readings} == {None}
+    assert reader.told.startswith("-, ax")

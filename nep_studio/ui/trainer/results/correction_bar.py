@@ -73,4 +73,7 @@ class CorrectionBar(QWidget):
         if is_kept:
             self._desk.messages.confirm(words)
         else:
-            self._desk.messages.refuse("Too little movement was heard in the last seconds.")
+            self._desk.messages.refuse(
+                "Too little movement was heard in the last seconds.",
+                ("Make the movement, then press the button at once.",),
+            )

@@ -122,7 +122,13 @@ def _listen(talk: _Talk) -> None:
         except Exception as error:  # the try-out must not fall silent without a word
             log.exception("listening for gestures")
             listener = None
-            talk.news.put(RecordingError("The gestures cannot be tried out.", details=str(error)))
+            talk.news.put(
+                RecordingError(
+                    "The gestures cannot be tried out.",
+                    checklist=("Train the gestures again.",),
+                    details=str(error),
+                )
+            )
 
 
 class _Listener:

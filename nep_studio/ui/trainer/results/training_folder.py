@@ -5,21 +5,14 @@ from __future__ import annotations
 import shutil
 import tempfile
 import weakref
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-import numpy as np
-
-from nep_studio.blocks.own_gestures import OwnGesture, OwnRecording
+from nep_studio.blocks.own_gestures import OwnRecording
+from nep_studio.gesture_files import EVERYDAY, Gestures, Span, labels_of, spans_of
 from nep_studio.ui.trainer.kept_samples import unpacked
-from nep_studio.ui.trainer.live import Samples
 from nodes.recordings import Recording, write_recording
 
-EVERYDAY = "everyday"
-NEITHER = "?"
-"""The label of what is neither a gesture nor its absence."""
-
-Gestures = Mapping[str, OwnGesture]
 Recordings = Mapping[str, OwnRecording]
 
 
@@ -60,22 +53,7 @@ class TrainingFolder:
             (folder / f"{key}.csv").unlink(missing_ok=True)
 
 
-Spans = tuple[tuple[float, float, str], ...]
-
-
-def spans_of(key: str, recording: OwnRecording, gestures: Gestures) -> Spans:
-    """From when to when something else than nothing is made; what counts more comes later."""
-    takes = [
-        (take.start_s, take.end_s, NEITHER if take.left_out else name)
-        for name, gesture in gestures.items()
-        for take in gesture.takes
-        if take.recording == key
-    ]
-    unknown = [(start_s, end_s, NEITHER) for start_s, end_s in recording.forgotten]
-    return (*unknown, *sorted(takes, key=lambda span: (span[2] != NEITHER, span)))
-
-
-def labelled(key: str, recording: OwnRecording, spans: Spans) -> Recording:
+def labelled(key: str, recording: OwnRecording, spans: Sequence[Span]) -> Recording:
     """A recording as a file has it: each sample says what is made at that time."""
     samples = unpacked(recording)
     has_labels = bool(spans) or not recording.everyday
@@ -84,21 +62,10 @@ def labelled(key: str, recording: OwnRecording, spans: Spans) -> Recording:
         t=samples.t,
         acc=samples.acc,
         gyr=samples.gyr,
-        labels=_labels(samples, spans) if has_labels else None,
+        labels=labels_of(samples.t.tolist(), spans) if has_labels else None,
         gravity_included=recording.gravity_included,
         person=recording.person,
         simulated=recording.simulated,
         wrist=recording.wrist,
         device=recording.source,
     )
-
-
-def _labels(samples: Samples, spans: Spans) -> list[str]:
-    labels = [""] * len(samples)
-    for start_s, end_s, name in spans:
-        first = int(np.searchsorted(samples.t, start_s - 1e-6))
-        last = int(np.searchsorted(samples.t, end_s + 1e-6))
-        labels[first:last] = [name] * (last - first)
-        if first and labels[first - 1] == name != NEITHER:
-            labels[first - 1] = ""  # two takes of a gesture that touch stay two
-    return labels
