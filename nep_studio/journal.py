@@ -34,6 +34,8 @@ from nep_studio.file_lock import FileLock
 log = logging.getLogger(__name__)
 
 STEPS_PER_SNAPSHOT = 500
+BYTES_PER_SNAPSHOT = 40_000_000
+"""What was learned of gestures is a megabyte or more, each time."""
 _ENCODER = msgspec.json.Encoder()
 _DECODER = msgspec.json.Decoder(list[Edit])
 
@@ -74,7 +76,7 @@ class Journal:
         self._editor = editor
         self._about = About(editor.project.name, str(path or ""), unsaved)
         self._number = 0
-        self._steps = 0
+        self._steps = self._bytes = 0
         self._file = -1
         self._is_flushed = True
         self._is_behind = False
@@ -116,13 +118,15 @@ class Journal:
             shutil.rmtree(self.folder, ignore_errors=True)
 
     def _write(self, edits: tuple[Edit, ...]) -> None:
-        if self._steps >= STEPS_PER_SNAPSHOT or self._is_behind:
+        is_long = self._steps >= STEPS_PER_SNAPSHOT or self._bytes >= BYTES_PER_SNAPSHOT
+        if is_long or self._is_behind:
             self._about.unsaved = True
             self._snapshot()
             return
         try:
-            _write_all(self._file, _ENCODER.encode(edits) + b"\n")
-            self._steps += 1
+            line = _ENCODER.encode(edits) + b"\n"
+            _write_all(self._file, line)
+            self._steps, self._bytes = self._steps + 1, self._bytes + len(line)
         except OSError as error:
             self._fail(error)
             self._is_behind = self._about.unsaved = True
@@ -148,7 +152,8 @@ class Journal:
         for old in (f"{self._number}.nep", f"{self._number}.edits"):
             with suppress(OSError):
                 (self.folder / old).unlink(missing_ok=True)
-        self._number, self._file, self._steps, self._is_flushed = number, file, 0, False
+        self._number, self._file, self._is_flushed = number, file, False
+        self._steps = self._bytes = 0
 
     def _fail(self, error: OSError) -> None:
         if not self.error:

@@ -92,7 +92,7 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     nodes = [_with_recogniser(node, entry, project) for node, entry in _paired(nodes, listed)]
     nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
     nodes = _with_a_watch(nodes, choices, _known_gestures(project, language))
-    nodes = [_with_takes(node, project) for node in nodes]
+    nodes = [with_takes(node, project) for node in nodes]
     return [_hurried(node, choices.speed, language.profile.node) for node in nodes]
 
 
@@ -201,7 +201,7 @@ def _of_project(node: PlannedNode, project: Project) -> PlannedNode:
     return replace(node, parameters=settings, files=file)
 
 
-def _with_takes(node: PlannedNode, project: Project) -> PlannedNode:
+def with_takes(node: PlannedNode, project: Project) -> PlannedNode:
     """A virtual watch that can make the project's gestures; others as they are."""
     if node.node != VIRTUAL_WATCH or node.parameters.get("takes"):
         return node

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import time
 from array import array
 from pathlib import Path
 
 import pytest
 
+import nep_studio.blocks.own_gestures as own_gestures_module
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import SetField
@@ -182,3 +184,33 @@ def test_samples_that_unpack_to_more_than_fits_are_refused():
 
     with pytest.raises(ValueError, match="too many"):
         unpacked_samples(bomb)
+
+
+def test_a_recording_with_very_many_deleted_takes_opens_at_once(language: Language, tmp_path: Path):
+    project = build(language, [B("event.started")]).project
+    samples = packed_samples(array("f", [0.0, 0.0, 0.0, 9.8]).tobytes())
+    value = {"seconds": 1, "rate_hz": 50, "samples": samples, "forgotten": [[0, 1]] * 30_000}
+    project.extra["recording_r1"] = value
+    save(project, tmp_path / "many.nep")
+
+    began_s = time.monotonic()
+    load(tmp_path / "many.nep", language)
+
+    assert time.monotonic() - began_s < 3.0
+
+
+def test_the_training_data_are_digested_once_for_each_change(language: Language, monkeypatch):
+    editor = build(language, [B("event.started")])
+    reckoned: list[str] = []
+
+    def reckon(_project: object) -> str:
+        reckoned.append(f"digest {len(reckoned)}")
+        return reckoned[-1]
+
+    monkeypatch.setattr(own_gestures_module, "_digest", reckon)
+
+    first = [training_digest(editor.project) for _ in range(3)]
+    editor.apply(keep_gesture("wave", OwnGesture("Wave")), "add a gesture")
+    second = training_digest(editor.project)
+
+    assert (first, second) == (["digest 0"] * 3, "digest 1")

@@ -12,7 +12,7 @@ import pytest
 
 from nep_studio import journal as journal_module
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits import SetExtra, SetField
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.places import InBody
 from nep_studio.blocks.program import Project
@@ -159,6 +159,20 @@ def test_a_snapshot_is_made_every_so_many_steps(tmp_path, editor, language, monk
 
     (work,) = recover(tmp_path, language)
     assert to_bytes(work.project) == to_bytes(editor.project)
+
+
+def test_a_snapshot_is_made_when_the_edits_are_long(tmp_path, editor, language, monkeypatch):
+    monkeypatch.setattr(journal_module, "BYTES_PER_SNAPSHOT", 2_000)
+    journal = Journal(tmp_path, editor)
+
+    for number in range(8):
+        editor.apply(SetExtra("cues", f"{number}" * 900), "keep")
+    sizes = [path.stat().st_size for path in journal.folder.glob("*.edits")]
+    abandon(journal)
+    [work] = recover(tmp_path, language)
+
+    assert len(sizes) == 1 and sizes[0] < 4_000
+    assert work.project.extra["cues"] == "7" * 900
 
 
 def test_a_recovered_project_that_is_open_again_stays_recoverable(tmp_path, editor, language):

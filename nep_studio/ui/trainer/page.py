@@ -30,6 +30,7 @@ from nep_studio.ui.trainer.results.training import Training
 from nep_studio.ui.trainer.results.try_out import TryOut
 from nep_studio.ui.trainer.session import Session, TakeSession
 from nep_studio.ui.trainer.shape import Shape, shape_for
+from nep_studio.ui.trainer.simulated import SimulatedWearer
 from nep_studio.ui.trainer.strip import Strip
 from nep_studio.ui.trainer.take_view import TakeView
 from nep_studio.ui.words import tr
@@ -45,6 +46,7 @@ class TrainerPage(QWidget):
         self.desk, self.training = desk, training
         self.keeping = Keeping(desk)
         self.session = TakeSession(desk, self)
+        self.simulated = SimulatedWearer(desk, self.session)
         self.take = TakeView(desk, self.keeping, self)
         self.head = Head(desk)
         self.strip = Strip(desk, self.session, self.take)
@@ -110,7 +112,7 @@ class TrainerPage(QWidget):
         self.session.movement_found.connect(self._on_movement_found)
         self.results.takes_asked.connect(self._on_takes_asked)
         self.results.record_asked.connect(lambda name: self.record(name or self.cards.current))
-        self.results.everyday_asked.connect(lambda: self.record_everyday(30.0))
+        self.results.everyday_asked.connect(lambda: self.record_everyday(60.0))
         self.results.gesture_asked.connect(self.ask_for_gesture)
         self.results.trial_asked.connect(lambda: self.tabs.setCurrentWidget(self.trial))
 
@@ -145,13 +147,17 @@ class TrainerPage(QWidget):
             return
         self.desk.choose_take("")
         self.show_recording()
-        is_everyday = not self.session.gesture
-        self.bar.tell(
-            tr("Move as you usually do, without your gestures.")
-            if is_everyday
-            else tr("Hold still. After the countdown, make the gesture and rest, five times.")
-        )
+        self.bar.tell(self._what_to_do())
         self.strip.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _what_to_do(self) -> str:
+        gesture = self.session.gesture
+        if not gesture:
+            return tr("Move as you usually do, without your gestures.")
+        if self.simulated.is_there:
+            made = self.simulated.movement_for(gesture)
+            return tr("The simulated person makes the movement {movement}.", movement=made)
+        return tr("Hold still. After the countdown, make the gesture and rest, five times.")
 
     def _on_ended(self, session: Session) -> None:
         if session.takes and not keep_session(self.keeping, session):

@@ -67,9 +67,9 @@ class RecordBar(QWidget):
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(self.fontMetrics().height() // 4)
-        box.addLayout(row)
+        box.addWidget(self.words)  # first: what came of it is seen without scrolling
         box.addWidget(self.progress)
-        box.addWidget(self.words)
+        box.addLayout(row)
 
     def tell(self, words: str) -> None:
         """Say what came of it, on the screen and to screen readers."""

@@ -16,7 +16,8 @@ from nep_studio.blocks.operations.sensing import (
     use_watch,
     watch_entry,
 )
-from nep_studio.plan import VIRTUAL_WATCH, PlannedNode
+from nep_studio.blocks.own_gestures import own_gestures
+from nep_studio.plan import VIRTUAL_WATCH, PlannedNode, with_takes
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
@@ -37,8 +38,10 @@ def add_watches(window: MainWindow) -> WatchKit:
 
 
 def open_watches(window: MainWindow) -> None:
-    """Show the dialog, as other rooms ask for it."""
-    window.actions_by_name["connect_watch"].trigger()
+    """Show the dialog, as other rooms ask for it: who works there stays on their page."""
+    kit = window.actions_by_name.findChild(WatchKit)
+    if kit is not None:
+        kit.open(stays=True)
 
 
 class WatchKit(QObject):
@@ -49,15 +52,27 @@ class WatchKit(QObject):
         self._window = window
         self._token = ""
         self.dialog: WatchDialog | None = None
+        self._stays = False
         tip = tr("Let the movements of a real watch or phone into this project.")
         action = window.actions_by_name.add(
-            "connect_watch", tr("Connect a watch or phone…"), self.open, icon_name="watch", tip=tip
+            "connect_watch",
+            tr("Connect a watch or phone…"),
+            self._on_asked,
+            icon_name="watch",
+            tip=tip,
         )
         window.menus["robots"].addAction(action)
         window.files.document_changed.connect(self._on_document_changed)
 
-    def open(self) -> None:
-        """Show the dialog; when another watch is in use, ask first."""
+    def _on_asked(self) -> None:
+        self.open()
+
+    def open(self, *, stays: bool = False) -> None:
+        """Show the dialog; when another watch is in use, ask first.
+
+        ``stays``: the page that is shown stays when a watch is used, else its block is shown.
+        """
+        self._stays = stays
         window = self._window
         if window.files.document is None:
             window.messages.refuse(
@@ -92,6 +107,7 @@ class WatchKit(QObject):
         dialog = self.dialog = WatchDialog(runner, plan, self._token, look, window)
         dialog.used.connect(lambda: self._use(dialog))
         dialog.finished.connect(self._on_finished)
+        self.destroyed.connect(dialog.reject)  # the window is made anew, in another language
         dialog.begin()
 
     def _plan(self, *, is_another: bool = False) -> Plan:
@@ -99,10 +115,13 @@ class WatchKit(QObject):
         from .dialog import Plan
 
         editor = self._editor
-        known = list(editor.language.choices.get("gestures", {}))[:MOST_GESTURES]
-        gestures = ", ".join(gestures_used(editor.project, editor.language) or known)
         folder = self._window.settings.last_folder / RECORDINGS
-        blank = Plan(free_watch_name(editor), gestures=gestures, folder=folder)
+        blank = Plan(
+            free_watch_name(editor),
+            gestures=self._gestures(),
+            folder=folder,
+            equip=lambda node: with_takes(node, editor.project),
+        )
         entry = watch_entry(node_entries(editor.project, editor.language))
         if is_another or entry is None:
             return blank
@@ -111,6 +130,18 @@ class WatchKit(QObject):
         return replace(
             blank, name=entry.name, settings=dict(entry.parameters) or {"through": "udp"}
         )
+
+    def _gestures(self) -> str:
+        """What a simulated person is to make: what the program waits for, as far as it is known."""
+        from nodes.sensory.arm.gestures import GESTURES
+
+        editor = self._editor
+        own = own_gestures(editor.project)
+        used = gestures_used(editor.project, editor.language)
+        offered = editor.language.choices.get("gestures", {})
+        known = {name for name, one in own.items() if one.takes} | set(GESTURES)
+        wanted = [name for name in used if name in known]
+        return ", ".join(wanted or [name for name in offered if name in known][:MOST_GESTURES])
 
     @property
     def _editor(self) -> Editor:
@@ -145,7 +176,8 @@ class WatchKit(QObject):
         for name in self._stand_ins(runner.local.planned):
             runner.stop_node(name)
         dialog.trial.keep(self._planned_of(block))
-        window.workbench.show_block(block)
+        if not self._stays:
+            window.workbench.show_block(block)
         window.messages.confirm(tr("“{name}” gives the movements now", name=planned.name))
 
     def _planned_of(self, block: str) -> PlannedNode | None:

@@ -95,7 +95,7 @@ class OfferCard(QPushButton):
         chevron = "chevron-left" if is_right_to_left() else "chevron-right"
         row.addWidget(self._picture(chevron, round(line * 1.1)))
         self.redraw()
-        policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
 

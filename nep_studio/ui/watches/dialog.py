@@ -20,12 +20,12 @@ from PySide6.QtWidgets import (
 from nep_studio.plan import PlannedNode, Setting
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.screens import room_around
+from nep_studio.ui.scrolling import scrolled, show_top
 from nep_studio.ui.theme import Look, icon
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .choosing import ChoosingPage
 from .hearing import WatchEar
-from .scrolling import scrolled, show_top
 from .trial import WatchTrial
 from .way_page import Known, WayPage
 from .ways import WAYS, Way
@@ -46,6 +46,8 @@ class Plan:
     settings: Mapping[str, Setting] = field(default_factory=dict)
     gestures: str = ""
     folder: Path = field(default_factory=Path)
+    equip: Callable[[PlannedNode], PlannedNode] = lambda node: node
+    """Gives a node that is tried what Run would give it, such as the gestures of the project."""
 
     @property
     def way(self) -> Way | None:
@@ -195,7 +197,7 @@ class WatchDialog(QDialog):
         if planned is None:
             self.trial.stop()
         else:
-            self.trial.want(planned)
+            self.trial.want(self.plan.equip(planned))
         self._update()
 
     def _on_theme_changed(self) -> None:

@@ -37,9 +37,20 @@ class WatchTrial(QObject):
         self._started: PlannedNode | None = None
         self._pid_before = 0
         self._has_ended = False
+        self._take_over(parent)
         runner.told_elsewhere.add(name)
         runner.nodes_changed.connect(self._on_nodes_changed)
         runner.node_failed.connect(self._on_node_failed)
+
+    def _take_over(self, parent: QObject) -> None:
+        """Go on for a trial that has ended, but whose node is still starting."""
+        for one in parent.findChildren(WatchTrial):
+            if one is not self and one.name == self.name and one.state == "starting":
+                self.state, self.before = one.state, one.before
+                self._started, self._pid_before = one._started, one._pid_before
+                self._runner.nodes_changed.disconnect(one._on_nodes_changed)
+                self._runner.node_failed.disconnect(one._on_node_failed)
+                one.deleteLater()
 
     def want(self, planned: PlannedNode) -> None:
         """Let this node run from now on."""
@@ -52,7 +63,7 @@ class WatchTrial(QObject):
         self._wanted = None
         if self.state == "starting":
             return  # a node cannot be stopped before it is there: that follows
-        if self._started is not None:
+        if self._started is not None and not self._is_needed:
             if self.before is not None:
                 if not is_same(self.before, self._runner.local.planned.get(self.name)):
                     self._runner.start_node(self.before)
@@ -67,9 +78,9 @@ class WatchTrial(QObject):
         if self.state == "starting":
             self._wanted = None
         else:
-            was_started = self._started is not None and self.before is None
+            is_to_end = self._started is not None and self.before is None and not self._is_needed
             self.stop()
-            if not was_started:
+            if not is_to_end:
                 self._leave()  # else it goes with its node
 
     def keep(self, planned: PlannedNode | None) -> None:
@@ -105,6 +116,13 @@ class WatchTrial(QObject):
         self.problem = None
         self._set_state("starting")
         self._runner.start_node(wanted)
+
+    @property
+    def _is_needed(self) -> bool:
+        """Whether a program that runs has taken the node over, as it is."""
+        mine = self._runner.local.planned.get(self.name)
+        planned = self._runner.planned() if self._runner.state != "idle" else ()
+        return any(is_same(one, mine) for one in planned)
 
     @property
     def _is_there(self) -> bool:

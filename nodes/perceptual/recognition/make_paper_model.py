@@ -7,17 +7,20 @@ The people are numbers 0 to 99: examples and tests show others, whom the model h
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from nodes.perceptual.recognition.model import Model
 from nodes.perceptual.recognition.model_file import write_model
 from nodes.perceptual.recognition.report import in_words
 from nodes.perceptual.recognition.training import train
+from nodes.perceptual.recognition.wrist import mirrored
+from nodes.recordings import Recording
 from nodes.resources import resource_folder
 from nodes.sensory.arm.gestures import GESTURES
 from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
 
-_PEOPLE = range(0, 6)
+_PEOPLE = range(0, 4)
 _REPETITIONS = 2
 _EVERYDAY_PEOPLE = range(60, 68)
 _EVERYDAY_S = 60.0
@@ -26,8 +29,15 @@ _EVERYDAY_S = 60.0
 def make_paper_model() -> Model:
     """Train on sessions and everyday movement of simulated people; takes a few minutes."""
     sessions = [simulate_session(person, sorted(GESTURES), _REPETITIONS) for person in _PEOPLE]
+    sessions += [_with_the_other_hand(session) for session in sessions]
     everyday = [simulate_everyday(person, _EVERYDAY_S) for person in _EVERYDAY_PEOPLE]
     return train(sessions, everyday, tell=print)
+
+
+def _with_the_other_hand(session: Recording) -> Recording:
+    """The same gestures made by a person who is the mirror image."""
+    acc, gyr = mirrored(session.acc, session.gyr)
+    return replace(session, acc=acc, gyr=gyr, person=f"{session.person}, mirrored")
 
 
 def main() -> None:

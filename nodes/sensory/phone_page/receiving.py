@@ -56,9 +56,14 @@ class Receiving:
         self._give(arrived)
         return FOLLOWED
 
-    def leave(self, phone: str) -> None:
-        """A page was closed; ``phone`` is its id."""
-        self._turn.leave(phone)
+    @property
+    def followed_s(self) -> float:
+        """When something came last from the phone that is followed."""
+        return self._turn.heard_s
+
+    def leave(self, phone: str, followed_s: float) -> None:
+        """A connection of a phone, its id, was closed; by it the phone was followed last then."""
+        self._turn.leave(phone, followed_s)
 
     def _tell_of_second(self, name: str, now_s: float) -> None:
         if self._sentences.grants("", now_s):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from nodes.sensory.phone_page.batch import MOST_BYTES, read_message
 from nodes.sensory.phone_page.guard import SERVER, headers, is_our_host, is_our_origin
 from nodes.sensory.phone_page.page_files import PageFiles, content_type
-from nodes.sensory.phone_page.receiving import Receiving
+from nodes.sensory.phone_page.receiving import FOLLOWED, Receiving
 from nodes.sensory.phone_page.token import is_token
 from nodes.sensory.phone_page.turn import Allowance
 
@@ -125,7 +125,7 @@ class Site:
         try:
             await talk.go_on()
         finally:
-            self._receiving.leave(talk.phone)
+            self._receiving.leave(talk.phone, talk.followed_s)
         return socket
 
 
@@ -135,6 +135,7 @@ class _Talk:
     def __init__(self, receiving: Receiving, socket: web.WebSocketResponse, address: str) -> None:
         self._receiving, self._socket, self._address = receiving, socket, address
         self.phone = ""
+        self.followed_s = 0.0
         self._told, self._told_s = "", 0.0
 
     async def go_on(self) -> None:
@@ -161,6 +162,8 @@ class _Talk:
             return
         self.phone = message.id
         state, now_s = self._receiving.take(message, self._address), time.monotonic()
+        if state == FOLLOWED and message.t:
+            self.followed_s = self._receiving.followed_s
         if state != self._told or now_s - self._told_s >= ANSWER_S:
             self._told, self._told_s = state, now_s
             await self._socket.send_str(_answer(state))

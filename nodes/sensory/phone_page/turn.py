@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
 
 SILENT_S = 3.0
@@ -13,22 +14,26 @@ class Turn:
 
     def __init__(self) -> None:
         self._phone = ""
-        self._heard_s = 0.0
+        self.heard_s = 0.0
+        """When the phone that is followed sent something last."""
 
     def is_free_for(self, phone: str, now_s: float) -> bool:
         """Whether this phone is followed, or would be if it sent something now."""
-        return self._phone in ("", phone) or now_s - self._heard_s >= SILENT_S
+        return self._phone in ("", phone) or now_s - self.heard_s >= SILENT_S
 
     def take(self, phone: str, now_s: float) -> bool:
         """Follow this phone, which sends samples, if it is free to; whether it is followed."""
         if not self.is_free_for(phone, now_s):
             return False
-        self._phone, self._heard_s = phone, now_s
+        self._phone, self.heard_s = phone, now_s
         return True
 
-    def leave(self, phone: str) -> None:
-        """The phone has closed its page."""
-        if phone == self._phone:
+    def leave(self, phone: str, heard_s: float = math.inf) -> None:
+        """The phone has closed a connection, by which it was followed last at ``heard_s``.
+
+        Who was heard by another one since then has only changed its network.
+        """
+        if phone == self._phone and self.heard_s <= heard_s:
             self._phone = ""
 
 

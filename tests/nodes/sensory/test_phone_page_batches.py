@@ -87,6 +87,21 @@ def test_a_phone_that_is_silent_loses_its_turn_and_one_that_leaves_at_once():
     assert turn.take("a", 3.3)
 
 
+def test_a_phone_that_connected_anew_keeps_its_turn_when_its_old_connection_ends():
+    given_on, clock = [], Clock()
+    receiving = Receiving(given_on.append, clock)
+    receiving.take(message(), "1.1.1.1")
+    by_the_old_one_s = receiving.followed_s
+    clock.now_s = 10.0
+    receiving.take(message(), "1.1.1.2")
+
+    receiving.leave(message().id, by_the_old_one_s)
+
+    assert receiving.take(message(id="b2"), "2.2.2.2") == "busy"
+    receiving.leave(message().id, receiving.followed_s)
+    assert receiving.take(message(id="b2"), "2.2.2.2") == "followed"
+
+
 def test_an_allowance_fills_again_with_time_and_each_sender_has_its_own():
     allowance = Allowance(rate=10.0, burst=2.0)
 

@@ -149,3 +149,19 @@ def test_there_is_one_dialog_and_another_project_closes_it(
 
     with qtbot.waitSignal(dialog.finished):
         karate.files.new()
+
+
+def test_another_language_closes_the_dialog_and_stops_what_it_started(
+    karate: MainWindow, qtbot: QtBot
+) -> None:
+    karate.actions_by_name["connect_watch"].trigger()
+    dialog = karate.findChild(WatchDialog)
+    choose(dialog, "udp", qtbot)
+
+    with qtbot.waitSignal(dialog.finished):
+        karate.studio.choose_language("es")
+
+    karate.actions_by_name["connect_watch"].trigger()
+    qtbot.waitUntil(lambda: len(karate.findChildren(WatchDialog)) == 1)
+    karate.findChild(WatchDialog).reject()
+    karate.studio.choose_language("en")

@@ -111,3 +111,47 @@ def test_a_watch_that_ran_before_comes_back_when_another_is_not_used(
 
     assert runner.asked[-1] == ("start", before)
     assert runner.told_elsewhere == set()
+
+
+def test_a_program_that_runs_with_the_watch_keeps_it_when_the_dialog_is_closed(
+    open_dialog: Open, runner: RecordingRunner, qtbot: QtBot
+) -> None:
+    dialog = open_dialog()
+    choose(dialog, "virtual_watch", qtbot)
+    runner.tell("ready")
+    runner.planned = lambda: runner.started
+    runner.state = "running"
+
+    press(qtbot, dialog.close_button)
+
+    assert ("stop", "watch") not in runner.asked
+    assert "watch" not in runner.told_elsewhere
+    runner.state = "idle"
+
+
+def test_a_dialog_that_is_opened_again_goes_on_with_the_node_that_is_starting(
+    open_dialog: Open, runner: RecordingRunner, qtbot: QtBot
+) -> None:
+    first = open_dialog()
+    choose(first, "udp", qtbot)
+    press(qtbot, first.close_button)
+
+    second = open_dialog()
+    choose(second, "udp", qtbot)
+    runner.tell("ready")
+
+    assert second.trial.state in ("starting", "listening")
+    assert ("stop", "watch") not in runner.asked
+
+
+def test_a_dialog_that_is_opened_again_and_closed_stops_what_the_first_one_started(
+    open_dialog: Open, runner: RecordingRunner, qtbot: QtBot
+) -> None:
+    first = open_dialog()
+    choose(first, "udp", qtbot)
+    press(qtbot, first.close_button)
+
+    press(qtbot, open_dialog().close_button)
+    runner.tell("ready")
+
+    assert runner.asked[-1] == ("stop", "watch")

@@ -9,7 +9,8 @@ from nep_studio.ui.trainer.results.advice_parts import ENOUGH_TAKES, Advice, Kno
 from nep_studio.ui.trainer.results.findings import Findings
 from nep_studio.ui.words import count_words, tr
 
-_ENOUGH_EVERYDAY_S = 60.0
+_ENOUGH_EVERYDAY_S = 55.0
+"""A minute, of which a moment may be missing at its ends."""
 _PERSON_FOUND, _PERSON_MISSED = 0.8, 0.6
 
 

@@ -6,11 +6,12 @@ import re
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QComboBox, QFrame, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QSizePolicy, QVBoxLayout, QWidget
 
 from nep_studio.problems import Problem
 from nep_studio.ui.messages import Message
 from nep_studio.ui.messages_card import MessageText
+from nep_studio.ui.scrolling import scrolled
 from nep_studio.ui.trainer.desk import TrainerDesk
 from nep_studio.ui.trainer.results.advice import advice_on, false_triggers, headline
 from nep_studio.ui.trainer.results.advice_list import AdviceList
@@ -77,22 +78,19 @@ class ResultsView(QWidget):
         self.found.add(self.headline, self.everyday, self.advice)
         self.found.add_beside(
             Words(tr("What was taken for what"), "heading"),
-            self.method,
             self.table,
             Words(legend, "hint"),
             Words(tr("Recognition point"), "heading"),
             Words(point, "hint"),
             self.points,
+            Words(tr("Recogniser"), "heading"),
+            self.method,
         )
         for widget in (self.bar, self.failure, self.found):
             box.addWidget(widget)
         box.addStretch(1)
-        self.area = QScrollArea()
-        self.area.setWidgetResizable(True)
-        self.area.setFrameShape(QFrame.Shape.NoFrame)
-        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.area = scrolled(inner)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.area.setWidget(inner)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.addWidget(self.area)

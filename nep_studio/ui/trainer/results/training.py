@@ -251,11 +251,21 @@ class Training(QObject):
             self.changed.emit()
 
     def _on_project_changed(self) -> None:
-        if self.is_training and self.desk.editor is not self._editor:
+        if self.is_training and self._is_in_vain():
             self.cancel()
         if self._wants_to_train():
             self._soon.start()
         self.changed.emit()
+
+    def _is_in_vain(self) -> bool:
+        """Whether nobody wants what it learns: of another project, or of a step that was undone.
+
+        To keep the latter would be a new step, and take the way forward through the others away.
+        """
+        editor = self.desk.editor
+        if editor is None or editor is not self._editor:
+            return True
+        return bool(editor.history.redo_label) and self.desk.digest() != self._digest
 
     def _wants_to_train(self) -> bool:
         """Whether to train by itself: not on a way back through the steps of undo."""

@@ -5,15 +5,14 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import announce
+from nep_studio.ui.scrolling import scrolled
 from nep_studio.ui.trainer.desk import TrainerDesk
 from nep_studio.ui.trainer.live import Samples
 from nep_studio.ui.trainer.results.band_panel import BandPanel
@@ -92,12 +91,8 @@ class TryOut(QWidget):
         self.live.add_beside(Words(tr("Expected curve"), "heading"), self.band)
         box.addWidget(self.live)
         box.addStretch(1)
-        self.area = QScrollArea()
-        self.area.setWidgetResizable(True)
-        self.area.setFrameShape(QFrame.Shape.NoFrame)
-        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.area = scrolled(inner)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.area.setWidget(inner)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.addWidget(self.area)
