@@ -258,7 +258,7 @@ def test_a_wrong_link_opens_a_page_that_says_what_to_do_in_the_phones_language(p
     phone.until(STATE, "refused")
 
     assert phone.value("document.documentElement.lang") == "ja"
-    assert "QRコード" in phone.value("document.body.innerText")
+    assert "コードを読み取って" in phone.value("document.body.innerText")
     ground = phone.value("getComputedStyle(document.querySelector('.state')).backgroundColor")
     assert ground == "rgb(251, 228, 224)"  # its style was not refused by our own policy
 

@@ -233,23 +233,6 @@ def test_an_empty_project_says_what_is_missing(
     assert "Add a gesture" in training.why_not
 
 
-def test_a_step_that_is_undone_while_it_trains_can_be_redone(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
-) -> None:
-    training = make_training("    pass\n")
-    karate = recorded.gestures["karate"]
-    fewer = keep_gesture("karate", replace(karate, takes=karate.takes[:-1]))
-    recorded.change("delete a take", [fewer])
-    training.train()
-    qtbot.waitUntil(lambda: training._is_asked)
-
-    recorded.editor.history.undo()
-    recorded.refresh()
-
-    assert not training.is_training
-    assert recorded.editor.history.redo_label == "delete a take"
-
-
 def test_the_folder_marks_takes_and_what_is_unknown(recorded: TrainerDesk) -> None:
     gesture, recording = recorded.gestures["karate"], recorded.recordings["s1"]
     takes = (replace(gesture.takes[0], left_out=True), *gesture.takes[1:])

@@ -238,8 +238,8 @@ class Training(QObject):
         figures: dict[str, Any] = next(iter(done.report.values()), {})
         gestures = tuple(figures.get("takes", ()))
         recogniser = OwnRecogniser(digest, gestures, text, done.report)
-        self.desk.change("train the gestures", [keep_recogniser(recogniser)])
-        self.trained.emit()
+        if self.desk.change("train the gestures", [keep_recogniser(recogniser)]):
+            self.trained.emit()
         self.changed.emit()
         self._on_project_changed()  # it may have changed meanwhile
 
