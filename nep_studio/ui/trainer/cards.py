@@ -89,7 +89,7 @@ class Cards(QScrollArea):
     def minimumSizeHint(self) -> QSize:
         """One card can be used."""
         line = self.fontMetrics().height()
-        return QSize(line * 12, line * 6)
+        return QSize(line * 12, line * 4)
 
     # What is shown
 

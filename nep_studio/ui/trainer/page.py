@@ -93,7 +93,7 @@ class TrainerPage(QWidget):
         area.setFrameShape(QFrame.Shape.NoFrame)
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setWidget(top)
-        area.setMinimumSize(line * 15, line * 6)
+        area.setMinimumSize(line * 15, line * 4)
         return area
 
     def _connect(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -91,6 +92,8 @@ class TakeSession(QObject):
         self._run = _Run("", "", 0)
         self._counting = QTimer(self, interval=COUNT_MS)
         self._counting.timeout.connect(self._on_counted)
+        self.counts: Callable[[Movement], bool] = lambda _movement: True
+        """Whether a movement may be a take: of a simulated person it is known."""
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self._on_look)
         desk.heard.connect(self._on_heard)
@@ -226,6 +229,8 @@ class TakeSession(QObject):
         for movement in found:
             if movement.start_s < run.start_s or run.taken >= run.wanted:
                 continue
+            if not self.counts(movement):
+                continue
             run.movements.append(movement)
             self.movement_found.emit(movement)
             self.changed.emit()
@@ -259,7 +264,7 @@ class TakeSession(QObject):
         for movement in run.finder.finish():
             is_reaching = movement.end_s > last_s - _REACHING_S
             is_counted = movement.start_s >= run.start_s and run.taken < run.wanted
-            if is_counted and not is_reaching:
+            if is_counted and not is_reaching and self.counts(movement):
                 run.movements.append(movement)
                 self.movement_found.emit(movement)
             elif is_reaching:

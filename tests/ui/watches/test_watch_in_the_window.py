@@ -7,11 +7,13 @@ import sys
 from collections.abc import Callable, Iterator
 
 import pytest
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_core.messages import NodeState
 from nep_studio.blocks.deployment import node_entries
 from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.watches.adding import open_watches
 from nep_studio.ui.watches.dialog import WatchDialog
 from tests.ui.watches.watch_stage import (
     choose,
@@ -165,3 +167,24 @@ def test_another_language_closes_the_dialog_and_stops_what_it_started(
     qtbot.waitUntil(lambda: len(karate.findChildren(WatchDialog)) == 1)
     karate.findChild(WatchDialog).reject()
     karate.studio.choose_language("en")
+
+
+def test_a_simulated_person_makes_the_gestures_of_the_project(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    card = next(c for path, c in window.start_page.cards.items() if path.stem == "own_gestures")
+    qtbot.mouseClick(card, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+    window.workbench.canvas.show_page("behaviour")
+    open_watches(window)
+    dialog = window.findChild(WatchDialog)
+    choose(dialog, "virtual_watch", qtbot)
+    assert "circle" in dialog.page.gestures.gestures.text()
+    qtbot.waitUntil(lambda: dialog.page.live.dot.state == "moved", timeout=20_000)
+
+    press(qtbot, dialog.use_button)
+
+    assert window.workbench.canvas.page == "behaviour"
+    [watch] = [node for node in window.running.runner.planned() if node.is_sensory]
+    assert watch.node == "sensory/virtual_watch"
+    window.running.runner.stop_node(watch.name)
