@@ -8,6 +8,8 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
 from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.trainer.panel import TrainerPanel
+from nep_studio.ui.watches.dialog import WatchDialog
 
 __all__ = ["SCENES"]
 
@@ -55,3 +57,25 @@ def commands(stage: Stage) -> QImage:
         window.actions_by_name["palette"].trigger()
         quiet()
         return picture(window)
+
+
+@scene("gestures")
+def gestures(stage: Stage) -> QImage:
+    """Three gestures that were taught, with their takes."""
+    with stage.window(example="own_gestures") as window:
+        panel = window.findChild(TrainerPanel)
+        assert panel is not None
+        window.workbench.panels.show(panel)
+        quiet()
+        return picture(window)
+
+
+@scene("connect-watch")
+def connect_watch(stage: Stage) -> QImage:
+    """What somebody may have to send movements with."""
+    with stage.window() as window:
+        window.actions_by_name["connect_watch"].trigger()
+        quiet()
+        dialog = window.findChild(WatchDialog)
+        assert dialog is not None
+        return dialog.grab().toImage()

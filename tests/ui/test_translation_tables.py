@@ -39,6 +39,7 @@ NAMED = {
     "ui/canvas/fields/colour_popup.py": "COLOURS",
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
     "blocks/operations/flags.py": "LABELS",
+    "ui/trainer/keeping.py": "LABELS",
 }
 """Data whose words are given to tr() one by one."""
 

@@ -28,6 +28,15 @@ _BETWEEN_S = 0.04
 """Two takes never touch: they would be one."""
 _DIGITS = 4
 
+LABELS = {
+    "record": "record takes",
+    "delete one": "delete a take",
+    "delete": "delete takes",
+    "leave out": "leave out a take",
+    "use again": "use a take again",
+}
+"""Steps whose names depend on what is done; the window translates them."""
+
 
 class Keeping:
     """Asks the desk for changes; each is named in English, as all steps are."""
@@ -67,7 +76,7 @@ class Keeping:
         samples: Samples,
         takes: Sequence[Span],
         forgotten: Sequence[Span] = (),
-        label: str = "record takes",
+        label: str = LABELS["record"],
     ) -> list[str]:
         """Keep a recording with the takes in it (spans on its clock); gives the takes' ids."""
         kept = self._desk.gestures.get(gesture)
@@ -108,7 +117,7 @@ class Keeping:
                 left = tuple(take for take in gesture.takes if take.id not in take_ids)
                 edits.append(keep_gesture(name, replace(gesture, takes=left)))
         if gone:
-            label = "delete a take" if len(gone) == 1 else "delete takes"
+            label = LABELS["delete one" if len(gone) == 1 else "delete"]
             self._desk.change(label, [*edits, *self._forget(gone)])
 
     def relabel_takes(self, take_ids: Collection[str], to: str) -> None:
@@ -135,7 +144,7 @@ class Keeping:
 
     def leave_out(self, take_ids: Collection[str], is_out: bool) -> None:
         """Learn no more from takes, or learn from them again."""
-        label = "leave out a take" if is_out else "use a take again"
+        label = LABELS["leave out" if is_out else "use again"]
         edits = []
         for name, gesture in self._desk.gestures.items():
             takes = tuple(

@@ -35,7 +35,7 @@ _FLOOR = 0.05
 _MOST_CURVES = 40  # to make an expected curve from
 _SLACK = 5  # points that a movement may be ahead of its curve, or behind
 _BATCH = 512  # windows at once: what is worked on stays small
-_WORTH_A_LOOK = 0.2  # how likely any gesture must be for the curves to be asked
+_WORTH_A_LOOK = 0.3  # how likely any gesture must be for the curves to be asked
 _SHARPNESS = 4.0  # shared by the signals: these, and neighbouring points, tell nearly the same
 _NO_WAY = np.float32(1e9)
 
