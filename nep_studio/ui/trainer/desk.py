@@ -235,8 +235,12 @@ class TrainerDesk(QObject):
         """Take what sensors have sent."""
         for heard in batch:
             source = heard.message.source or heard.sender
-            samples = self._stream(source).hear(heard.message, self.now())
+            stream = self._stream(source)
+            wrist = stream.wrist
+            samples = stream.hear(heard.message, self.now())
             if len(samples) and source == self._source_with(source):
+                if stream.wrist != wrist:
+                    self._take_wrist()
                 self.heard.emit(samples)
 
     def _stream(self, source: str) -> LiveStream:

@@ -151,3 +151,17 @@ def test_two_nodes_with_one_message_are_two_sensors_only_by_their_source(
     desk.hear([Heard(0.0, message, "one"), Heard(0.0, message, "other")])
 
     assert list(desk.streams) == ["one", "other"]
+
+
+def test_a_hand_that_is_changed_on_the_phone_is_changed_here(desk: TrainerDesk) -> None:
+    def hear(t: float, wrist: str) -> None:
+        acc = [(0.0, 0.0, 9.81)]
+        message = Imu(source="phone", rate_hz=50.0, t=[t], acc=acc, wrist=wrist)
+        desk.hear([Heard(0.0, message, "watch")])
+
+    hear(0.0, "left")
+    assert desk.wrist == "left"
+
+    hear(0.02, "hand")
+
+    assert desk.wrist == "hand"

@@ -27,7 +27,7 @@ from nep_studio.ui.words import tr
 
 WIDE_LINES = 42
 """So many lines of text wide, words and pictures have room beside each other."""
-_TOLD_BY_ADVICE = re.compile(r" was recorded (once|twice) only")
+_TOLD_BY_ADVICE = re.compile(r" was recorded only (once|twice)")
 
 
 class ResultsView(QWidget):
