@@ -37,6 +37,7 @@ _SLACK = 5  # points that a movement may be ahead of its curve, or behind
 _BATCH = 512  # windows at once: what is worked on stays small
 _WORTH_A_LOOK = 0.3  # how likely any gesture must be for the curves to be asked
 _SHARPNESS = 4.0  # shared by the signals: these, and neighbouring points, tell nearly the same
+_TREES_SHARE = 0.3  # of the score of both together
 _NO_WAY = np.float32(1e9)
 
 
@@ -68,6 +69,36 @@ class Curves:
         away = self.whiten @ (points - self.mean[..., None])
         squares: Floats = np.einsum("gtsn,gtsn->ng", away, away) / POINTS
         return squares + self.log_det
+
+    def scores(self, windows: Windows, moving: Floats) -> Floats:
+        """How likely each window is each gesture, when it is any with ``moving`` (n,); (n, g)."""
+        scores = np.zeros((len(windows), len(self.mean)))
+        asked = moving >= _WORTH_A_LOOK
+        distances = self.aligned_distances(windows.signals[asked])
+        sharpness = _SHARPNESS / windows.signals.shape[2]
+        scores[asked] = moving[asked, None] * _shares(-sharpness * distances)
+        return scores
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What a model file keeps."""
+        return dict(vars(self))
+
+    @classmethod
+    def from_arrays(cls, arrays: Mapping[str, NDArray[Any]], gestures: int, signals: int) -> Curves:
+        """Curves from a model file; ValueError or KeyError when their parts do not fit."""
+        shapes = {
+            "scale": (signals,),
+            "mean": (gestures, POINTS, signals),
+            "whiten": (gestures, POINTS, signals, signals),
+            "log_det": (gestures,),
+        }
+        parts = {name: arrays[name].astype(float) for name in shapes}
+        for name, shape in shapes.items():
+            if parts[name].shape != shape or not np.isfinite(parts[name]).all():
+                raise ValueError(f"the expected curves have a wrong {name}")
+        if not (parts["scale"] > 0).all():
+            raise ValueError("the expected curves have a wrong scale")
+        return cls(**parts)
 
     def aligned_distances(self, signals: Singles) -> Floats:
         """As ``distances``, of the best way of following each curve; (n, curves).
@@ -111,42 +142,51 @@ class Gmr:
     def scores(self, windows: Windows) -> Floats:
         """How likely each window is each gesture; (n, g)."""
         moving = 1.0 - self.gate.probabilities(windows.features)[:, -1]
-        scores = np.zeros((len(windows), len(self.curves.mean)))
-        asked = moving >= _WORTH_A_LOOK
-        distances = self.curves.aligned_distances(windows.signals[asked])
-        sharpness = _SHARPNESS / windows.signals.shape[2]
-        scores[asked] = moving[asked, None] * _shares(-sharpness * distances)
-        return scores
+        return self.curves.scores(windows, moving)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """What a model file keeps."""
         gate = {f"gate.{name}": array for name, array in self.gate.arrays().items()}
-        return dict(vars(self.curves)) | gate
+        return self.curves.arrays() | gate
 
     @classmethod
     def from_arrays(
         cls, arrays: Mapping[str, NDArray[Any]], gestures: int, channels: Channels
     ) -> Gmr:
         """A recogniser from a model file; ValueError or KeyError when its parts do not fit."""
-        signals = channels.signals
-        shapes = {
-            "scale": (signals,),
-            "mean": (gestures, POINTS, signals),
-            "whiten": (gestures, POINTS, signals, signals),
-            "log_det": (gestures,),
-        }
-        parts = {name: arrays[name].astype(float) for name in shapes}
-        for name, shape in shapes.items():
-            if parts[name].shape != shape or not np.isfinite(parts[name]).all():
-                raise ValueError(f"the expected curves have a wrong {name}")
-        if not (parts["scale"] > 0).all():
-            raise ValueError("the expected curves have a wrong scale")
         gate = {
             name.removeprefix("gate."): array
             for name, array in arrays.items()
             if name.startswith("gate.")
         }
-        return cls(Curves(**parts), Trees.from_arrays(gate, 1, feature_count(channels)))
+        curves = Curves.from_arrays(arrays, gestures, channels.signals)
+        return cls(curves, Trees.from_arrays(gate, 1, feature_count(channels)))
+
+
+@dataclass(frozen=True)
+class Both:
+    """Trees that ask the curves, too: what several people have in common shows in both."""
+
+    trees: Trees
+    curves: Curves
+
+    def scores(self, windows: Windows) -> Floats:
+        """How likely each window is each gesture; (n, g)."""
+        votes = self.trees.probabilities(windows.features)
+        followed = self.curves.scores(windows, 1.0 - votes[:, -1])
+        return _TREES_SHARE * votes[:, :-1] + (1.0 - _TREES_SHARE) * followed
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What a model file keeps."""
+        return self.trees.arrays() | self.curves.arrays()
+
+    @classmethod
+    def from_arrays(
+        cls, arrays: Mapping[str, NDArray[Any]], gestures: int, channels: Channels
+    ) -> Both:
+        """A recogniser from a model file; ValueError or KeyError when its parts do not fit."""
+        trees = Trees.from_arrays(arrays, gestures, feature_count(channels))
+        return cls(trees, Curves.from_arrays(arrays, gestures, channels.signals))
 
 
 def fit_gmr(examples: Examples, seed: int = 0, trees: Trees | None = None) -> Gmr:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.features import Channels, feature_count
 from nodes.perceptual.recognition.features_1 import feature_count_1
-from nodes.perceptual.recognition.gmr import Gmr
+from nodes.perceptual.recognition.gmr import Both, Gmr
 from nodes.perceptual.recognition.model import METHODS, Model, Recogniser, Scorer
 from nodes.perceptual.recognition.model_about import (
     FORMAT,
@@ -185,7 +185,10 @@ def _recogniser(
     match found.method:
         case "trees":
             count = feature_count_1 if found.features == 1 else feature_count
-            scorer = Trees.from_arrays(arrays, gestures, count(channels))
+            if "mean" in arrays:  # several people have taught it
+                scorer = Both.from_arrays(arrays, gestures, channels)
+            else:
+                scorer = Trees.from_arrays(arrays, gestures, count(channels))
         case "gmr":
             scorer = Gmr.from_arrays(arrays, gestures, channels)
         case _:

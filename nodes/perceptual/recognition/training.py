@@ -11,7 +11,7 @@ from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.examples import Examples, collect
 from nodes.perceptual.recognition.features import Channels
 from nodes.perceptual.recognition.folds import fold_takes, fold_windows
-from nodes.perceptual.recognition.gmr import fit_gmr
+from nodes.perceptual.recognition.gmr import Both, fit_gmr
 from nodes.perceptual.recognition.model import METHODS, Model, Recogniser, Scorer
 from nodes.perceptual.recognition.passages import Passage, passages_of
 from nodes.perceptual.recognition.report import report_of
@@ -57,7 +57,8 @@ def train(
     gestures = gestures_in(takes, len(people))
     _check(recordings, gestures)
     lengths = window_lengths(gestures)
-    material = _Material([one for one in passages if is_long_enough(one, lengths)], gestures, seed)
+    usable = [one for one in passages if is_long_enough(one, lengths)]
+    material = _Material(usable, gestures, seed, several=len(people) > 1)
     best = Channels(gravity, gyroscope)
     tell(f"Checking what it learned with {best.in_words}…")
     validations = material.validate(best, methods)
@@ -65,7 +66,7 @@ def train(
     for channels in (Channels(gravity, with_gyr) for with_gyr in sorted({gyroscope, False})):
         tell(f"Training {' and '.join(methods)} with {channels.in_words}…")
         count = TREES if channels == best else _TREES_WITHOUT
-        scorers = _fit(methods, seed, count, material.examples(channels))
+        scorers = _fit(methods, seed, len(people) > 1, count, material.examples(channels))
         for method in methods:
             usual = validations[method].usual
             checked = usual if channels == best else np.maximum(usual, USUAL_SCORE)
@@ -74,25 +75,32 @@ def train(
     return Model(gestures, tuple(recognisers), _in_words(recordings, everyday), report)
 
 
-def _fit(methods: Sequence[str], seed: int, count: int, examples: Examples) -> Mapping[str, Scorer]:
-    """A scorer of each method; all of them ask the same trees."""
+def _fit(
+    methods: Sequence[str], seed: int, several: bool, count: int, examples: Examples
+) -> Mapping[str, Scorer]:
+    """A scorer of each method; all of them ask the same trees, of several people the curves too."""
     trees = fit_trees(examples, seed, count)
-    made: dict[str, Callable[[], Scorer]] = {
-        "trees": lambda: trees,
-        "gmr": lambda: fit_gmr(examples, seed, trees),
-    }
-    return {method: made[method]() for method in methods}
+    if tuple(methods) == ("trees",) and not several:
+        return {"trees": trees}
+    gmr = fit_gmr(examples, seed, trees)
+    made: dict[str, Scorer] = {"trees": Both(trees, gmr.curves) if several else trees, "gmr": gmr}
+    return {method: made[method] for method in methods}
 
 
 class _Material:
     """Everything that can be learned from, whatever the sensor offers."""
 
     def __init__(
-        self, passages: Sequence[Passage], gestures: tuple[Gesture, ...], seed: int
+        self,
+        passages: Sequence[Passage],
+        gestures: tuple[Gesture, ...],
+        seed: int,
+        *,
+        several: bool,
     ) -> None:
         lengths = window_lengths(gestures)
         self._gestures = gestures
-        self._seed = seed
+        self._seed, self._several = seed, several
         self._takes_folds = fold_takes(passages)
         self._scans = [scan(passage, lengths) for passage in passages]
         self._folds = [
@@ -111,7 +119,7 @@ class _Material:
 
     def validate(self, channels: Channels, methods: Sequence[str]) -> dict[str, Validation]:
         """How recognisers made from a part of everything do on what they have not seen."""
-        fit = partial(_fit, methods, self._seed, _TREES_TO_CHECK)
+        fit = partial(_fit, methods, self._seed, self._several, _TREES_TO_CHECK)
         checked = cross_validate(fit, self.examples(channels), self._scans, self._folds)
         return {
             method: checked.get(method) or unchecked(self._gestures, self._scans)

@@ -65,5 +65,5 @@ def test_the_reader_of_the_page_reads_a_model_and_asks_its_trees(file, model, tm
     with np.load(file, allow_pickle=False) as content:
         assert read["shapes"] == {name: list(content[name].shape) for name in content}
     assert read["names"] == list(model.names)
-    expected = trees.scorer.probabilities(features[None])[0, :-1]
+    expected = trees.scorer.trees.probabilities(features[None])[0, :-1]
     assert read["scores"] == pytest.approx(expected, abs=1e-5)

@@ -5,6 +5,10 @@ import pytest
 
 from nodes.perceptual.recognition.gmr import Curves
 from nodes.perceptual.recognition.mixture import Mixture, expected_curve, fit_mixture
+from nodes.perceptual.recognition.passages import passages_of
+from nodes.perceptual.recognition.scans import scan
+from nodes.perceptual.recognition.training import train
+from nodes.perceptual.recognition.trees import Trees
 
 
 def test_one_gaussian_is_linear_regression():
@@ -121,3 +125,23 @@ def test_aligning_never_makes_a_movement_farther():
 
     assert (aligned <= plain + 1e-4).all()
     assert curves.aligned_distances(any_signals[:0]).shape == (0, 2)
+
+
+def test_what_several_people_taught_asks_trees_and_curves(model, sessions):
+    (both,) = [one for one in model.recognisers if one.method == "trees" and one.channels.gyroscope]
+    passage = passages_of(sessions[:1], gyroscope=True)[0]
+    found = scan(passage, model.lengths)
+    windows = found.windows(both.channels, np.arange(0, len(found.hop), 50))
+
+    votes = both.scorer.trees.probabilities(windows.features)
+    followed = both.scorer.curves.scores(windows, 1 - votes[:, -1])
+
+    expected = 0.3 * votes[:, :-1] + 0.7 * followed
+    assert both.scorer.scores(windows) == pytest.approx(expected)
+    assert expected.max() > 0.5
+
+
+def test_what_one_person_taught_asks_trees_alone(sessions):
+    alone = train(sessions[:1], methods=("trees",))
+
+    assert {type(one.scorer) for one in alone.recognisers} == {Trees}
