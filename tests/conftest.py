@@ -27,11 +27,13 @@ PROJECT = Path(__file__).resolve().parent.parent
 
 def pytest_configure() -> None:
     """Let compiled code be kept: hundreds of processes would each compile all that they import."""
+    is_judged = bool(os.environ.get("CI"))
     settings.register_profile(
         "busy",
         deadline=None,  # another program may have the processor for seconds
         suppress_health_check=[HealthCheck.too_slow],
-        derandomize=bool(os.environ.get("CI")),  # there a change is judged, elsewhere we explore
+        derandomize=is_judged,  # elsewhere we explore
+        max_examples=50 if is_judged else 100,
     )
     settings.load_profile("busy")
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)

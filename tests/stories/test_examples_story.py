@@ -32,6 +32,13 @@ def greeting() -> str:
 
 
 PLAYS: dict[str, list[Step]] = {
+    "own_gestures": [
+        0,
+        ("play", {"animation": "wave"}),
+        "Hello! I saw you from far away.",
+        1,
+        "Who is there? Come in.",
+    ],
     "karate_greeting": [
         "Show me a karate chop!",
         0,

@@ -105,10 +105,11 @@ def copied(motion: OwnAnimation, times: Iterable[float], seconds: float) -> OwnA
 
 
 def shifted_after(motion: OwnAnimation, time: float, seconds: float) -> OwnAnimation:
-    """Put all keys after a time later; with a number below 0 earlier, as far as there is room."""
+    """Put all keys after a time later, or earlier below 0, as far as there is room."""
     later = [t for t in key_times(motion) if t > time + SAME_S]
     if not later:
         return motion
+    seconds = min(seconds, LONGEST_S - later[-1])
     seconds = max(seconds, time + SHORTEST_STEP_S - later[0])
     return _per_joint(
         motion, lambda keys: [(_later(k[0], time, seconds), k[1], k[2]) for k in keys]
