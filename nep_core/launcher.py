@@ -34,6 +34,8 @@ MOST_RESTARTS = 5
 FIRST_PAUSE_S = 0.25
 HEALTHY_S = 10.0
 READY_S = 10.0
+AT_WORK = frozenset(("ready", "running", "busy", "connected", "connection_failed", "disconnected"))
+"""What only a node tells that is ready: who hears it late hears the newest of its states alone."""
 
 
 @dataclass
@@ -257,7 +259,7 @@ class Launcher:
 
     def _on_node_state(self, state: NodeState) -> None:
         launched = self.nodes.get(state.node)
-        if launched is not None and state.event == "ready" and launched.owns(state.pid):
+        if launched is not None and state.event in AT_WORK and launched.owns(state.pid):
             launched.ready.set()
 
 
