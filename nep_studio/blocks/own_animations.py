@@ -7,8 +7,6 @@ of undo. Which joints a robot has, and how far they go, only its node knows.
 from __future__ import annotations
 
 import math
-import re
-import unicodedata
 from collections.abc import Container, Iterator, Mapping
 from itertools import pairwise
 from typing import Literal, get_args
@@ -18,6 +16,7 @@ import msgspec
 from .edits import SetExtra
 from .edits.kept import ANIMATION
 from .file_text import in_words
+from .kept_names import DEVICES, KEPT_NAME, free_kept_name
 from .program import Project
 from .values import why_not_name, why_not_text
 
@@ -39,12 +38,6 @@ TABLES: dict[AnimationKind, tuple[str, ...]] = {
     "gesture": ("say_gestures", "animations"),
 }
 """The tables of choices in which each kind is offered: everything can be played."""
-
-_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
-_DEVICES = frozenset(
-    ("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10)))
-)
-"""No file can be called so on Windows, and each animation becomes a file of its name."""
 
 
 class JointKeys(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -88,7 +81,7 @@ def keep(name: str, animation: OwnAnimation | None) -> SetExtra:
 
 def why_not_animation(name: str, value: object) -> str | None:
     """Why this cannot be an animation of a project, as a sentence, or None when it can."""
-    if not _NAME.fullmatch(name) or name in _DEVICES:
+    if not KEPT_NAME.fullmatch(name) or name in DEVICES:
         return "its name may have small letters, digits and _ in it, and begins with a letter."
     try:
         animation = msgspec.convert(value, OwnAnimation)
@@ -130,14 +123,7 @@ def why_not_keys(joint: JointKeys) -> str | None:
 
 def free_name(title: str, taken: Container[str]) -> str:
     """A name for an animation with this title, which none of the others has."""
-    bare = unicodedata.normalize("NFKD", title.casefold().replace("ß", "ss"))
-    letters = "".join(c for c in bare if not unicodedata.combining(c))
-    name = re.sub(r"[^a-z0-9]+", "_", letters).strip("_")[:32].strip("_")
-    name = name if name[:1].isalpha() else f"motion_{name}"[:32].rstrip("_")
-    number, found = 2, name
-    while found in taken or found in _DEVICES:
-        found, number = f"{name}_{number}", number + 1
-    return found
+    return free_kept_name(title, "motion", taken)
 
 
 def choices_with(

@@ -11,8 +11,7 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-import unicodedata
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from itertools import chain
 from typing import Any, Literal, get_args
 from weakref import WeakKeyDictionary
@@ -22,6 +21,7 @@ import msgspec
 from .edits import SetExtra
 from .edits.kept import GESTURE, RECOGNISER, RECORDING
 from .file_text import in_words
+from .kept_names import KEPT_NAME, free_kept_name
 from .packed_samples import why_not_samples
 from .program import Project
 from .values import why_not_name, why_not_text
@@ -35,7 +35,6 @@ TRIGGER = 0.75
 MOST_TAKES = 500
 LONGEST_S = 3600.0
 LARGEST_RECOGNISER_TEXT = 7_000_000
-_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 _ID = re.compile(r"[A-Za-z0-9_]{1,40}")
 _DIGESTS: WeakKeyDictionary[Project, tuple[int, str]] = WeakKeyDictionary()
 _NO_GESTURE = frozenset(("none", "nothing"))
@@ -112,7 +111,8 @@ def own_recordings(project: Project) -> dict[str, OwnRecording]:
     return {
         key.removeprefix(RECORDING): msgspec.convert(value, OwnRecording)
         for key, value in project.extra.items()
-        if key.startswith(RECORDING) and _shape_of_recording(key, value) is None
+        if key.startswith(RECORDING)
+        and _shape_of_recording(key.removeprefix(RECORDING), value) is None
     }
 
 
@@ -166,21 +166,14 @@ def trained_gestures(project: Project) -> dict[str, OwnGesture]:
     return {name: one for name, one in own_gestures(project).items() if name in known}
 
 
-def free_gesture_name(title: str, taken: Container[str]) -> str:
+def free_gesture_name(title: str, taken: Iterable[str]) -> str:
     """A name for a gesture with this title, which none of the others has."""
-    bare = unicodedata.normalize("NFKD", title.casefold().replace("ß", "ss"))
-    letters = "".join(c for c in bare if not unicodedata.combining(c))
-    name = re.sub(r"[^a-z0-9]+", "_", letters).strip("_")[:32].strip("_")
-    name = name if name[:1].isalpha() else f"gesture_{name}"[:32].rstrip("_")
-    number, found = 2, name
-    while found in taken or found in _NO_GESTURE:
-        found, number = f"{name}_{number}", number + 1
-    return found
+    return free_kept_name(title, "gesture", {*taken, *_NO_GESTURE})
 
 
 def why_not_gesture(name: str, value: object) -> str | None:
     """Why this cannot be a gesture of a project, as a sentence, or None when it can."""
-    if not _NAME.fullmatch(name):
+    if not KEPT_NAME.fullmatch(name):
         return "its name may have small letters, digits and _ in it, and begins with a letter."
     try:
         gesture = msgspec.convert(value, OwnGesture)

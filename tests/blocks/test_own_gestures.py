@@ -73,6 +73,14 @@ def test_gestures_recordings_and_what_was_learned_are_in_the_file(editor, langua
     assert floats_of(unpacked_samples(own_recordings(read)["r1"].samples)) == ROWS
 
 
+def test_the_longest_id_of_a_recording_is_read_like_any_other(editor):
+    longest = "r" * 40
+
+    editor.apply(keep_recording(longest, RECORDING), "record")
+
+    assert longest in own_recordings(editor.project)
+
+
 def test_a_gesture_is_a_choice_of_the_blocks_as_soon_as_it_is_there(editor):
     table = editor.language.of(editor.project).choices["gestures"]
 

@@ -24,8 +24,8 @@ def client():
 
 
 @contextlib.contextmanager
-def served(folder):
-    page = PhonePage(Settings(port=0, token=TOKEN), folder)
+def served(folder, port=0, token=TOKEN):
+    page = PhonePage(Settings(port=port, token=token), folder / "nep-studio")
     page.start()
     yield page
     page.stop()

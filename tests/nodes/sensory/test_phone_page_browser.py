@@ -9,13 +9,14 @@ import time
 
 import pytest
 
-from nodes.sensory.phone_page.server import PhonePage
-from nodes.sensory.ways.way import Settings
 from tests.nodes.sensory.chromium import Chromium, chromium_path, wait_until
+from tests.nodes.sensory.page_client import TOKEN
+from tests.nodes.sensory.page_serving import folder, page, served, shared_page
+
+__all__ = ["folder", "page", "shared_page"]
 
 pytestmark = pytest.mark.skipif(chromium_path() is None, reason="there is no Chromium here")
 
-TOKEN = "right-token"
 STATE = "document.body?.dataset.state"
 IPHONE = "Mozilla/5.0 (iPhone; CPU iPhone OS 17_5 like Mac OS X) AppleWebKit/605.1.15 Safari/604.1"
 ASKS = """
@@ -34,19 +35,6 @@ setInterval(() => dispatchEvent(new DeviceOrientationEvent("deviceorientation",
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("phone-page")
-
-
-@contextlib.contextmanager
-def served(folder, port=0, token=TOKEN):
-    page = PhonePage(Settings(port=port, token=token), folder / "nep-studio")
-    page.start()
-    yield page
-    page.stop()
-
-
-@pytest.fixture(scope="module")
 def browser(folder):
     with served(folder) as page:
         spki = page.certificate.spki_sha256
@@ -55,17 +43,10 @@ def browser(folder):
     browser.close()
 
 
-@pytest.fixture(scope="module")
-def shared_server(folder):
-    with served(folder) as page:
-        yield page
-
-
 @pytest.fixture
-def server(shared_server):
+def server(page):
     """The page's server, with nothing in it from the test before."""
-    shared_server.take()
-    return shared_server
+    return page
 
 
 @pytest.fixture
