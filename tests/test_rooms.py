@@ -41,6 +41,7 @@ ROOMS = {
 """The arrows of the design; a module is in the room with the longest name that fits."""
 
 LATE = {
+    "nep_core": ("mcap", "spake2", "zenoh", "zeroconf"),
     "nodes.action.naoqi": ("zeroconf",),
     "nodes.sensory": ("aiohttp", "cryptography", "bleak"),
     "nep_studio.ui": ("segno", "mcap"),
