@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QRect, QRectF, Qt, Signal
+from PySide6.QtCore import QRect, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QFontInfo, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractScrollArea, QWidget
 
@@ -19,9 +19,15 @@ from .stock import Stock
 
 WHEEL_LINES = 3
 
+Anchor = Callable[[ShelfLayout], float]
+"""How far a list is scrolled, which its layout tells."""
+
 
 class ShelfView(QAbstractScrollArea):
     """Shows entries, and which one the keyboard and the mouse are at.
+
+    They get their places when somebody looks at them: a window that opens is resized, filled and
+    refreshed many times before.
 
     ``drawer_shown`` brings the drawer at the top of the view; ``left_upwards`` says that the
     arrow keys go on to what is above.
@@ -37,30 +43,33 @@ class ShelfView(QAbstractScrollArea):
         self._entries: Sequence[Entry] = ()
         self._hovered = self._current = -1
         self._is_delete = False
+        self._made: ShelfLayout | None = None
+        self._is_settled = False
+        self._anchor: Anchor = _top
+        self._settle = QTimer(self, singleShot=True, interval=0)
+        self._settle.timeout.connect(self._on_settle)
         self.accessible: object = None
         self.setFrameShape(QAbstractScrollArea.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
         self.verticalScrollBar().valueChanged.connect(self._on_scrolled)
         make_list_accessible(self, self)
-        self._lay_out()
 
     # What is shown
 
     def show_entries(self, stock: Stock, entries: Sequence[Entry], *, to_top: bool = False) -> None:
         """Show these; the place in the list stays, unless it is to begin at the top."""
-        kept = self._layout.drawer_and_way(self.verticalScrollBar().value())
+        anchor = self._anchor if self._made is None else _drawer_anchor(self._made, self._scrolled)
         current = self.current
         self._stock, self._entries = stock, entries
         self._hovered = -1
         self._current = list(entries).index(current) if current and current in entries else -1
-        self._lay_out()
-        self.verticalScrollBar().setValue(0 if to_top else round(self._layout.place_of(*kept)))
+        self._lay_out(_top if to_top else anchor)
 
     def refresh(self) -> None:
         """Take the theme, the words and the direction of the canvas."""
         self.setAccessibleName(tr("Blocks to use"))
-        self._lay_out()
+        self._lay_out(self._way_from_spot())
 
     @property
     def entries(self) -> Sequence[Entry]:
@@ -111,25 +120,52 @@ class ShelfView(QAbstractScrollArea):
         """The entry that the keyboard is at."""
         return self._entries[self._current] if self._current >= 0 else None
 
-    def _lay_out(self) -> None:
+    @property
+    def _layout(self) -> ShelfLayout:
+        """Where the entries are now."""
+        return self._made if self._made is not None else self._make_layout()
+
+    @property
+    def _scrolled(self) -> int:
+        return self.verticalScrollBar().value()
+
+    def _way_from_spot(self) -> Anchor:
+        """The entry at the top stays there, however high those above it will be."""
+        return self._anchor if self._made is None else _spot_anchor(self._made, self._scrolled)
+
+    def _lay_out(self, anchor: Anchor) -> None:
+        """Give the entries new places as soon as somebody needs them."""
+        self._made, self._is_settled, self._anchor = None, False, anchor
+        self._settle.start()
+        self.viewport().update()
+
+    def _on_settle(self) -> None:
+        if self._made is None and self.isVisible():
+            self._make_layout()
+
+    def _make_layout(self) -> ShelfLayout:
         width = max(self.viewport().width(), 120)
         size = QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.block_font).pixelSize()
-        self._layout = ShelfLayout(self._canvas, float(width), size)
-        self._layout.fill(self._stock, self._entries)
-        self._painter = ShelfPainter(self._canvas, self._layout)
+        self._made = layout = ShelfLayout(self._canvas, float(width), size)
+        layout.fill(self._stock, self._entries)
+        self._painter = ShelfPainter(self._canvas, layout)
         bar = self.verticalScrollBar()
-        bar.setRange(0, self._layout.lowest_top(self.viewport().height()))
+        bar.setRange(0, layout.lowest_top(self.viewport().height()))
         bar.setEnabled(bar.maximum() > 0)
         bar.setPageStep(self.viewport().height())
-        bar.setSingleStep(round(self._layout.line * WHEEL_LINES))
-        self.viewport().update()
+        bar.setSingleStep(round(layout.line * WHEEL_LINES))
+        bar.setValue(round(self._anchor(layout)))
+        self._is_settled = True
         self._on_scrolled()
+        return layout
 
     # Painting
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the entries in view."""
-        top = self.verticalScrollBar().value()
+        if self._made is None:
+            self._make_layout()
+        top = self._scrolled
         exposed = event.rect().translated(0, top)
         with QPainter(self.viewport()) as painter:
             painter.fillRect(event.rect(), self._canvas.theme.colour("panel"))
@@ -154,15 +190,12 @@ class ShelfView(QAbstractScrollArea):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Let the blocks be as narrow as the palette; the one at the top stays there."""
         super().resizeEvent(event)
-        bar = self.verticalScrollBar()
-        number, way = self._layout.spot_and_way(bar.value())
-        self._lay_out()
-        if self._layout.spots:
-            bar.setValue(round(self._layout.spots[number].y + way))
+        self._lay_out(self._way_from_spot())
 
     def scrollContentsBy(self, dx: int, dy: int) -> None:
         """Move what is painted, and paint the rest."""
-        self.viewport().scroll(0, dy)
+        if self._is_settled:
+            self.viewport().scroll(0, dy)
 
     def _on_scrolled(self) -> None:
         drawer = self.shown_drawer()
@@ -208,3 +241,19 @@ class ShelfView(QAbstractScrollArea):
     def current_item(self) -> int:
         """The entry that the keyboard is at, or -1."""
         return self._current
+
+
+def _top(_layout: ShelfLayout) -> float:
+    return 0.0
+
+
+def _drawer_anchor(before: ShelfLayout, scrolled: float) -> Anchor:
+    """As far from the beginning of its drawer as before."""
+    kept = before.drawer_and_way(scrolled)
+    return lambda layout: layout.place_of(*kept)
+
+
+def _spot_anchor(before: ShelfLayout, scrolled: float) -> Anchor:
+    """As far from the top of its entry as before."""
+    number, way = before.spot_and_way(scrolled)
+    return lambda layout: layout.spots[number].y + way if number < len(layout.spots) else 0.0

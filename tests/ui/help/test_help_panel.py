@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import time
-
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from nep_studio.ui.help.book import Book
 from nep_studio.ui.help.panel import HelpPanel
 from nep_studio.ui.help.printing import print_page
 from tests.ui.help.conftest import LANGUAGE
@@ -133,34 +130,6 @@ def test_a_search_that_finds_nothing_says_so(panel):
     assert panel.browser.page.name == "home"
 
 
-def test_no_step_of_reading_the_pages_keeps_the_window_busy(panel, qtbot):
-    searching, slowest = panel.searching, 0.0
-    searching._index = None
-    searching.begin()
-    while not searching.is_whole:
-        start = time.perf_counter()
-        searching._go_on()
-        slowest = max(slowest, time.perf_counter() - start)
-
-    assert slowest < 0.05
-
-
-def test_each_page_is_shown_at_once(panel):
-    panel.open("block/robot.say")  # reads the files
-    slowest = {}
-    for name in ("howto/problems", "howto/words", "blocks/robot_moves", "blocks/list", "home"):
-        best = 9.0
-        for _ in range(3):
-            start = time.perf_counter()
-            panel.open(name)
-            QApplication.processEvents()
-            best = min(best, time.perf_counter() - start)
-            panel.open("block/control.wait")
-        slowest[name] = best
-
-    assert max(slowest.values()) < 0.05, slowest
-
-
 def test_the_contents_stand_beside_the_page_where_there_is_room(panel, qtbot):
     assert not panel.contents.isVisible()
 
@@ -256,10 +225,3 @@ def test_a_hidden_panel_reads_nothing(canvas, studio, qtbot):
 
     assert hidden._book is None
     assert not hidden.searching.is_whole
-
-
-def test_a_book_is_made_quickly(panel):
-    start = time.perf_counter()
-    Book(LANGUAGE).contents()
-
-    assert time.perf_counter() - start < 0.1
