@@ -10,6 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+os.environ.setdefault("NEP_ORIGINAL", "0")  # masters of tests that run at once would want one port
 
 import psutil
 import pytest
@@ -115,13 +116,14 @@ def xvfb() -> Iterator[dict[str, str]]:
 
 @pytest.fixture
 def free_port() -> int:
-    """A port that nobody used a moment ago, with the next one free too."""
+    """A port that nobody used a moment ago, with the next two free too, as a broker needs them."""
     while True:
-        with socket.socket() as first, socket.socket() as second:
+        with socket.socket() as first, socket.socket() as second, socket.socket() as third:
             first.bind(("127.0.0.1", 0))
             port = int(first.getsockname()[1])
             try:
                 second.bind(("127.0.0.1", port + 1))
+                third.bind(("127.0.0.1", port + 2))
             except (OSError, OverflowError):
                 continue
             return port
