@@ -13,7 +13,9 @@ from pathlib import Path
 
 from dev_system import (
     BROWSER,
+    CPP_HEADERS,
     DISPLAY_PROGRAMS,
+    NAMESPACES,
     QT_LIBRARIES,
     WINDOW_LIBRARIES,
     SetupError,
@@ -131,7 +133,11 @@ def modules(arguments: list[str], *, is_shown: bool) -> dict[str, list[list[str]
 
 
 def system_needs(
-    command: str, arguments: list[str], *, is_shown: bool
+    command: str,
+    arguments: list[str],
+    *,
+    is_shown: bool,
+    which: Callable[[str], str | None] = shutil.which,
 ) -> tuple[dict[str, str], dict[str, str]]:
     """Return what a command cannot do without on Linux, and what some of its work needs."""
     is_window = not arguments or arguments[0].endswith(".nep")
@@ -139,7 +145,9 @@ def system_needs(
         return QT_LIBRARIES | WINDOW_LIBRARIES, {}
     wished = WINDOW_LIBRARIES if is_shown or command in ("test", "bench") else {}
     programs = DISPLAY_PROGRAMS if command in ("test", "bench") else {}
-    programs = programs | BROWSER if command == "test" else programs
+    if command == "test":
+        can_build = which("g++") and which("cmake")  # nobody gets a compiler unasked
+        programs = programs | BROWSER | NAMESPACES | (CPP_HEADERS if can_build else {})
     if command in ("setup", "test", "bench"):
         return QT_LIBRARIES, wished | programs
     return {}, QT_LIBRARIES | wished

@@ -48,7 +48,16 @@ DISPLAY_PROGRAMS = {"xvfb": "Xvfb", "xauth": "xauth"}
 BROWSER = {"chromium": "chromium"}
 """What opens the phone's page in tests: the Debian package and the program in it."""
 
-EVERYTHING = QT_LIBRARIES | WINDOW_LIBRARIES | DISPLAY_PROGRAMS | BROWSER
+NAMESPACES = {"iproute2": "ip", "util-linux": "unshare"}
+"""What gives tests computers of their own in a network of their own."""
+
+CPP_HEADERS = {
+    "cppzmq-dev": "/usr/include/zmq.hpp",
+    "nlohmann-json3-dev": "/usr/include/nlohmann/json.hpp",
+}
+"""What the examples in C++ are built with in tests, where there is a compiler."""
+
+EVERYTHING = QT_LIBRARIES | WINDOW_LIBRARIES | DISPLAY_PROGRAMS | BROWSER | NAMESPACES | CPP_HEADERS
 
 
 class SetupError(Exception):
@@ -126,16 +135,20 @@ def missing_packages(
 ) -> list[str]:
     """Return the Debian packages that Python's venv and ``needed`` still lack on this system.
 
-    ``needed`` gives by package a library of its own (its name has ``.so.``) or a program.
+    ``needed`` gives by package a library of its own (its name has ``.so.``), a file with its
+    whole path, or a program.
     """
-    missing = [] if find("ensurepip") else [venv_package()]
-    for package, thing in needed.items():
+
+    def is_there(thing: str) -> bool:
+        if thing.startswith("/"):
+            return Path(thing).exists()
         try:
-            is_there = bool(load(thing)) if ".so." in thing else which(thing) is not None
+            return bool(load(thing)) if ".so." in thing else which(thing) is not None
         except OSError:
-            is_there = False
-        missing += [] if is_there else [package]
-    return missing
+            return False
+
+    missing = [] if find("ensurepip") else [venv_package()]
+    return missing + [package for package, thing in needed.items() if not is_there(thing)]
 
 
 def venv_package() -> str:

@@ -33,6 +33,15 @@ def test_programs_are_looked_for_by_their_names() -> None:
     assert missing[-2:] == ["xvfb", "xauth"]
 
 
+def test_files_are_looked_for_by_their_paths(tmp_path: Path) -> None:
+    (tmp_path / "zmq.hpp").touch()
+    needed = {"cppzmq-dev": f"{tmp_path}/zmq.hpp", "nlohmann-json3-dev": f"{tmp_path}/json.hpp"}
+
+    missing = dev_system.missing_packages(needed)
+
+    assert missing[-1:] == ["nlohmann-json3-dev"] and "cppzmq-dev" not in missing
+
+
 def test_what_is_there_is_not_asked_for_again() -> None:
     def only_glib_is_missing(library: str) -> object:
         return nothing_loads(library) if "glib" in library else object()
@@ -210,14 +219,26 @@ def test_a_window_cannot_do_without_the_libraries_of_a_display(arguments: list[s
     assert wished == {}
 
 
-@pytest.mark.parametrize(("command", "more"), [("test", {"chromium"}), ("bench", set())])
+@pytest.mark.parametrize(
+    ("command", "more"),
+    [("test", {"chromium", "iproute2", "util-linux"}), ("bench", set())],
+)
 def test_what_needs_a_display_or_browser_is_wished_for_where_the_rest_runs_without(
     command: str, more: set[str]
 ) -> None:
-    needed, wished = dev.system_needs(command, [], is_shown=False)
+    needed, wished = dev.system_needs(command, [], is_shown=False, which=lambda name: None)
 
     assert needed == dev_system.QT_LIBRARIES
     assert set(wished) == {*dev_system.WINDOW_LIBRARIES, "xvfb", "xauth"} | more
+
+
+def test_headers_are_wished_for_only_where_there_is_a_compiler_that_can_use_them() -> None:
+    def wished(*programs: str) -> dict[str, str]:
+        which = {name: name for name in programs}.get
+        return dev.system_needs("test", [], is_shown=False, which=which)[1]
+
+    assert dev_system.CPP_HEADERS.items() <= wished("g++", "cmake").items()
+    assert "cppzmq-dev" not in wished("cmake")
 
 
 def test_the_story_in_the_terminal_runs_without_any_qt_library() -> None:

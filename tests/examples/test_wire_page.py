@@ -1,0 +1,121 @@
+"""docs/wire.md: each block of JSON and bytes on it is what our programs speak."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, get_args
+
+import msgspec
+import pytest
+
+from nep_core import frames, handshake
+from nep_core import master_messages as says
+from nep_core.manifest import read_manifest
+from nep_core.messages import BY_TOPIC, LATCHED, NodeEvent
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "wire.md").read_text(encoding="utf-8")
+BLOCK = re.compile(r"^ *```(\w+) ?(.*)\n((?:.*\n)*?) *```$", re.MULTILINE)
+BLOCKS = [match.groups() for match in BLOCK.finditer(PAGE)]
+HUMAN, IMU = "/human_behavior", "/imu"
+
+
+def blocks(language: str, what: str = "") -> list[str]:
+    """The blocks of the page that are marked so."""
+    return [text for kind, words, text in BLOCKS if kind == language and words.startswith(what)]
+
+
+def block(what: str) -> bytes:
+    """The bytes of the one block of hex of this name: two digits each, up to the comment."""
+    (text,) = blocks("hex", what)
+    digits = re.findall(r"^ *((?:[0-9a-f]{2} ?)+)(?: .*)?$", text, re.MULTILINE)
+    return bytes.fromhex(" ".join(digits))
+
+
+def joined(topic: str, node: str, number: int, time_ns: int, payload: bytes, run: str) -> bytes:
+    """A frame of JSON as our publishers send it."""
+    return frames.join(frames.subscription(topic), node, number, time_ns, "json", payload, run)
+
+
+def assert_has(whole: Any, part: Any) -> None:
+    """That all that stands on the page was read, and means the same to us."""
+    if isinstance(part, dict):
+        for key, value in part.items():
+            assert key in whole
+            assert_has(whole[key], value)
+    elif isinstance(part, list) and part and isinstance(part[0], dict):
+        assert len(whole) == len(part)
+        for one, other in zip(whole, part, strict=True):
+            assert_has(one, other)
+    else:
+        assert whole == part
+
+
+@pytest.mark.parametrize(
+    ("what", "decode", "kinds"),
+    [("request", says.decode_request, says.Request), ("answer", says.decode_answer, says.Answer)],
+)
+def test_every_request_and_answer_is_read_as_it_is_written(
+    what: str, decode: Callable[[bytes], Any], kinds: Any
+) -> None:
+    shown = set()
+
+    for text in blocks("json", what):
+        read = decode(text.encode())
+        assert_has(json.loads(says.encode(read)), json.loads(text))
+        shown.add(type(read))
+
+    only_inside = {"Computers"}  # docs/open_network.md has it
+    assert {kind.__name__ for kind in set(get_args(kinds)) - shown} <= only_inside
+
+
+def test_the_messages_of_topics_are_as_our_nodes_send_them() -> None:
+    for kind, words, text in BLOCKS:
+        if kind == "json" and words.startswith("message "):
+            read = msgspec.json.decode(text, type=BY_TOPIC[words.removeprefix("message ")])
+            assert_has(json.loads(msgspec.json.encode(read)), json.loads(text))
+
+
+def test_the_frame_is_byte_for_byte_ours() -> None:
+    ours = joined(HUMAN, "shake", 7, 1767225600000000000, b'{"human_state":"shaken"}', "5f0c1a2b")
+
+    assert block("frame") == ours
+    assert frames.read_header(block("frame").split(frames.NUL)[1]).run == "5f0c1a2b"
+
+
+def test_the_shared_frame_has_two_messages_with_the_numbers_that_the_page_says() -> None:
+    payloads = frames.NUL.join([b'{"a":1}', b'{"a":2}'])
+
+    ours = joined(IMU, "watch", 41, 1767225600000000000, payloads, "77aa0100")
+
+    assert block("flood") == ours
+
+
+def test_the_notices_are_byte_for_byte_ours() -> None:
+    kept = joined(HUMAN, "shake", 6, 1767225599000000000, b'{"human_state":"calm"}', "5f0c1a2b")
+    private = handshake.private_subscription(HUMAN, "9c41d7")
+
+    seen = handshake.read_subscription(block("subscription"))
+
+    assert block("notice") == frames.mark(IMU, "watch", "77aa0100", 42)
+    assert block("subscription") == b"\1" + private
+    assert seen == handshake.Seen(True, HUMAN, "9c41d7")
+    assert block("welcome") == handshake.private_frame(
+        HUMAN, "9c41d7", "5f0c1a2b", frames.notice(kept, 7)
+    )
+
+
+def test_the_page_names_every_event_encoding_and_latched_topic() -> None:
+    for word in (*get_args(NodeEvent), *get_args(frames.Encoding), *LATCHED):
+        assert f"`{word}`" in PAGE or f'`"{word}"`' in PAGE, word
+
+
+def test_the_manifest_of_the_page_can_be_read(tmp_path: Path) -> None:
+    (text,) = blocks("toml")
+    path = tmp_path / "perceptual" / "shake.toml"
+    path.parent.mkdir()
+    path.write_text(text, encoding="utf-8")
+
+    assert read_manifest(path).command == ["node", "{folder}/shake.mjs"]
