@@ -1,6 +1,7 @@
 """Stands by a node of any language, and ends it when the program that started it is gone.
 
 Such a node knows nothing of its life line, so the launcher starts this, and this starts the node.
+On Linux the node ends also when the guard itself is killed.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import signal
 import subprocess
 import sys
 import threading
+from functools import partial
 from typing import Any
 
 import psutil
@@ -26,17 +28,34 @@ GRACE_S = 1.0
 
 def main(words: list[str]) -> int:
     """Run a command to its end, and end as it did; the exit code."""
-    stopped = threading.Event()
-    lifeline.on_parent_end(stopped.set)
     try:
-        child = subprocess.Popen(words, stdin=subprocess.DEVNULL)
-    except (OSError, ValueError) as error:
+        child = _start(words)  # before there is any thread: see _with_guard
+    except (OSError, ValueError, subprocess.SubprocessError) as error:
         print(f"{words[0]}: {getattr(error, 'strerror', None) or error}", file=sys.stderr)
         return CANNOT_START
-    threading.Thread(target=_end_when, args=(stopped, child), daemon=True).start()
     for number in STOP_SIGNALS:
         signal.signal(number, lambda number, _frame: _pass_on(child, number))
+    stopped = threading.Event()
+    lifeline.on_parent_end(stopped.set)
+    threading.Thread(target=_end_when, args=(stopped, child), daemon=True).start()
     return _ended_like(child.wait())
+
+
+def _start(words: list[str]) -> subprocess.Popen[bytes]:
+    environment = {name: text for name, text in os.environ.items() if name != lifeline.VARIABLE}
+    return subprocess.Popen(
+        words,
+        stdin=subprocess.DEVNULL,
+        env=environment,
+        preexec_fn=partial(_with_guard, os.getpid()) if sys.platform == "linux" else None,
+    )
+
+
+def _with_guard(guard: int) -> None:
+    """Let the node end with the guard; in the node's process, before it begins."""
+    lifeline.end_with_parent()
+    if os.getppid() != guard:  # it was killed a moment ago
+        os._exit(lifeline.ORPHANED)
 
 
 def _pass_on(child: subprocess.Popen[bytes], number: int) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from dataclasses import dataclass
+from keyword import iskeyword
 from pathlib import Path
 from typing import Any, Literal, get_args
 
@@ -14,6 +15,11 @@ from nep_core.errors import ManifestError, NodeNotFound, ParameterError
 from nep_core.messages import NodeType
 
 ParameterType = Literal["text", "number", "integer", "boolean", "choice", "file"]
+Restart = Literal["on-crash", "always", "on-kill", "never"]
+"""When a node is started again: when it was killed, or failed after it had been ready (on-crash);
+also when it ended by itself (always); only when it was killed (on-kill); never."""
+READY_S = 10.0
+MOST_READY_S = 3600.0
 Value = str | float | int | bool
 
 _EXAMPLES: dict[str, str] = {
@@ -53,10 +59,10 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
                 return _boolean(value)
             case "number":
                 number = _number(value)
-                return None if number is None or not self._in_range(number) else number
+                return None if number is None or not self.allows(number) else number
             case "integer":
                 number = _number(value)
-                whole = number is not None and number == int(number) and self._in_range(number)
+                whole = number is not None and number == int(number) and self.allows(number)
                 return int(number) if whole and number is not None else None
             case "choice":
                 return value if isinstance(value, str) and value in self.choices else None
@@ -64,7 +70,8 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
                 usable = isinstance(value, str) and "\0" not in value
                 return value if usable and isinstance(value, str) else None
 
-    def _in_range(self, number: float) -> bool:
+    def allows(self, number: float) -> bool:
+        """Whether the number is within its limits."""
         low = -math.inf if self.minimum is None else self.minimum
         high = math.inf if self.maximum is None else self.maximum
         return low <= number <= high
@@ -77,11 +84,16 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
             for word, limit in (("from", self.minimum), ("to", self.maximum))
             if limit is not None
         ]
-        return " ".join([_EXAMPLES[self.type], *limits])
+        if limits:
+            return " ".join([_EXAMPLES[self.type].partition(",")[0], *limits])
+        return _EXAMPLES[self.type]
 
 
 class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """What a node is, hears, says and can be set to; ``command`` starts one that is not Python."""
+    """What a node is, hears, says and can be set to; ``command`` starts one that is not Python.
+
+    ``ready_s``: how long it may take to be ready; ``restart``: when it is started again.
+    """
 
     type: NodeType
     name: str
@@ -94,6 +106,8 @@ class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     aliases: list[str] = []
     parameters: dict[str, Parameter] = {}
     command: list[str] = []
+    ready_s: float = READY_S
+    restart: Restart = "on-crash"
     path: str = ""
 
     @property
@@ -154,8 +168,7 @@ def read_manifest(path: Path) -> Manifest:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         manifest = msgspec.convert(data, Manifest)
         manifest.path = str(path)
-        for name, parameter in manifest.parameters.items():
-            _check_parameter(name, parameter)
+        _check(manifest)
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, ParameterError) as error:
         raise _wrong(path, str(error)) from error
     except msgspec.ValidationError as error:
@@ -167,9 +180,28 @@ def read_manifest(path: Path) -> Manifest:
     return manifest
 
 
+def _check(manifest: Manifest) -> None:
+    if not 0 < manifest.ready_s <= MOST_READY_S:
+        raise ParameterError(f"ready_s is {manifest.ready_s:g}, but 0 to {MOST_READY_S:g} s can be")
+    if any(not part or "\0" in part for part in manifest.command):
+        raise ParameterError("its command has an empty word")
+    for topic in (*manifest.hears, *manifest.says):
+        if not topic.startswith("/"):
+            raise ParameterError(f'the topic "{topic}" does not begin with /')
+    for name, parameter in manifest.parameters.items():
+        _check_parameter(name, parameter)
+
+
 def _check_parameter(name: str, parameter: Parameter) -> None:
-    if not name.isidentifier():
-        raise ParameterError(f'"{name}" cannot name a setting: use letters, digits and _.')
+    if not name.isidentifier() or iskeyword(name) or name == "node":
+        raise ParameterError(f'"{name}" cannot name a setting: use letters, digits and _')
+    has_limits = parameter.minimum is not None or parameter.maximum is not None
+    if has_limits and parameter.type not in ("number", "integer"):
+        raise ParameterError(f'the setting "{name}" has limits, but is no number')
+    if parameter.minimum is not None and not parameter.allows(parameter.minimum):
+        raise ParameterError(f'the setting "{name}" has a minimum above its maximum')
+    if parameter.type == "choice" and not parameter.choices:
+        raise ParameterError(f'the setting "{name}" has no choices')
     if parameter.default is not None:
         parameter.read(name, parameter.default)
 

@@ -15,9 +15,9 @@ from typing import Any, TypeVar
 from nep_core.frames import Encoding
 from nep_core.io_thread import Wake
 from nep_core.messages import NODE_STATE, NodeEvent, NodeState, NodeType
-from nep_core.network import Network
-from nep_core.p2p import PeerNetwork
+from nep_core.network import Network, Policy
 from nep_core.pubsub import Publisher, Subscriber
+from nep_core.transports import network_for
 
 log = logging.getLogger(__name__)
 
@@ -43,13 +43,16 @@ class Node:
     def __init__(self, name: str, type: NodeType, *, network: Network | None = None) -> None:
         self.name = name
         self.type = type
-        self.network = network or PeerNetwork(name)
+        self.network = network or network_for(name)
+        self.was_asked = False
+        """Whether it stops because somebody in the network asked it to."""
         self._stopping = False
         self._stopped = Wake()  # an Event could deadlock in a signal handler
         self._host = socket.gethostname()
         self._subscribers: list[Subscriber[Any]] = []
         self._lost: dict[str, int] = {}
         self._beats_since_loss = QUIET_BEATS
+        self._well_again = ""
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
         self._next_measures_s = -math.inf
         self._told: tuple[NodeEvent, str] | None = None
@@ -60,6 +63,7 @@ class Node:
                 self.network.close()  # else it would go on asking for the name
             raise
         self.state("starting")
+        self.network.on_stop = self._on_stop_asked
         self.network.io.tend(self._beat)
 
     @property
@@ -79,9 +83,10 @@ class Node:
         kind: type[T] | None = None,
         *,
         callback: Callable[[T], None] | None = None,
+        policy: Policy | None = None,
     ) -> Subscriber[T]:
         """A subscriber of this node; its waits end when the node stops."""
-        subscriber = Subscriber(topic, kind, network=self.network, callback=callback)
+        subscriber = Subscriber(topic, kind, network=self.network, callback=callback, policy=policy)
         self._subscribers.append(subscriber)
         return subscriber
 
@@ -133,6 +138,8 @@ class Node:
         """Say how it ended and leave the network."""
         if not self.network.closed:
             self.network.io.forget(self._beat)
+            if event == "stopped" and self.was_asked:
+                description = description or "It was asked to stop."
             self.state(event, description)
             self.network.close()
 
@@ -144,6 +151,10 @@ class Node:
             self.close()
         else:
             self.close("crashed", str(error) or type(error).__name__)
+
+    def _on_stop_asked(self) -> None:
+        self.was_asked = True
+        self.stop()
 
     def _on_signal(self, number: int, _frame: Any) -> None:
         if self._stopping and number == signal.SIGINT:  # a second Ctrl-C: somebody is in a hurry
@@ -180,23 +191,26 @@ class Node:
             # Not latched: a late joiner wants to know that the node is ready, not that it lives.
             self._states.send(self._state("alive"), latch=False)
             self._look_for_losses()
+            if warning := self.network.take_warning():
+                self.warn(warning)
+                self._beats_since_loss, self._well_again = 0, "The network is quiet again."
 
     def _look_for_losses(self) -> None:
         """Warn when more messages came than the node could take, and say when that is over."""
         lost: dict[str, int] = {}
         for subscriber in self._subscribers:
-            lost[subscriber.topic] = lost.get(subscriber.topic, 0) + subscriber.lost_so_far
+            lost[subscriber.topic] = lost.get(subscriber.topic, 0) + subscriber.lost
         news = {topic: n - self._lost.get(topic, 0) for topic, n in lost.items()}
         self._lost = lost
         if topics := [topic for topic, count in news.items() if count > 0]:
-            self._beats_since_loss = 0
+            self._beats_since_loss, self._well_again = 0, "It keeps up again."
             count = sum(news[topic] for topic in topics)
             told = f"Messages of {', '.join(topics)} were lost: {count}. It could not keep up."
             self.state("warning", told)
         elif self._beats_since_loss < QUIET_BEATS:
             self._beats_since_loss += 1
             if self._beats_since_loss == QUIET_BEATS:
-                self.state("running", "It keeps up again.")
+                self.state("running", self._well_again)
 
 
 def _is_number(value: float) -> bool:

@@ -1,6 +1,7 @@
 """The file that keeps what a node writes; whatever is wrong with it never hurts the node.
 
-The file of the time before is kept beside it, as ``name.1.log``: it may say why the node ended.
+What was written before is kept beside it, the newest in ``name.1.log``: it may say why the node
+ended. However much a node writes, its newest words are kept.
 """
 
 from __future__ import annotations
@@ -14,8 +15,11 @@ from pathlib import Path
 
 log = logging.getLogger(__name__)
 
-LOG_BYTES = 5_000_000
-"""A node's log file is cut there."""
+LOG_BYTES = 2_000_000
+"""A file that is so long is set aside, and another begins."""
+
+KEPT_FILES = 5
+"""With the newest; what is older is deleted, so that a node's log never takes more than 10 MB."""
 
 SEPARATOR = "--- started again at"
 """What stands before the time in the line between two lives of a node."""
@@ -33,26 +37,25 @@ class NodeLog:
 
     def __init__(self, path: Path, *, goes_on: bool = False) -> None:
         self._path = path
-        self._left_bytes = LOG_BYTES
+        self._left_bytes = 0
         self._file: FileIO | None = None
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            goes_on = goes_on and _size(path) < LOG_BYTES  # else many crashes fill the disk
-            if not goes_on:
-                _set_aside(path)
-            # without a buffer, which would fail again in close()
-            self._file = path.open("ab" if goes_on else "wb", buffering=0)
+            self._begin(goes_on=goes_on and _size(path) < LOG_BYTES)
         except OSError as error:
             self._give_up(error)
         if goes_on:
             self.write(f"\n{SEPARATOR} {time.strftime('%H:%M:%S')}\n".encode())
 
     def write(self, piece: bytes) -> None:
-        """Keep ``piece``, or as much of it as still fits."""
+        """Keep ``piece``, in another file when this one is full."""
         if self._file is None:
             return
         try:
-            self._left_bytes -= self._file.write(piece[: self._left_bytes])
+            if len(piece) > self._left_bytes:
+                self._begin()
+            self._left_bytes -= len(piece)
+            self._file.write(piece)
         except OSError as error:
             self._give_up(error)
 
@@ -68,6 +71,14 @@ class NodeLog:
     def __exit__(self, *_error: object) -> None:
         self.close()
 
+    def _begin(self, *, goes_on: bool = False) -> None:
+        self.close()  # a file that is open can have no other name on Windows
+        if not goes_on:
+            _set_aside(self._path)
+        # without a buffer, which would fail again in close()
+        self._file = self._path.open("ab" if goes_on else "wb", buffering=0)
+        self._left_bytes = LOG_BYTES - (_size(self._path) if goes_on else 0)
+
     def _give_up(self, error: OSError) -> None:
         log.warning("The log %s cannot be kept: %s.", self._path, error.strerror)
         self.close()
@@ -78,10 +89,13 @@ def _size(path: Path) -> int:
 
 
 def _set_aside(path: Path) -> None:
-    """Keep the file of the time before; where somebody reads it and the system forbids, it goes."""
-    with suppress(OSError):
-        if _size(path):
-            path.replace(path.with_suffix(".1.log"))
+    """Keep the file beside it; where somebody reads one and the system forbids, one is lost."""
+    if not _size(path):
+        return
+    for number in range(KEPT_FILES - 1, 0, -1):
+        younger = path.with_suffix(f".{number - 1}.log") if number > 1 else path
+        with suppress(OSError):
+            younger.replace(path.with_suffix(f".{number}.log"))
 
 
 def log_file_name(node: str) -> str:

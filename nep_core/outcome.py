@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from nep_core.lifeline import ORPHANED
 
+ASKED = 71
+"""The exit code of a launched node that somebody in the network asked to stop."""
+
 _SIGNALS = {
     "SIGKILL": "was killed",
     "SIGTERM": "was asked to stop before it could answer",
@@ -33,7 +36,7 @@ class Outcome:
     @property
     def was_successful(self) -> bool:
         """Whether it ended as it should."""
-        return self.asked or self.code == 0
+        return self.asked or self.code in (0, ASKED)
 
     def __str__(self) -> str:
         """One sentence, without the final full stop."""
@@ -43,6 +46,8 @@ class Outcome:
             return f"{self.node} {_signal_words(-self.code)}"
         if self.code == 0:
             return f"{self.node} ended by itself"
+        if self.code == ASKED:
+            return f"{self.node} was asked to stop"
         if self.code == ORPHANED:
             return f"{self.node} ended because the program that started it is gone"
         reason = self.last_words.rstrip(".") or f"exit code {self.code}"

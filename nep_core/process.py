@@ -9,17 +9,23 @@ import signal
 import subprocess
 import sys
 import threading
-import time
+import uuid
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import psutil
 
 from nep_core import lifeline, process_tree
 from nep_core.errors import NodeStartError
+from nep_core.lasting_thread import in_lasting_thread
 from nep_core.node_log import NodeLog
 from nep_core.outcome import Outcome
+
+if TYPE_CHECKING:
+    from nep_core.job import Job
 
 log = logging.getLogger(__name__)
 
@@ -31,6 +37,10 @@ STEP = "  [ ] "
 KEPT_LINES = 200
 LINE_BYTES = 65_536
 """A longer line is read in pieces, so that it cannot fill the memory."""
+
+MOST_LOOKS = 5
+LOOK_S = 0.5
+"""How often, and how long each, what a process has left behind is looked for."""
 
 KILL_S = 5.0
 """One that even the system cannot end, such as for a disk that is gone, is not waited for."""
@@ -59,10 +69,11 @@ class ChildProcess:
         self._on_end = on_end
         self._last_lines: deque[str] = deque(maxlen=KEPT_LINES)
         self._log_file, self._goes_on = log_file, goes_on
-        self._children: frozenset[psutil.Process] = frozenset()
         self._children_ended = threading.Event()
-        self._started_s = time.time()
-        self._popen = _start(name, command, environment)
+        self._mark = uuid.uuid4().hex
+        marks = f"{environment.get(process_tree.VARIABLE, '')} {self._mark}".strip()
+        environment = {**environment, process_tree.VARIABLE: marks}
+        self._popen, self._job = in_lasting_thread(partial(_start, name, command, environment))
         self._reader = threading.Thread(target=self._read, name=f"nep-log-{name}", daemon=True)
         self._reader.start()
         threading.Thread(target=self._await_end, name=f"nep-wait-{name}", daemon=True).start()
@@ -91,7 +102,6 @@ class ChildProcess:
     def ask_to_stop(self) -> None:
         """Send SIGTERM (Windows: Ctrl-Break)."""
         self._asked = True
-        self._children |= process_tree.descendants(self.pid)
         with contextlib.suppress(OSError):
             self._popen.send_signal(STOP_SIGNAL)
 
@@ -101,18 +111,22 @@ class ChildProcess:
             self.ask_to_stop()
             if self.wait(grace_s) is None:
                 log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
-                self._children |= process_tree.descendants(self.pid)
                 with contextlib.suppress(OSError):
                     self._popen.kill()
         self._children_ended.wait(KILL_S)
 
     def _end_children(self) -> None:
-        if ON_WINDOWS:
-            self._children |= process_tree.orphans(self.pid, self._started_s)
-        else:
+        if self._job is not None:
+            self._job.end()
+        if not ON_WINDOWS:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(self.pid, signal.SIGKILL)
-        process_tree.kill(self._children)
+        for _ in range(MOST_LOOKS):
+            left = process_tree.marked(self._mark)
+            if not left:
+                return
+            process_tree.kill(left)  # what they started meanwhile is seen at the next look
+            psutil.wait_procs(left, timeout=LOOK_S)
 
     def _read(self) -> None:
         assert self._popen.stdout is not None
@@ -126,15 +140,17 @@ class ChildProcess:
         code = self._popen.wait()
         self._end_children()  # at once, while no other process has its number
         self._children_ended.set()
-        self._reader.join(1.0)  # a grandchild may hold the pipe open
+        self._reader.join(1.0)  # one that we may not end may hold the pipe open
         if self._popen.stdin is not None:
             self._popen.stdin.close()
         self._on_end(Outcome(self.name, code, self._asked, *last_words(self.last_lines)))
 
 
-def _start(name: str, command: list[str], environment: dict[str, str]) -> subprocess.Popen[bytes]:
+def _start(
+    name: str, command: list[str], environment: dict[str, str]
+) -> tuple[subprocess.Popen[bytes], Job | None]:
     try:
-        return subprocess.Popen(
+        popen = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -149,6 +165,17 @@ def _start(name: str, command: list[str], environment: dict[str, str]) -> subpro
             f"{name} cannot be started: {command[0]}: {reason}.",
             checklist=(f"Is {command[0]} installed, and can it be found?",),
         ) from error
+    return popen, _job_of(popen) if ON_WINDOWS else None
+
+
+def _job_of(popen: subprocess.Popen[bytes]) -> Job | None:
+    from nep_core.job import Job
+
+    try:
+        return Job(int(popen._handle))  # type: ignore[attr-defined]  # there is no other way
+    except OSError as error:  # its life line and its mark are still there
+        log.warning("A process is in no job: %s", error)
+        return None
 
 
 def last_words(lines: list[str]) -> tuple[str, tuple[str, ...]]:

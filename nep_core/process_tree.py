@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterable
 
 import psutil
+
+VARIABLE = "NEP_TREE"
+"""In the environment of a launched process and all that it starts: the marks of those it is of."""
 
 
 def descendants(pid: int) -> frozenset[psutil.Process]:
@@ -15,17 +19,23 @@ def descendants(pid: int) -> frozenset[psutil.Process]:
     return frozenset()
 
 
-def orphans(pid: int, since_s: float) -> frozenset[psutil.Process]:
-    """What a process that is gone has started since then (s, as time.time()), and theirs.
+def marked(marks: str) -> frozenset[psutil.Process]:
+    """Other processes with the last of these marks, also those whose parents are long gone.
 
-    Only Windows still knows the parent of a process when it is gone.
+    That is how one is found that went into the background, into a group of its own.
     """
-    children = [
+    mark = marks.rpartition(" ")[2]
+    return frozenset(
         process
-        for process in psutil.process_iter(["ppid", "create_time"])
-        if process.info["ppid"] == pid and (process.info["create_time"] or 0.0) >= since_s
-    ]
-    return frozenset(children).union(*(descendants(child.pid) for child in children))
+        for process in psutil.process_iter()
+        if mark and process.pid != os.getpid() and mark in _marks(process)
+    )
+
+
+def _marks(process: psutil.Process) -> list[str]:
+    with contextlib.suppress(psutil.Error, OSError):  # another user's, or gone
+        return str(process.environ().get(VARIABLE, "")).split()
+    return []
 
 
 def is_in_tree(pid: int, root_pid: int) -> bool:

@@ -167,7 +167,7 @@ class Session:
             settings["trace"] = True
         with postponed():
             launched = self.network.launcher.launch(
-                "cognitive/program", PROGRAM, settings, restart_on_error=False
+                "cognitive/program", PROGRAM, settings, restart="on-kill"
             )
         self._started.append(PROGRAM)
         self._wait_ready([launched])

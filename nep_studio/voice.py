@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import socket
 import threading
 import uuid
 
 import msgspec
 
 from nep_core import messages as m
-from nep_core.launcher import LaunchedNode
-from nep_core.outcome import Outcome
-from nep_core.p2p import PeerNetwork
+from nep_core.network import Network
 from nep_core.pubsub import Publisher
 
 
 class Voice:
     """Speaks until it falls silent, which it must before the network is closed."""
 
-    def __init__(self, network: PeerNetwork) -> None:
+    def __init__(self, network: Network) -> None:
         self._lock = threading.Lock()
         self._is_silent = False
-        self._states = Publisher(m.NODE_STATE, network=network)
         self._requests = Publisher(m.ACTION_REQUEST, network=network)
         self._control = Publisher(m.PROGRAM_CONTROL, network=network)
 
@@ -38,20 +34,8 @@ class Voice:
         """Ask the program to end."""
         self._say(self._control, m.ProgramControl(command="stop"))
 
-    def tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        """Say for a node that cannot say it any more how it ended."""
-        state = m.NodeState(
-            node=launched.name,
-            type=launched.manifest.type if launched.manifest else "cognitive",
-            event="stopped" if outcome.asked else "crashed",
-            description=f"{outcome}; it is started again" if again else str(outcome),
-            pid=launched.pid,
-            host=socket.gethostname(),
-        )
-        self._say(self._states, state)
-
     def fall_silent(self) -> None:
-        """Say nothing any more: a node may still end when the network is closed."""
+        """Say nothing any more: a session may still end when the network is closed."""
         with self._lock:
             self._is_silent = True
 

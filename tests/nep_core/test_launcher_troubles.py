@@ -137,6 +137,17 @@ def test_a_name_that_cannot_be_used_is_told_before_anything_is_started(
     assert launcher.nodes == {}
 
 
+def test_a_node_may_have_the_name_of_a_library_and_files_beside_it(
+    launcher: Launcher, tmp_path: Path
+) -> None:
+    write_node(tmp_path / "nodes", "socket", f"import lamp_driver\nlamp_driver.light()\n{WAIT}")
+    (tmp_path / "nodes" / "sensory" / "lamp_driver.py").write_text(
+        "import socket\ndef light(): socket.socket().close()\n"
+    )
+
+    launcher.start("sensory/socket").wait_ready()
+
+
 def test_a_log_that_cannot_be_written_does_not_hurt_the_node(
     launcher: Launcher, tmp_path: Path
 ) -> None:

@@ -74,7 +74,7 @@ def test_parameters_are_typed_and_defaults_filled_in(folder: Path) -> None:
     ("given", "words"),
     [
         ({"file": "a", "rate_hz": "fast"}, "a number"),
-        ({"file": "a", "rate_hz": 1000}, "to 100"),
+        ({"file": "a", "rate_hz": 1000}, "it takes a number from 1 to 100"),
         ({"file": "a", "rate_hz": "nan"}, "a number"),
         ({"file": "a", "rate_hz": True}, "a number"),
         ({"file": "a", "port": 1.5}, "a whole number"),
@@ -112,6 +112,16 @@ def test_any_value_is_read_or_refused(value: object) -> None:
         (GOOD.replace("default = 10", "default = 5000"), "to 100"),
         (GOOD.replace('type = "number"', 'type = "tiny"'), "tiny"),
         (GOOD.replace("[parameters.port]", '[parameters."a b"]'), "cannot name a setting"),
+        (GOOD.replace("[parameters.port]", "[parameters.class]"), "cannot name a setting"),
+        (GOOD.replace("[parameters.port]", "[parameters.node]"), "cannot name a setting"),
+        (GOOD.replace("minimum = 1", "minimum = 101"), "a minimum above its maximum"),
+        (GOOD.replace('"file"', '"file"\nminimum = 1'), "is no number"),
+        (GOOD.replace('choices = ["left", "right"]\ndefault = "left"', ""), "has no choices"),
+        ("ready_s = 0\n" + GOOD, "ready_s is 0"),
+        ("ready_s = nan\n" + GOOD, "ready_s is nan"),
+        ('restart = "perhaps"\n' + GOOD, "perhaps"),
+        ('command = ["sh", ""]\n' + GOOD, "empty word"),
+        ('says = ["lamp"]\n' + GOOD, "does not begin with /"),
     ],
 )
 def test_a_wrong_manifest_is_told_with_its_file_and_place(
@@ -124,6 +134,16 @@ def test_a_wrong_manifest_is_told_with_its_file_and_place(
 
     assert "lamp.toml" in raised.value.sentence
     assert raised.value.checklist
+
+
+def test_a_manifest_says_when_a_node_is_started_again_and_how_long_it_may_take(
+    folder: Path,
+) -> None:
+    assert (lamp(folder).restart, lamp(folder).ready_s) == ("on-crash", 10)
+
+    write(folder, 'restart = "always"\nready_s = 60\n' + GOOD)
+
+    assert (lamp(folder).restart, lamp(folder).ready_s) == ("always", 60)
 
 
 def test_a_manifest_without_code_is_told(folder: Path) -> None:

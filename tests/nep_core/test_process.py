@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import queue
-import subprocess
+import signal
 import sys
 from pathlib import Path
 
@@ -12,10 +12,10 @@ import psutil
 import pytest
 
 from nep_core import process_tree
-from nep_core.node_log import SEPARATOR, NodeLog, log_file_name
+from nep_core.node_log import KEPT_FILES, SEPARATOR, NodeLog, log_file_name
 from nep_core.outcome import Outcome
 from nep_core.places import log_folder
-from nep_core.process import LINE_BYTES, ChildProcess
+from nep_core.process import LINE_BYTES, ChildProcess, program_command
 
 Outcomes = queue.Queue[Outcome]
 
@@ -37,11 +37,12 @@ def test_a_line_without_an_end_fills_neither_memory_nor_disk(
     monkeypatch.setattr("nep_core.node_log.LOG_BYTES", 100_000)
     outcomes: Outcomes = queue.Queue()
 
-    child = start("print('x' * 1_000_000)", tmp_path / "child.log", outcomes)
+    child = start("print('x' * 1_000_000 + 'end')", tmp_path / "child.log", outcomes)
     outcomes.get(timeout=10)
 
     assert max(map(len, child.last_lines)) == LINE_BYTES
-    assert (tmp_path / "child.log").read_bytes() == b"x" * 100_000
+    assert (tmp_path / "child.log").read_bytes().endswith(b"xend\n")
+    assert sum(file.stat().st_size for file in tmp_path.iterdir()) <= KEPT_FILES * 100_000
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a disk that is always full")
@@ -95,14 +96,29 @@ def test_a_child_that_we_may_not_end_does_not_keep_stop_from_ending_the_others(
     assert outcomes.get(timeout=5).asked
 
 
-def test_what_a_process_started_is_found_also_by_its_parents_number() -> None:
-    with subprocess.Popen(["sleep", "60"]) as child:
-        found = process_tree.orphans(os.getpid(), psutil.Process(child.pid).create_time())
-        too_late = process_tree.orphans(os.getpid(), psutil.Process(child.pid).create_time() + 1)
-        process_tree.kill(found)
+def test_what_went_into_the_background_ends_with_the_child_that_started_it(tmp_path: Path) -> None:
+    outcomes: Outcomes = queue.Queue()
+    code = "import os\nif os.fork(): os._exit(0)\nos.setsid()\nif os.fork(): os._exit(0)\n"
+    code += "print(os.getpid(), flush=True)\nimport time; time.sleep(60)"
+    parent = "import subprocess, sys\n"
+    parent += f"subprocess.run([sys.executable, '-c', {code!r}])\nsys.stdin.read(1)"
+    child = start(parent, tmp_path / "child.log", outcomes)
+    while not child.last_lines:
+        assert child.wait(0.02) is None
+    daemon = psutil.Process(int(child.last_lines[0]))
 
-        assert child.pid in [process.pid for process in found]
-        assert not too_late
+    os.kill(child.pid, signal.SIGKILL)
+
+    outcomes.get(timeout=5)
+    assert not psutil.wait_procs([daemon], timeout=5)[1]
+
+
+def test_a_frozen_program_starts_itself_for_another_job(monkeypatch: pytest.MonkeyPatch) -> None:
+    from_source = program_command("guard", "true")
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+
+    assert from_source == [sys.executable, "-m", "nep_studio", "guard", "true"]
+    assert program_command("guard", "true") == [sys.executable, "guard", "true"]
 
 
 @pytest.mark.parametrize("name", ["watch", "a b", "a_b", "n" * 81, "n" * 100, "../a", "ü", ""])
@@ -157,6 +173,22 @@ def test_the_log_of_a_node_that_was_started_again_goes_on(tmp_path: Path) -> Non
     first, _, separator, last = (tmp_path / "child.log").read_text().splitlines()
     assert (first, last) == ("why it crashed", "well again")
     assert separator.startswith(SEPARATOR)
+
+
+def test_of_a_flood_the_newest_words_are_kept_and_files_in_their_order(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("nep_core.node_log.LOG_BYTES", 100)
+
+    with NodeLog(tmp_path / "child.log") as kept:
+        for number in range(1000):
+            kept.write(f"{number:9}\n".encode())
+
+    files = [tmp_path / f"child{age}.log" for age in (".4", ".3", ".2", ".1", "")]
+    words = [int(line) for file in files for line in file.read_text().splitlines()]
+    assert words == list(range(1000))[-len(words) :]
+    assert len(words) > 40
+    assert set(tmp_path.iterdir()) == set(files)
 
 
 def test_many_crashes_do_not_fill_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,7 @@ import msgspec
 import psutil
 import pytest
 
-from nep_core import launcher
+from nep_core import launched
 from nep_core import messages as m
 from nep_core.outcome import Outcome
 from nep_studio import session as sessions
@@ -105,7 +105,7 @@ def test_a_failure_that_comes_after_the_programs_end_still_names_its_line(tmp_pa
 def test_a_recording_that_is_given_up_is_a_problem(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(launcher, "MOST_RESTARTS", 0)
+    monkeypatch.setattr(launched, "MOST_RESTARTS", 0)
     monkeypatch.setattr(sessions, "LAST_RULES_S", 0.0)
     table = "t,ax,ay,az\n" + "".join(f"{i / 50},0.1,0.2,9.8\n" for i in range(3000))
     (tmp_path / "mine.csv").write_text(table, encoding="utf-8")

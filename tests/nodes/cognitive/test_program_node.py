@@ -59,7 +59,7 @@ class Studio:
         self._file.write_text(dedent(source).lstrip(), encoding="utf-8")
         settings = {"file": str(self._file), "hold": True, "trace": trace}
         launched = self._launcher.launch(
-            "cognitive/program", "program", settings, restart_on_error=False
+            "cognitive/program", "program", settings, restart="on-kill"
         )
         launched.wait_ready(WAIT_S)
         return launched

@@ -27,7 +27,7 @@ Fix = Literal[
 ]
 
 STARTED_AGAIN = "; it is started again"
-"""How the studio's own words for a crashed node end when it has another try (see voice.py)."""
+"""How the studio's own words for a crashed node end when it has another try (see herald.py)."""
 
 BAD = frozenset({"warning", "frozen", "crashed"})
 WELL = frozenset({"ready", "busy"})
