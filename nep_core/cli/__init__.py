@@ -1,44 +1,149 @@
-"""The robot developer's command line: ``nep master``, ``nep echo /imu``, ``nep launch ...``."""
+"""The robot developer's command line: ``nep master``, ``nep echo /imu``, ``nep record FILE``."""
 
 from __future__ import annotations
 
 import argparse
+import io
 import logging
+import os
 import sys
+import traceback
 from importlib import import_module
+from typing import NoReturn
 
+from nep_core.cli.joining import near
+from nep_core.cli.lessons import EXIT_CODES, FIRST_STEPS, LESSONS
 from nep_core.errors import NepError
+from nep_core.places import log_folder
 
 COMMANDS = {
     "master": ("services", "run the NEP Master, the name server of the network"),
     "broker": ("services", "run the central service of the broker network"),
-    "topics": ("look", "which topics there are, and who publishes and hears them"),
-    "nodes": ("look", "which nodes there are"),
-    "echo": ("look", "print the messages of a topic"),
-    "hz": ("look", "how often a topic's messages come"),
-    "send": ("talk", "send one message on a topic"),
+    "open": ("pair", "run a master that paired computers of your network reach too"),
+    "pair": ("pair", "let this computer take part in the open network of another one"),
+    "find": ("pair", "which open networks there are around"),
+    "computers": ("pair", "which computers an open network lets in"),
     "launch": ("talk", "start a node, and stop it with Ctrl-C"),
-    "doctor": ("doctor", "what this computer has, and what is missing"),
+    "kill": ("kill", "ask a node to stop, and wait until it is gone"),
+    "topics": ("look", "which topics there are, and who publishes and hears them"),
+    "nodes": ("look", "which nodes there are, and how they are doing"),
+    "graph": ("graph", "who is connected with whom, as text or for Graphviz"),
+    "echo": ("listen", "print the messages of a topic"),
+    "hz": ("listen", "how often, how evenly and how much comes on a topic"),
+    "send": ("talk", "send messages on a topic"),
+    "record": ("record", "record topics into an MCAP file"),
+    "play": ("record", "play a recording in its true timing"),
+    "doctor": ("doctor", "check this computer for NEP, with what to do"),
 }
+
+GROUPS = {
+    "Run a network": ("master", "broker", "launch", "kill"),
+    "Several computers": ("open", "pair", "find", "computers"),
+    "Look around": ("topics", "nodes", "graph", "doctor"),
+    "Messages": ("echo", "hz", "send"),
+    "Recordings": ("record", "play"),
+}
+"""How the list of commands is ordered; one that is nowhere here comes last."""
+
+WRONG_USE = 2
+
+
+class Parser(argparse.ArgumentParser):
+    """Tells what is wrong with the words after ``nep``, and what may have been meant."""
+
+    def error(self, message: str) -> NoReturn:
+        """End with a sentence instead of the whole usage."""
+        print(
+            f"{message[:1].upper()}{message[1:]}.\nHelp: {self.prog} --help",
+            file=sys.stderr,
+        )
+        sys.exit(WRONG_USE)
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command ``nep``; the exit code."""
-    parser = argparse.ArgumentParser(
-        prog="nep", description="Look at a NEP network and take part in it."
+    """The command ``nep``; the exit code. A closed pipe and Ctrl-C end it quietly."""
+    _speak_utf8()
+    try:
+        try:
+            return _main(arguments)
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:  # the reader has seen enough, as in `nep echo /imu | head -1`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _main(arguments: list[str] | None) -> int:
+    parser = Parser(prog="nep", add_help=False)
+    parser.add_argument("--help", "-h", action="store_true")
+    parser.add_argument("--master")
+    parser.add_argument("command", nargs="?")
+    parser.add_argument("rest", nargs=argparse.REMAINDER)
+    given = parser.parse_args(arguments)
+    if given.command is None:
+        print(overview())
+        return 0
+    if given.command not in COMMANDS:
+        meant = near(given.command, COMMANDS)[:1]
+        hint = f" Did you mean: nep {meant[0]}?" if meant else ""
+        print(f'There is no command "{given.command}".{hint}\nHelp: nep', file=sys.stderr)
+        return WRONG_USE
+    words = ["--help"] if given.help else given.rest
+    return run_command(parse(given.command, words, given.master))
+
+
+def overview() -> str:
+    """All commands in their groups, a line each, and how to begin."""
+    lines = ["Look at a NEP network and take part in it.", "", "nep COMMAND [OPTIONS]", ""]
+    width = max(map(len, COMMANDS))
+    grouped = {name for names in GROUPS.values() for name in names}
+    others = tuple(name for name in COMMANDS if name not in grouped)
+    for title, names in (*GROUPS.items(), ("More", others)):
+        there = [f"  {name:{width}} {COMMANDS[name][1]}" for name in names if name in COMMANDS]
+        lines += [title, *there, ""] if there else []
+    return "\n".join([*lines, FIRST_STEPS])
+
+
+def parser_of(command: str) -> Parser:
+    """What a command takes, with the help that teaches it."""
+    module, line = COMMANDS[command]
+    lesson = LESSONS.get(command)
+    parser = Parser(
+        prog=f"nep {command}",
+        description=lesson.text if lesson else f"{line[:1].upper()}{line[1:]}.",
+        epilog=f"{lesson.epilog}\n\n{EXIT_CODES}" if lesson else EXIT_CODES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
     )
+    import_module(f"nep_core.cli.{module}").add_arguments(command, parser)
     parser.add_argument(
-        "--master", help="the master's endpoint (default: NEP_MASTER, or port 7100)"
+        "--master",
+        default=argparse.SUPPRESS,
+        metavar="ENDPOINT",
+        help="where the master is (default: NEP_MASTER, else tcp://127.0.0.1:7100)",
     )
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, (module, help_text) in COMMANDS.items():
-        command = commands.add_parser(name, help=help_text, description=help_text)
-        import_module(f"nep_core.cli.{module}").add_arguments(name, command)
-    return run_command(parser.parse_args(arguments))
+    parser.set_defaults(command=command)
+    return parser
+
+
+def parse(command: str, words: list[str], master: str | None = None) -> argparse.Namespace:
+    """The options of a command; ends the program with a sentence when they are wrong."""
+    parser = parser_of(command)
+    start = argparse.Namespace(master=master)
+    if any(action.nargs == "*" for action in parser._actions):
+        options, unknown = parser.parse_known_intermixed_args(words, start)
+    else:
+        options, unknown = parser.parse_known_args(words, start)
+    if unknown:
+        known = [name for action in parser._actions for name in action.option_strings]
+        meant = near(unknown[0].partition("=")[0], known) if unknown[0].startswith("-") else []
+        hint = f" (did you mean {meant[0]}?)" if meant else ""
+        parser.error(f'"{unknown[0]}" is not understood{hint}')
+    return options
 
 
 def run_command(options: argparse.Namespace) -> int:
-    """Run a parsed command; errors become sentences, Ctrl-C ends quietly."""
+    """Run a parsed command; errors become sentences."""
     logging.basicConfig(level=logging.WARNING, format="%(message)s")
     module = import_module(f"nep_core.cli.{COMMANDS[options.command][0]}")
     try:
@@ -48,9 +153,36 @@ def run_command(options: argparse.Namespace) -> int:
         return 1
     except KeyboardInterrupt:
         return 0
+    except BrokenPipeError:
+        raise  # main() knows
+    except Exception as error:  # the last resort: a mistake of ours is told, and kept for us
+        print(_explain_mistake(error), file=sys.stderr)
+        return 1
 
 
 def explain(error: NepError) -> str:
     """An error as text: its title, its sentence and its checklist."""
     steps = [f"  [ ] {step}" for step in error.checklist]
     return "\n".join([error.title, error.sentence, *steps])
+
+
+def _explain_mistake(error: Exception) -> str:
+    path = log_folder() / "nep-command.log"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("".join(traceback.format_exception(error)), encoding="utf-8")
+        kept = f"Details are in {path}"
+    except OSError:
+        kept = "Details could not be kept"
+    return (
+        f"Something went wrong inside the command ({type(error).__name__}: {error}).\n"
+        f"{kept}; please send them to the authors of NEP Studio."
+    )
+
+
+def _speak_utf8() -> None:
+    """Messages hold any letter, whatever this terminal's language is."""
+    for stream in (sys.stdin, sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            errors = "replace" if stream is sys.stdin else "backslashreplace"
+            stream.reconfigure(encoding="utf-8", errors=errors)

@@ -1,45 +1,61 @@
-"""``nep doctor``: what this computer has for NEP, and what is missing."""
+"""``nep doctor``: what this computer has for NEP, what to look at, and what to do."""
 
 from __future__ import annotations
 
 import argparse
-import platform
-from importlib import metadata
 
-import zmq
+from nep_core.cli.arguments import add_json
+from nep_core.cli.finding import Finding
+from nep_core.cli.showing import say, say_json
 
-from nep_core.endpoints import master_endpoint
-from nep_core.errors import ManifestError
-from nep_core.manifest import NodeCatalog, read_manifest
-from nep_core.master_probe import ask_master
-from nep_core.places import log_folder, node_folders
+MARKS = {"ok": "ok       ", "look": "LOOK     ", "unknown": "unknown  ", "note": "-        "}
 
 
-def add_arguments(_name: str, _parser: argparse.ArgumentParser) -> None:
-    """There are no options."""
+def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:
+    """Say which options the command has."""
+    parser.add_argument("--robot", metavar="ADDRESS", help="does a NAO answer there?")
+    add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print the report; 0 when nothing is wrong."""
-    endpoint = options.master or master_endpoint()
-    listing = ask_master(endpoint, timeout_s=0.5)
-    problems = _wrong_manifests()
-    print(f"Python    {platform.python_version()} on {platform.platform()}")
-    print(f"ZeroMQ    {zmq.zmq_version()} (pyzmq {zmq.__version__})")
-    print(f"msgspec   {metadata.version('msgspec')}")
-    nodes = len(listing.registrations) if listing else 0
-    print(f"master    {f'{nodes} nodes' if listing else 'does not answer'} at {endpoint}")
-    print(f"logs      {log_folder()}")
-    for problem in problems:
-        print(f"\n{problem}")
-    return 1 if problems else 0
+    """Print the report; 1 when there is something to look at."""
+    findings = examine(options.master, options.robot)
+    if options.json:
+        say_json(findings)
+    else:
+        say("\n".join(report_lines(findings)))
+    return 1 if any(found.state == "look" for found in findings) else 0
 
 
-def _wrong_manifests() -> list[str]:
-    problems = []
-    for path in NodeCatalog(node_folders()).paths():
-        try:
-            read_manifest(path)
-        except ManifestError as error:
-            problems.append(error.sentence)
-    return problems
+def examine(master: str | None = None, robot: str | None = None) -> list[Finding]:
+    """All that was found out about this computer."""
+    from nep_core.cli import checks_of_network as network
+    from nep_core.cli import checks_of_system as system
+
+    return [
+        *system.versions(),
+        *network.variables(),
+        network.master(master),
+        *network.original_ports(),
+        network.naoqi_port(),
+        *([network.robot(robot)] if robot else []),
+        *network.clocks(master),
+        *system.firewalls(),
+        system.clock(),
+        *system.folders(),
+        system.key_file(),
+        *system.disk_space(),
+        system.manifests(),
+    ]
+
+
+def report_lines(findings: list[Finding]) -> list[str]:
+    """The report for people: a line each, steps below what needs a look, a sentence at the end."""
+    width = max(len(found.about) for found in findings)
+    lines = []
+    for found in findings:
+        lines.append(f"{MARKS[found.state]}{found.about.ljust(width)}  {found.told}")
+        lines += [f"           [ ] {step}" for step in found.steps]
+    looks = sum(found.state == "look" for found in findings)
+    end = "Nothing is wrong." if not looks else f"Look at {looks} of these, the first one first."
+    return [*lines, "", end]

@@ -1,92 +1,192 @@
-"""``nep topics``, ``nodes``, ``echo`` and ``hz``: what goes on in a network."""
+"""``nep topics`` and ``nep nodes``: what there is in a network."""
 
 from __future__ import annotations
 
 import argparse
-import itertools
-import statistics
+import contextlib
+import socket
 import time
-from typing import Any
+from dataclasses import dataclass
 
-import msgspec
+import psutil
 
-from nep_core.cli.arguments import seconds
-from nep_core.endpoints import master_endpoint
-from nep_core.master_probe import ask_master, no_master
-from nep_core.p2p import PeerNetwork
+from nep_core.cli.arguments import add_json, seconds
+from nep_core.cli.joining import join, registrations
+from nep_core.cli.showing import say, say_json, table
+from nep_core.messages import BY_TOPIC, NODE_STATE, NodeState
+from nep_core.network import Network
 from nep_core.pubsub import Subscriber
+from nep_core.raw import RawSubscriber
 from nep_core.registry import Registration
-from nep_core.topics import topics_of
+from nep_core.topics import TopicEnds, topics_of
+
+RATES_S = 1.0
+STATES_S = 0.3
+"""The last states of nodes come with the handshake; this is for slow ones."""
 
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     """Say which options the command has."""
-    if name in ("echo", "hz"):
-        parser.add_argument("topic", help="such as /human_behavior")
-        parser.add_argument("--count", type=int, default=0, help="stop after so many messages")
-        parser.add_argument("--seconds", type=seconds, help="stop when nothing came for so long")
+    add_json(parser)
+    if name == "topics":
+        add_rates(parser)
+
+
+def add_rates(parser: argparse.ArgumentParser) -> None:
+    """Let the command listen."""
+    parser.add_argument(
+        "--rates",
+        nargs="?",
+        type=seconds,
+        const=RATES_S,
+        metavar="S",
+        help="listen for S seconds (default 1) and tell messages a second",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Print what was asked for."""
-    endpoint = options.master or master_endpoint()
-    match options.command:
-        case "topics":
-            print("\n".join(topic_lines(_registrations(endpoint))) or "No topics yet.")
-        case "nodes":
-            print("\n".join(node_lines(_registrations(endpoint))) or "No nodes yet.")
-        case "echo":
-            _echo(endpoint, options)
-        case "hz":
-            _hz(endpoint, options)
+    if options.command == "topics":
+        _show_topics(options)
+    else:
+        _show_nodes(options)
     return 0
 
 
-def topic_lines(registrations: list[Registration]) -> list[str]:
-    """One line a topic: who publishes and who hears it."""
-    return [
-        f"{ends.topic}   from {', '.join(ends.publishers) or 'nobody'}"
-        f"   to {', '.join(ends.subscribers) or 'nobody'}"
-        for ends in topics_of(registrations)
+def _show_topics(options: argparse.Namespace) -> None:
+    topics = topics_of(registrations(options))
+    rates: dict[str, float] = {}
+    if options.rates is not None:
+        with join(options) as network:
+            rates = rates_of(network, [ends.topic for ends in topics], options.rates)
+    if options.json:
+        say_json([_topic_data(ends, rates) for ends in topics])
+        return
+    head = ("TOPIC", "MESSAGE", *(("HZ",) if rates else ()), "FROM", "TO")
+    rows = [
+        (
+            ends.topic,
+            struct_of(ends.topic) or "-",
+            *((f"{rates[ends.topic]:.1f}",) if rates else ()),
+            ", ".join(ends.publishers) or "nobody",
+            ", ".join(ends.subscribers) or "nobody",
+        )
+        for ends in topics
     ]
+    say(table(head, rows) if rows else "No topics yet.")
 
 
-def node_lines(registrations: list[Registration]) -> list[str]:
-    """One line a node: its name, process and computer."""
-    return [
-        f"{told.node}   process {told.pid} on {told.host}   {told.endpoint}"
-        for told in sorted(registrations, key=lambda told: told.node)
+def _topic_data(ends: TopicEnds, rates: dict[str, float]) -> dict[str, object]:
+    heard = {"rate_hz": rates[ends.topic]} if ends.topic in rates else {}
+    return {
+        "topic": ends.topic,
+        "message": struct_of(ends.topic),
+        "publishers": ends.publishers,
+        "subscribers": ends.subscribers,
+        **heard,
+    }
+
+
+def struct_of(topic: str) -> str:
+    """The name of the struct of a topic's messages; "" when NEP does not know it."""
+    kind = BY_TOPIC.get(topic)
+    return kind.__name__ if kind else ""
+
+
+def rates_of(network: Network, topics: list[str], listen_s: float) -> dict[str, float]:
+    """Messages a second of each topic, heard for so long."""
+    heard = {topic: RawSubscriber(topic, network=network) for topic in topics}
+    begin_s, begin_ns = time.monotonic(), time.time_ns()
+    counts = dict.fromkeys(topics, 0)
+    while (passed_s := time.monotonic() - begin_s) < listen_s:
+        time.sleep(min(0.05, listen_s - passed_s))
+        for topic, subscriber in heard.items():
+            while (message := subscriber.receive(0)) is not None:
+                counts[topic] += message.arrived_ns >= begin_ns
+    passed_s = max(time.monotonic() - begin_s, 1e-9)
+    return {topic: round(count / passed_s, 2) for topic, count in counts.items()}
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program of the network, with its state when it is a node; ages in s, None: not known."""
+
+    node: str
+    type: str
+    state: str
+    description: str
+    pid: int
+    host: str
+    endpoint: str
+    heard_s: float | None
+    uptime_s: float | None
+
+
+def programs(told: list[Registration], states: dict[str, NodeState]) -> list[Program]:
+    """What is known of each program, sorted by name."""
+    return [_program(one, states.get(one.node)) for one in sorted(told, key=lambda one: one.node)]
+
+
+def states_of(network: Network, wait_s: float = STATES_S) -> dict[str, NodeState]:
+    """The last state that each node told, its heartbeats aside."""
+    subscriber = Subscriber(NODE_STATE, NodeState, network=network)
+    states: dict[str, NodeState] = {}
+    while (state := subscriber.receive(wait_s)) is not None:
+        if state.event != "alive":
+            states[state.node] = state
+        wait_s = min(wait_s, 0.05)
+    return states
+
+
+def _show_nodes(options: argparse.Namespace) -> None:
+    told = registrations(options)
+    states: dict[str, NodeState] = {}
+    if any(NODE_STATE in one.publishes for one in told):
+        with join(options) as network:
+            states = states_of(network)
+    found = programs(told, states)
+    if options.json:
+        say_json(found)
+        return
+    head = ("NODE", "TYPE", "STATE", "SINCE", "RUNS FOR", "PROCESS", "COMPUTER", "ENDPOINT")
+    rows = [
+        (
+            one.node,
+            one.type or "-",
+            one.state or "-",
+            _age(one.heard_s),
+            _age(one.uptime_s),
+            str(one.pid),
+            one.host,
+            one.endpoint,
+        )
+        for one in found
     ]
+    say(table(head, rows) if rows else "No nodes yet.")
 
 
-def _registrations(endpoint: str) -> list[Registration]:
-    listing = ask_master(endpoint)
-    if listing is None:
-        raise no_master(endpoint)
-    return listing.registrations
+def _program(told: Registration, state: NodeState | None) -> Program:
+    return Program(
+        told.node,
+        state.type if state else "",
+        state.event if state else "",
+        state.description if state else "",
+        told.pid,
+        told.host,
+        told.endpoint,
+        round(max(0.0, time.time() - state.time), 1) if state else None,
+        _uptime_s(told),
+    )
 
 
-def _messages(endpoint: str, options: argparse.Namespace) -> Any:
-    with PeerNetwork(master=endpoint) as network:
-        subscriber: Subscriber[Any] = Subscriber(options.topic, network=network)
-        count = 0
-        while (message := subscriber.receive(options.seconds)) is not None:
-            yield message
-            count += 1
-            if count == options.count:
-                return
+def _uptime_s(told: Registration) -> float | None:
+    if told.host != socket.gethostname():
+        return None
+    with contextlib.suppress(psutil.Error, ValueError):
+        began_s = float(psutil.Process(told.pid).create_time())
+        return round(max(0.0, time.time() - began_s), 1)
+    return None
 
 
-def _echo(endpoint: str, options: argparse.Namespace) -> None:
-    for message in _messages(endpoint, options):
-        text = message if isinstance(message, str) else msgspec.json.encode(message).decode()
-        print(text, flush=True)
-
-
-def _hz(endpoint: str, options: argparse.Namespace) -> None:
-    times: list[float] = []
-    for _message in _messages(endpoint, options):
-        times = [*times, time.monotonic()][-100:]
-        gaps = [later - earlier for earlier, later in itertools.pairwise(times)]
-        if gaps:
-            print(f"{1 / max(statistics.fmean(gaps), 1e-9):.1f} messages a second", flush=True)
+def _age(age_s: float | None) -> str:
+    return "-" if age_s is None else f"{age_s:.0f} s"

@@ -3,41 +3,125 @@
 from __future__ import annotations
 
 import argparse
+import os
 import select
 import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from nep_core import lifeline
 from nep_core.broker import Broker
+from nep_core.broker_network import BrokerNetwork
+from nep_core.cli.router import add_router_arguments, broker_for
+from nep_core.errors import NetworkError
 from nep_core.io_thread import Wake
 from nep_core.master import Master
 from nep_core.node import STOP_SIGNALS
+from nep_core.p2p import PeerNetwork
+from nep_core.security import KEYS_VARIABLE
+from nep_core.security.service_voice import ServiceVoice
+from nep_core.zenoh_router import ZenohRouter
+
+if TYPE_CHECKING:
+    from nep_core.gateway import Gateway
 
 SIGNAL_S = 1.0
 """Windows runs a signal's handler between two waits only."""
+ORIGINAL_VARIABLE = "NEP_ORIGINAL"
+"""1: a session's master lets programs of the original NEP join too; 0: ``nep master`` does not."""
 
 
-def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:
+def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     """Say which options the command has."""
     parser.add_argument("--endpoint", help="where, such as tcp://127.0.0.1:7100")
+    parser.add_argument(
+        "--keys",
+        type=Path,
+        metavar="FILE",
+        help="the key file of a network that is open to other computers (see: nep open)",
+    )
+    if name == "master":
+        parser.add_argument(
+            "--original",
+            action=argparse.BooleanOptionalAction,
+            default=os.environ.get(ORIGINAL_VARIABLE) != "0",
+            help="let programs of the original NEP on this computer join (ports 7000 and 50000)",
+        )
+    else:
+        add_router_arguments(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Serve until stopped."""
-    endpoint = options.endpoint or options.master
+    is_master = options.command == "master"
+    endpoint = options.endpoint or (options.master if is_master else None)
+    if options.keys is not None:
+        os.environ[KEYS_VARIABLE] = str(options.keys.absolute())
+    service = Master(endpoint) if is_master else broker_for(options)
+    name = "zenoh router" if isinstance(service, ZenohRouter) else f"NEP {options.command}"
+    gateway = _gateway(service.endpoint) if is_master and options.original else None
+    try:
+        return serve(
+            service,
+            lambda: print(
+                f"The {name} serves at {service.endpoint}. Ctrl-C stops it.",
+                flush=True,
+            ),
+            gateway.close if gateway else lambda: None,
+        )
+    finally:
+        service.close()
+
+
+def serve(
+    service: Master | Broker | ZenohRouter,
+    begin: Callable[[], None],
+    end: Callable[[], None] = lambda: None,
+) -> int:
+    """Wait for Ctrl-C, SIGTERM or the parent's end, and tell of peers that are refused meanwhile.
+
+    ``begin`` is called when these are heard, ``end`` while the service is still there.
+    """
     stop = Wake()  # an Event could deadlock in a signal handler
     for number in STOP_SIGNALS:
         signal.signal(number, lambda *_: stop())
     lifeline.on_parent_end(stop)
-    service = Master(endpoint) if options.command == "master" else Broker(options.endpoint)
-    print(f"The NEP {options.command} serves at {service.endpoint}. Ctrl-C stops it.", flush=True)
+    voice = _voice_of(service)
+    begin()
     while not select.select([stop], [], [], SIGNAL_S)[0]:
-        pass
-    service.close()
+        if warning := service.take_warning():
+            voice.warn(warning)
+    end()
+    voice.close()
     return 0
+
+
+def _voice_of(service: Master | Broker | ZenohRouter) -> ServiceVoice:
+    place = service.endpoint
+    if isinstance(service, Master):
+        return ServiceVoice("master", lambda: PeerNetwork("master", master=place))
+    return ServiceVoice("broker", lambda: BrokerNetwork(place, node="broker"))
 
 
 def run_master(arguments: list[str]) -> int:
     """``nep-studio master``: what a session starts, also when there is no ``nep`` command."""
     from nep_core.cli import main
 
-    return main(["master", *arguments])
+    is_wanted = os.environ.get(ORIGINAL_VARIABLE) == "1"
+    return main(["master", "--original" if is_wanted else "--no-original", *arguments])
+
+
+def _gateway(master: str) -> Gateway | None:
+    """What lets programs of the original NEP join; the master goes on without it too."""
+    from nep_core.gateway import Gateway
+    from nep_core.places import cache_folder
+
+    try:
+        gateway = Gateway(master, memory=cache_folder() / "original-nep.json")
+    except NetworkError as error:
+        print(f"Programs of the original NEP cannot join. {error.sentence}", flush=True)
+        return None
+    for trouble in gateway.troubles:
+        print(trouble, flush=True)
+    return gateway

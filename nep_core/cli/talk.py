@@ -3,29 +3,51 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import sys
+import time
+from collections.abc import Iterable, Iterator
 from queue import SimpleQueue
+from typing import Any
 
 import msgspec
 
+from nep_core.cli.arguments import count, rate, seconds
+from nep_core.cli.joining import join
 from nep_core.cli.node import settings
+from nep_core.cli.showing import many, remark, say
 from nep_core.errors import BadMessage
 from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.messages import BY_TOPIC, NODE_STATE, NodeState
 from nep_core.outcome import Outcome
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
+from nep_core.pubsub import Publisher, Subscriber
 
 FIRST_SUBSCRIBER_S = 0.5
+FROM_INPUT = "-"
 
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     """Say which options the command has."""
+    add = parser.add_argument
     if name == "send":
-        parser.add_argument("topic", help="such as /human_behavior")
-        parser.add_argument("json", help="""such as '{"human_state": "happy"}'""")
+        add("topic", metavar="TOPIC", help="such as /human_behavior")
+        add("message", metavar="MESSAGE", help="""JSON; "-": each line of the standard input""")
+        add("--text", action="store_true", help="send it as plain text, not as JSON")
+        add("--unchecked", action="store_true", help="send it whatever NEP knows of the topic")
+        add("--rate", type=rate, metavar="HZ", help="send it again and again, so often a second")
+        add("--count", type=count, default=0, metavar="N", help="end after N messages")
+        add(
+            "--wait",
+            type=seconds,
+            default=FIRST_SUBSCRIBER_S,
+            metavar="S",
+            help="wait for a subscriber, S seconds at most (default %(default)s)",
+        )
     else:
-        parser.add_argument("type", help="sensory, perceptual, cognitive or action")
-        parser.add_argument("name", help="the node, such as virtual_watch")
-        parser.add_argument("settings", nargs="*", metavar="setting=value")
+        add("type", metavar="TYPE", help="sensory, perceptual, cognitive or action")
+        add("node", metavar="NODE", help="such as virtual_watch")
+        add("settings", nargs="*", metavar="setting=value", help="parameters of its manifest")
+        add("--name", default="", help="the node's name in the network (default: NODE)")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -34,37 +56,131 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _send(options: argparse.Namespace) -> int:
-    try:
-        message = msgspec.json.decode(options.json)
-    except msgspec.MsgspecError as error:
-        raise BadMessage(
-            f"This is not JSON: {error}.", checklist=("""Write '{"key": "value"}'.""",)
-        ) from error
-    with PeerNetwork(master=options.master) as network:
+    messages = _messages(options)
+    first = next(messages, None)  # a wrong one is told before the network is joined
+    if first is None:
+        remark("There was no message to send.")
+        return 1
+    with join(options) as network:
         publisher = Publisher(options.topic, network=network)
-        publisher.wait_for_subscribers(1, FIRST_SUBSCRIBER_S)
-        publisher.send(message)
-        print(f"Sent to {publisher.subscribers()} subscribers.")
+        publisher.wait_for_subscribers(1, options.wait)
+        sent = _send_all(publisher, first, messages, options)
+        say(f"Sent {many(sent, 'message')} to {many(publisher.subscribers(), 'subscriber')}.")
     return 0
+
+
+def _send_all(
+    publisher: Publisher, first: Any, others: Iterator[Any], options: argparse.Namespace
+) -> int:
+    begin_s, sent = time.monotonic(), 0
+    with contextlib.suppress(KeyboardInterrupt):
+        for message in _with_first(first, others):
+            if options.rate:
+                time.sleep(max(0.0, begin_s + sent / options.rate - time.monotonic()))
+            publisher.send(message)
+            sent += 1
+    return sent
+
+
+def _with_first(first: Any, others: Iterable[Any]) -> Iterator[Any]:
+    yield first
+    yield from others
+
+
+def _messages(options: argparse.Namespace) -> Iterator[Any]:
+    """The messages to send, as many as were asked for."""
+    if options.message == FROM_INPUT:
+        lines: Iterable[str] = (line.rstrip("\r\n") for line in sys.stdin)
+        ready = (_read(line, options) for line in lines if line.strip())
+    else:
+        message = _read(options.message, options)
+        times = options.count or (None if options.rate else 1)
+        ready = (message for _ in _count_to(times))
+    for number, message in enumerate(ready, 1):
+        yield message
+        if number == options.count:
+            return
+
+
+def _count_to(times: int | None) -> Iterator[int]:
+    number = 0
+    while times is None or number < times:
+        yield number
+        number += 1
+
+
+def _read(text: str, options: argparse.Namespace) -> Any:
+    """A message as it will be sent; raises BadMessage that names what is wrong."""
+    if options.text:
+        return text
+    try:
+        message = msgspec.json.decode(text)
+    except (msgspec.MsgspecError, RecursionError) as error:
+        raise BadMessage(
+            f"This is not JSON: {error}.",
+            checklist=(
+                """Write '{"key": "value"}', with the single quotes in this place.""",
+                "Is it a plain text? Add --text.",
+            ),
+        ) from error
+    kind = BY_TOPIC.get(options.topic)
+    if kind is not None and not options.unchecked:
+        _check(message, kind, options.topic)
+    return msgspec.Raw(msgspec.json.encode(message))  # JSON also when it is a text in quotes
+
+
+def _check(message: Any, kind: type[msgspec.Struct], topic: str) -> None:
+    try:
+        msgspec.convert(message, kind)
+    except msgspec.ValidationError as error:
+        fields = msgspec.structs.fields(kind)
+        needed = [one.encode_name for one in fields if one.required]
+        others = [one.encode_name for one in fields if not one.required]
+        raise BadMessage(
+            f"This is no {kind.__name__}, which {topic} carries: {error}.",
+            checklist=(
+                f"It needs: {', '.join(needed) or 'nothing'}.",
+                f"It may have: {', '.join(others) or 'nothing more'}.",
+                "Send it all the same: add --unchecked.",
+            ),
+        ) from error
+    if isinstance(message, dict):
+        unknown = sorted(set(message) - {one.encode_name for one in msgspec.structs.fields(kind)})
+        if unknown:
+            remark(f"A {kind.__name__} has no {', '.join(unknown)}: receivers pass over it.")
 
 
 def _launch(options: argparse.Namespace) -> int:
     endings: SimpleQueue[Outcome] = SimpleQueue()
 
     def told(_launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        print(f"{outcome}{'; it is started again' if again else ''}.", flush=True)
+        say(f"{outcome}{'; it is started again' if again else ''}.")
         if not again:
             endings.put(outcome)
 
     with (
-        PeerNetwork(master=options.master) as network,
-        Launcher(master=network.master, on_end=told) as launcher,
+        join(options) as network,
+        Launcher(master=options.master, on_end=told) as launcher,
     ):
         launcher.hear(network)
+        name = options.name or launcher.catalog.find(f"{options.type}/{options.node}").name
+        Subscriber(NODE_STATE, NodeState, network=network, callback=_Story(name).tell)
         launched = launcher.launch(
-            f"{options.type}/{options.name}", parameters=settings(options.settings)
+            f"{options.type}/{options.node}", name, settings(options.settings)
         )
         launched.wait_ready()
         if launched.ready.is_set():
-            print(f"{launched.name} is ready. Ctrl-C stops it.", flush=True)
+            say(f"{launched.name} is ready. Ctrl-C stops it.")
         return 0 if endings.get().was_successful else 1
+
+
+class _Story:
+    """Shows the states of a node as they come."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def tell(self, state: NodeState) -> None:
+        if state.node == self._name and state.event not in ("alive", "ready", "stopped"):
+            about = f": {state.description}" if state.description else ""
+            say(f"{state.node} is {state.event.replace('_', ' ')}{about}")

@@ -1,4 +1,4 @@
-"""The command ``nep``: wrong times, nodes that fail, and signals at the worst moment."""
+"""``nep launch`` and ``nep master``: how a node went, and signals at the worst moment."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.cli import main
-from nep_core.cli.arguments import seconds
 from nep_core.p2p import PeerNetwork
 from nep_core.places import NODES_VARIABLE
+from tests.nep_core.cli.conftest import Call
 from tests.nep_core.node_making import write_node
 
 SIGNAL_IN_SIGNAL = """
@@ -31,41 +30,37 @@ def plant(number, handler):
     set_handler(number, interrupted)
 
 signal.signal = plant
-sys.exit(main(["master", "--endpoint", "tcp://127.0.0.1:*"]))
+sys.exit(main(["master", "--no-original", "--endpoint", "tcp://127.0.0.1:*"]))
 """
 
 
-@pytest.mark.parametrize("command", ["echo", "hz"])
-@pytest.mark.parametrize("text", ["nan", "inf", "1e9", "-1", "soon"])
-def test_a_time_that_nobody_can_wait_is_told(
-    command: str, text: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit):
-        main([command, "/imu", "--seconds", text])
-
-    assert f'"{text}" is not a number from 0 to 1000000' in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(("text", "time_s"), [("0", 0.0), ("0.5", 0.5), ("1e6", 1e6)])
-def test_a_time_to_wait_is_a_number(text: str, time_s: float) -> None:
-    assert seconds(text) == time_s
-
-
 @pytest.mark.parametrize(
-    ("code", "exit_code"), [('raise NepError("The lamp broke.")', 1), ("pass", 0)]
+    ("code", "exit_code", "told"),
+    [
+        ('raise NepError("The lamp broke.")', 1, "The lamp broke"),
+        ("pass", 0, "lamp ended by itself."),
+    ],
 )
-def test_launch_tells_by_its_exit_code_how_the_node_ended(
+def test_launch_shows_how_a_node_is_doing_and_how_it_ended(
     network: PeerNetwork,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
+    call: Call,
     code: str,
     exit_code: int,
+    told: str,
 ) -> None:
-    monkeypatch.setattr("nep_core.launcher.MOST_RESTARTS", 0)
+    monkeypatch.setattr("nep_core.launched.MOST_RESTARTS", 0)
     monkeypatch.setenv(NODES_VARIABLE, str(tmp_path))
-    write_node(tmp_path, "lamp", f'node.ready("")\nnode.wait(0.5)\n{code}')
+    states = 'node.state("connecting", "to the lamp")\nnode.ready("")\nnode.wait(0.2)'
+    write_node(tmp_path, "lamp", f"{states}\n{code}")
 
-    assert main(["launch", "sensory", "lamp"]) == exit_code
+    answer = call("nep launch sensory lamp")
+
+    assert answer.code == exit_code, answer.err
+    assert "lamp is connecting: to the lamp\n" in answer.out
+    assert "lamp is ready. Ctrl-C stops it.\n" in answer.out
+    assert told in answer.out
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")

@@ -1,0 +1,136 @@
+"""``nep kill NODE``: ask a node to stop, see that it is gone, and with --force end it."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import socket
+import time
+
+import psutil
+
+from nep_core.cli.arguments import seconds
+from nep_core.cli.joining import near, registrations
+from nep_core.cli.showing import say
+from nep_core.errors import NodeNotFound, NodeStopError
+from nep_core.registry import Registration
+from nep_core.transports import ask_to_stop
+
+STOP_S = 3.0
+LOOK_S = 0.05
+KILLED_S = 2.0
+
+
+def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:
+    """Say which options the command has."""
+    parser.add_argument("node", metavar="NODE", help="its name, as `nep nodes` shows it")
+    parser.add_argument(
+        "--seconds",
+        type=seconds,
+        default=STOP_S,
+        metavar="S",
+        help="how long it may take to stop (default %(default)s)",
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="end its process when it does not stop in time"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Ask, wait, and end it if that was asked for; raises NodeNotFound, NodeStopError."""
+    told = _find(options)
+    process = process_of(told)
+    ask_to_stop(told.node, options.master)
+    if _wait(options, told, process, options.seconds):
+        say(f"{told.node} has stopped.")
+        return 0
+    if not options.force:
+        raise NodeStopError(
+            f"{told.node} did not stop within {options.seconds:g} s.",
+            checklist=(
+                f"Wait longer: nep kill {told.node} --seconds 30",
+                f"End its process: nep kill {told.node} --force",
+            ),
+        )
+    _end(told, process)
+    say(f"{told.node} did not stop; its process {told.pid} was ended.")
+    return 0
+
+
+def process_of(told: Registration) -> psutil.Process | None:
+    """The process that a registration tells of: on this computer, and listening where it says.
+
+    None when that cannot be seen: a number that another process has got by now is never touched.
+    """
+    if told.host != socket.gethostname() or told.pid == os.getpid():
+        return None
+    with contextlib.suppress(psutil.Error):
+        process = psutil.Process(told.pid)
+        return process if _listens(process, told) else None
+    return None
+
+
+def _listens(process: psutil.Process, told: Registration) -> bool:
+    """Whether the node is still there: its program may go on when it has left the network."""
+    port = told.endpoint.rpartition(":")[2]
+    with contextlib.suppress(psutil.Error, OSError):
+        return any(
+            one.status == psutil.CONN_LISTEN and str(one.laddr.port) == port
+            for one in process.net_connections("tcp")
+        )
+    return False
+
+
+def _find(options: argparse.Namespace) -> Registration:
+    there = {told.node: told for told in registrations(options)}
+    if options.node not in there:
+        others = near(options.node, there) or sorted(there)
+        raise NodeNotFound(
+            f'No node "{options.node}" is running.',
+            checklist=(f"These are: {', '.join(others) or 'none'}.", "See them all: nep nodes"),
+        )
+    return there[options.node]
+
+
+def _wait(
+    options: argparse.Namespace,
+    told: Registration,
+    process: psutil.Process | None,
+    timeout_s: float,
+) -> bool:
+    """Wait until its name is gone at the master, and it no longer listens where we see that.
+
+    The master drops a frozen node too, which is not gone at all.
+    """
+    end_s = time.monotonic() + timeout_s
+    while True:
+        there = {one.instance for one in registrations(options)}
+        if told.instance not in there and not (process and _listens(process, told)):
+            return True
+        if time.monotonic() >= end_s:
+            return False
+        time.sleep(LOOK_S)
+
+
+def _end(told: Registration, process: psutil.Process | None) -> None:
+    if process is None:
+        raise NodeStopError(
+            f"{told.node} did not stop, and its process {told.pid} on {told.host} cannot be "
+            "ended from here.",
+            checklist=(
+                f"Run nep kill on {told.host}, as the user who started it.",
+                "Is it gone by now? See: nep nodes",
+            ),
+        )
+    try:
+        process.kill()
+        process.wait(KILLED_S)
+    except psutil.NoSuchProcess:
+        pass
+    except psutil.Error as error:
+        raise NodeStopError(
+            f"The process {told.pid} of {told.node} could not be ended.",
+            checklist=("Run nep kill as the user who started it.",),
+            details=str(error),
+        ) from error

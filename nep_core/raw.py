@@ -1,0 +1,101 @@
+"""Messages as they travel, unread: for tools that show, count or keep whatever is sent."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from nep_core.errors import BadMessage
+from nep_core.frames import NUL, Encoding, check_topic, read_header
+from nep_core.network import HANDSHAKE_S, Network
+
+
+@dataclass(frozen=True, slots=True)
+class RawMessage:
+    """One message: its payload, how that is encoded, who sent it, when, and when it arrived.
+
+    ``sequence`` counts the sender's messages of the topic from 1. Times are ns since 1970, each
+    by the clock of its own computer.
+    """
+
+    topic: str
+    node: str
+    sequence: int
+    sent_ns: int
+    arrived_ns: int
+    encoding: Encoding
+    payload: bytes
+
+
+class SteadyClock:
+    """Nanoseconds since 1970 that never jump, whatever happens to this computer's clock."""
+
+    def __init__(self) -> None:
+        self._offset_ns = time.time_ns() - time.monotonic_ns()
+
+    def now_ns(self) -> int:
+        """The time now."""
+        return time.monotonic_ns() + self._offset_ns
+
+
+class RawSubscriber:
+    """Receives a topic's messages unread; only one thread may receive at a time."""
+
+    def __init__(self, topic: str, *, network: Network, clock: SteadyClock | None = None) -> None:
+        check_topic(topic)
+        self.topic = topic
+        self.unreadable = 0
+        self._network = network
+        self._clock = clock or SteadyClock()
+        self._waiting: list[RawMessage] = []
+        self._id, self._inbox = network.open_inbox(topic)
+        known = network.add_subscriber(topic, self._id, self._inbox)
+        if known:
+            self._inbox.wait_for(known, 0, HANDSHAKE_S)
+
+    def receive(self, timeout_s: float | None = None) -> RawMessage | None:
+        """The next message; None when nothing came for ``timeout_s``, or when closed."""
+        while not self._waiting:
+            frame = self._inbox.take(timeout_s)
+            if frame is None:
+                return None
+            self._waiting = self._read(frame)[::-1]
+        return self._waiting.pop()
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive."""
+        return self._inbox.lost
+
+    @property
+    def closed(self) -> bool:
+        """Whether nothing more can come: it was closed, or its network was."""
+        return self._inbox.closed
+
+    def close(self) -> None:
+        """Hear no more; a thread that waits in receive() gets None."""
+        self._network.remove_subscriber(self._id)
+
+    def _read(self, frame: bytes) -> list[RawMessage]:
+        arrived_ns = self._clock.now_ns()
+        parts = frame.split(NUL, 2)
+        try:
+            header = read_header(parts[1]) if len(parts) == 3 else None
+        except BadMessage:
+            header = None
+        if header is None:
+            self.unreadable += 1
+            return []
+        payloads = parts[2].split(NUL) if header.encoding == "json" else [parts[2]]
+        return [
+            RawMessage(
+                self.topic,
+                header.node,
+                header.sequence + at,
+                header.time_ns,
+                arrived_ns,
+                header.encoding,
+                payload,
+            )
+            for at, payload in enumerate(payloads)
+        ]

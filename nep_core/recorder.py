@@ -1,0 +1,259 @@
+"""Recording topics into an MCAP file, which Foxglove and PlotJuggler open."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nep_core import transports
+from nep_core.errors import RecordingError
+from nep_core.network import Network
+from nep_core.raw import RawMessage, RawSubscriber, SteadyClock
+from nep_core.recording_format import Channel, channel_of
+from nep_core.registry import Registration
+from nep_core.topics import topics_of
+
+if TYPE_CHECKING:
+    from mcap.writer import Writer
+
+CHUNK_S = 0.5
+"""A chunk is closed and brought to the disk so often: no more than this is lost in a power cut."""
+CHUNK_BYTES = 1_000_000
+TURN_S = 0.2
+"""How often a quiet topic looks whether the recording is over."""
+LAST_S = 1.0
+"""How long what has come by then is still kept, in a flood that does not end."""
+SEQUENCES = 2**32
+"""MCAP counts messages with 32 bits."""
+
+
+class _Output:
+    """A file whose every write reaches the system, and which knows where it was last whole."""
+
+    def __init__(self, path: Path, replace: bool) -> None:
+        self._file = path.open("wb" if replace else "xb", buffering=0)
+        self.whole = 0
+
+    def write(self, data: bytes) -> int:
+        """Write all of it; raises OSError."""
+        left = memoryview(data)
+        while left:
+            left = left[self._file.write(left) or 0 :]
+        return len(data)
+
+    def tell(self) -> int:
+        """How many bytes there are."""
+        return self._file.tell()
+
+    def flush(self) -> None:
+        """Note that the file is whole up to here."""
+        self.whole = self._file.tell()
+
+    def sync(self) -> None:
+        """Bring it to the disk."""
+        os.fsync(self._file.fileno())
+
+    def cut(self) -> None:
+        """Drop what is behind the last whole chunk."""
+        self._file.truncate(self.whole)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+
+@dataclass
+class Tally:
+    """How much was recorded; ``topics`` counts messages."""
+
+    messages: int = 0
+    payload_bytes: int = 0
+    topics: dict[str, int] = field(default_factory=dict)
+
+
+class Recorder:
+    """Records the topics that are added, until it is closed; raises RecordingError.
+
+    An existing file is kept unless ``replace``. When the file cannot grow any more, ``failure``
+    says so, ``is_over`` is True, and what was recorded before stays readable.
+    """
+
+    def __init__(
+        self, path: str | os.PathLike[str], *, network: Network, replace: bool = False
+    ) -> None:
+        from mcap.writer import Writer
+
+        self.path = Path(path)
+        self.tally = Tally()
+        self.failure: RecordingError | None = None
+        self._ended = threading.Event()
+        self._network = network
+        self._clock = SteadyClock()
+        self._lock = threading.Lock()
+        self._channels: dict[Channel, int] = {}
+        self._schemas: dict[str, int] = {"": 0}
+        self._subscribers: dict[str, RawSubscriber] = {}
+        self._threads: list[threading.Thread] = []
+        self._feed: transports.Feed | None = None
+        try:
+            self._output = _Output(self.path, replace)
+        except OSError as error:
+            raise _cannot_open(self.path, error) from error
+        self._writer: Writer = Writer(self._output, chunk_size=CHUNK_BYTES)  # type: ignore[arg-type]
+        self._do(self._writer.start, "", "nep")
+        self._do(self._output.flush)
+        self._start(self._keep_on_disk, "nep-record")
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing more is recorded."""
+        return self._ended.is_set()
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive."""
+        return sum(subscriber.lost for subscriber in self._subscribers.values())
+
+    @property
+    def file_bytes(self) -> int:
+        """How large the file is, up to its last whole chunk."""
+        return self._output.whole
+
+    def add(self, topics: Iterable[str]) -> None:
+        """Record these topics too, whether somebody publishes them yet or not."""
+        for topic in topics:
+            if topic in self._subscribers or self._ended.is_set():
+                continue
+            subscriber = RawSubscriber(topic, network=self._network, clock=self._clock)
+            self._subscribers[topic] = subscriber
+            self._start(partial(self._record, subscriber), f"nep-record-{topic}")
+
+    def follow(self, master: str | None = None, *, without: Collection[str] = ()) -> None:
+        """Record every topic of the project's network, also those that appear later."""
+
+        def add(told: list[Registration]) -> None:
+            self.add(ends.topic for ends in topics_of(told) if ends.topic not in without)
+
+        add(transports.registrations(master))
+        self._feed = transports.follow(add, master)
+
+    def close(self) -> None:
+        """Record no more and finish the file; raises RecordingError when it could not be kept."""
+        self._ended.set()
+        if self._feed is not None:
+            self._feed.close()
+        for thread in self._threads:
+            thread.join()
+        for subscriber in self._subscribers.values():
+            subscriber.close()
+        if self.failure is None:
+            self._do(self._finish)
+        self._output.close()
+        if self.failure is not None:
+            raise self.failure
+
+    def __enter__(self) -> Recorder:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.close()
+
+    def _start(self, work: Callable[[], None], name: str) -> None:
+        thread = threading.Thread(target=work, name=name, daemon=True)
+        self._threads.append(thread)
+        thread.start()
+
+    def _record(self, subscriber: RawSubscriber) -> None:
+        while not (self._ended.is_set() or subscriber.closed):
+            self._keep_next(subscriber, TURN_S)
+        end_s = time.monotonic() + LAST_S
+        while self._keep_next(subscriber, 0.0) and time.monotonic() < end_s:
+            pass
+
+    def _keep_next(self, subscriber: RawSubscriber, timeout_s: float) -> bool:
+        message = subscriber.receive(timeout_s)
+        if message is not None:
+            self._do(self._keep, message)
+        return message is not None
+
+    def _keep(self, message: RawMessage) -> None:
+        channel, data = channel_of(message)
+        number = self._channels.get(channel)
+        if number is None:
+            number = self._channels[channel] = self._open_channel(channel)
+        self._writer.add_message(
+            number,
+            message.arrived_ns,
+            data,
+            max(0, message.sent_ns),
+            message.sequence % SEQUENCES,
+        )
+        self.tally.messages += 1
+        self.tally.payload_bytes += len(message.payload)
+        self.tally.topics[message.topic] = self.tally.topics.get(message.topic, 0) + 1
+
+    def _open_channel(self, channel: Channel) -> int:
+        schema = self._schemas.get(channel.schema_name)
+        if schema is None:
+            schema = self._writer.register_schema(channel.schema_name, "jsonschema", channel.schema)
+            self._schemas[channel.schema_name] = schema
+        return self._writer.register_channel(
+            channel.topic, channel.message_encoding, schema, channel.metadata
+        )
+
+    def _keep_on_disk(self) -> None:
+        kept = 0
+        while not self._ended.wait(CHUNK_S):
+            if self.tally.messages > kept:
+                kept = self.tally.messages
+                self._do(self._writer.flush)
+                self._do(self._output.sync)
+
+    def _finish(self) -> None:
+        self._writer.finish()  # type: ignore[no-untyped-call]
+        self._output.flush()
+        self._output.sync()
+
+    def _do(self, step: Callable[..., object], *words: object) -> None:
+        """Work on the file; when that fails, keep what is whole and end the recording."""
+        with self._lock:
+            if self.failure is not None:
+                return
+            try:
+                step(*words)
+            except OSError as error:
+                self.failure = _cannot_write(self.path, error, self._output.whole)
+                self._ended.set()
+                self._output.cut()
+
+
+def _cannot_open(path: Path, error: OSError) -> RecordingError:
+    if isinstance(error, FileExistsError):
+        return RecordingError(
+            f"{path} is there already, and it is kept.",
+            checklist=("Choose another name.", "Or let it be replaced: add --force."),
+        )
+    return RecordingError(
+        f"{path} cannot be written: {(error.strerror or 'unknown reason').lower()}.",
+        checklist=("Is there such a folder?", "May you write into it?"),
+        details=str(error),
+    )
+
+
+def _cannot_write(path: Path, error: OSError, kept: int) -> RecordingError:
+    return RecordingError(
+        f"The recording ended because {path} cannot grow: "
+        f"{(error.strerror or 'unknown reason').lower()}. "
+        f"What was recorded before is kept: {kept} bytes.",
+        checklist=(
+            "Make room on the disk, or record to another one.",
+            "Record fewer topics.",
+        ),
+        details=str(error),
+    )

@@ -1,0 +1,104 @@
+"""The command as a process: pipes, Ctrl-C, other locales, and SIGKILL in a recording."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from nep_core.p2p import PeerNetwork
+from nep_core.player import overview
+from nep_core.pubsub import Publisher
+from tests.nep_core.cli.conftest import nep, until
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals")
+
+
+def test_a_reader_that_has_seen_enough_ends_the_command_quietly(busy: PeerNetwork) -> None:
+    with nep("echo", "/imu", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as echo:
+        assert echo.stdout is not None and echo.stderr is not None
+        first = echo.stdout.readline()
+        echo.stdout.close()
+        code = echo.wait(10)
+
+        assert first.startswith("{")
+        assert (code, echo.stderr.read()) == (0, "")
+
+
+@pytest.mark.parametrize("words", [(), ("echo", "--help"), ("doctor",)])
+def test_help_that_nobody_reads_to_its_end_is_quiet(words: tuple[str, ...]) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+
+    with nep(*words, stdout=writer, stderr=subprocess.PIPE) as command:
+        os.close(writer)
+        _, err = command.communicate(timeout=20)
+
+    assert (command.returncode, err) == (0, "")
+
+
+def test_ctrl_c_ends_a_command_quietly_and_output_comes_at_once(busy: PeerNetwork) -> None:
+    with nep("hz", "/imu", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as hz:
+        assert hz.stdout is not None and hz.stderr is not None
+        line = hz.stdout.readline()  # through a pipe, while it goes on
+        hz.send_signal(signal.SIGINT)
+        code = hz.wait(10)
+
+        assert "messages a second" in line
+        assert (code, hz.stderr.read()) == (0, "")
+
+
+@pytest.mark.parametrize("locale", ["C", "de_DE.ISO-8859-1"])
+def test_letters_of_all_languages_pass_on_any_locale(
+    join: Callable[[str], PeerNetwork], locale: str
+) -> None:
+    environment = {**os.environ, "LC_ALL": locale, "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    words = ("echo", "/greeting", "--count", "1")
+    publisher = Publisher("/greeting", network=join("talker"), latched=True)
+    publisher.send("Grüße, 日本")
+
+    with nep(*words, stdout=subprocess.PIPE, env=environment) as echo:
+        out, _ = echo.communicate(timeout=10)
+
+    assert out == "Grüße, 日本\n"
+
+
+def test_a_recording_that_is_killed_keeps_all_but_the_last_second(
+    busy: PeerNetwork, tmp_path: Path
+) -> None:
+    path = tmp_path / "killed.mcap"
+    with nep("record", str(path), stderr=subprocess.DEVNULL) as recorder:
+        until(lambda: path.exists() and overview_of(path) >= 50)
+        recorder.kill()
+
+    told = overview(path)
+    assert not told.is_whole
+    assert {"/imu", "/human_behavior", "/speed", "/node_state"} >= set(told.topics) >= {"/imu"}
+    assert told.messages >= 50
+
+
+def test_ctrl_c_finishes_a_recording(busy: PeerNetwork, tmp_path: Path) -> None:
+    path = tmp_path / "whole.mcap"
+    with nep(
+        "record", str(path), "/imu", stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as recorder:
+        assert recorder.stderr is not None
+        assert "Recording to" in recorder.stderr.readline()
+        until(lambda: overview_of(path) >= 1)
+        recorder.send_signal(signal.SIGINT)
+        out, err = recorder.communicate(timeout=10)
+
+    told = overview(path)
+    assert (recorder.returncode, err) == (0, "")
+    assert told.is_whole
+    assert out.startswith(f"Recorded {told.messages} messages of 1 topic to {path}")
+
+
+def overview_of(path: Path) -> int:
+    """How many messages a file holds that is still being written."""
+    return overview(path).messages if path.stat().st_size > 8 else 0
