@@ -7,27 +7,43 @@ its new epoch in the answer to their heartbeat tells them to.
 from __future__ import annotations
 
 import logging
+import math
 import os
 import socket as sockets
 import threading
 import time
 import uuid
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import msgspec
-import psutil
 import zmq
 
 from nep_core import master_messages as says
+from nep_core import security
 from nep_core.endpoints import check_endpoint, master_endpoint
-from nep_core.errors import NameTaken, PortTaken
+from nep_core.errors import NameTaken, NetworkError, PortTaken
+from nep_core.io_thread import Wake
+from nep_core.living import Processes
+from nep_core.master_news import News
 from nep_core.master_probe import ask_master
 from nep_core.outbox import bind
-from nep_core.registry import Registration, Registry
+from nep_core.registry import Registration, Registry, check_registration
+
+if TYPE_CHECKING:
+    from nep_core.security.admission import Admission
 
 log = logging.getLogger(__name__)
 
 CHECK_S = 0.25
 """How often the master looks for programs that are gone."""
+TURN_S = 0.01
+"""How long requests are answered before what they changed is told."""
+GRACE_S = 0.5
+"""After a restart newcomers wait so long for their names: one heartbeat, see _has_to_wait."""
+LARGEST_REQUEST = 4_000_000
+ANSWERS_KEPT = 300
+"""So many answers are kept for a program that does not read, then they are dropped."""
 
 
 class Master:
@@ -37,16 +53,32 @@ class Master:
         self.epoch = uuid.uuid4().hex
         self._host = sockets.gethostname()
         self._registry = Registry()
+        self._news = News(self.epoch, self._registry, self._send)
+        self._processes = Processes()
         self._stopping = threading.Event()
+        self._wake = Wake()
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
+        self._security = security.from_environment(self._context)
+        self._admission = self._admit_by_keys()
         self._socket = self._context.socket(zmq.ROUTER)
         self._socket.linger = 200
+        self._socket.sndhwm = ANSWERS_KEPT
+        self._socket.router_mandatory = 1  # so that we know what could not be delivered
+        self._socket.maxmsgsize = LARGEST_REQUEST
         try:
             self._bind(check_endpoint(endpoint or master_endpoint()))
         except BaseException:
-            self._context.destroy(linger=0)
+            self._socket.close(linger=0)
+            self._context.term()
             raise
         self.endpoint = self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
+        self._poller = zmq.Poller()
+        self._poller.register(self._socket, zmq.POLLIN)
+        self._poller.register(self._wake.fileno(), zmq.POLLIN)
+        self._next_check_s = time.monotonic() + CHECK_S
+        self._grace_until_s = time.monotonic() + GRACE_S
+        self._is_restart = False
+        self._waiting: list[tuple[says.Register, bytes]] = []
         self._thread = threading.Thread(target=self._run, name="nep-master", daemon=True)
         self._thread.start()
 
@@ -57,12 +89,26 @@ class Master:
     def close(self) -> None:
         """Stop serving and free the port."""
         self._stopping.set()
+        self._wake()
         self._thread.join()
-        self._context.destroy(linger=200)
+        self._wake.close()
+        self._socket.close(linger=200)
+        self._context.term()
+
+    def take_warning(self) -> str:
+        """Who was refused since the last time, and what to do; "" when nobody was."""
+        return self._security.take_warning() if self._security else ""
+
+    def _admit_by_keys(self) -> Admission | None:
+        if self._security is None:
+            return None
+        from nep_core.security.admission import Admission
+
+        return Admission(self._security, self._registry, self._send)
 
     def _bind(self, endpoint: str) -> None:
         try:
-            bind(self._socket, endpoint)
+            bind(self._socket, endpoint, self._security)
         except PortTaken as error:
             if ask_master(endpoint, timeout_s=0.5) is None:
                 raise
@@ -76,83 +122,174 @@ class Master:
             ) from error
 
     def _run(self) -> None:
-        next_check_s = 0.0
         while not self._stopping.is_set():
             try:
-                if self._socket.poll(int(CHECK_S * 1000)):
-                    self._serve(self._socket.recv_multipart())
-                if time.monotonic() >= next_check_s:
-                    next_check_s = time.monotonic() + CHECK_S
-                    self._drop_the_gone()
+                self._turn()
             except Exception:  # a fault of ours must not end everybody's name server
                 log.exception("the master goes on after an error")
+                self._stopping.wait(TURN_S)  # never spin on an error that repeats
+
+    def _turn(self) -> None:
+        """Answer what has come, tell what it changed, look for who is gone."""
+        wait_s = min(CHECK_S, self._news.due_in_s(time.monotonic()))
+        is_quiet = not self._poller.poll(math.ceil(1000 * wait_s)) or self._serve_for(TURN_S)
+        now_s = time.monotonic()
+        if self._admission is not None:
+            for told in self._admission.look():
+                self._drop(told)
+        self._news.tell(now_s)
+        if self._waiting and now_s >= self._grace_until_s:
+            self._admit()
+        if is_quiet and now_s >= self._next_check_s:  # not while heartbeats wait unread
+            self._registry.lengthen_leases(max(0.0, now_s - self._next_check_s - CHECK_S))
+            self._next_check_s = now_s + CHECK_S
+            self._drop_the_gone(now_s)
+
+    def _serve_for(self, seconds: float) -> bool:
+        """Answer requests; True when there are no more."""
+        until_s = time.monotonic() + seconds
+        while time.monotonic() < until_s:
+            try:
+                frames = self._socket.recv_multipart(zmq.NOBLOCK)
+            except zmq.Again:
+                return True
+            self._serve(frames)
+        return False
 
     def _serve(self, frames: list[bytes]) -> None:
         address, *rest = frames
         try:
             answer = self._answer(says.decode_request(rest[-1] if rest else b""), address)
-        except (msgspec.MsgspecError, RecursionError) as error:
+        except (msgspec.MsgspecError, RecursionError, UnicodeError) as error:
             log.info("a request could not be read: %s", error)
             answer = says.Mistake(sentence=f"This request cannot be read: {error}.")
+        except NetworkError as error:
+            answer = says.Mistake(sentence=error.sentence)
+        except Exception:  # a fault of ours: who asked should not wait in vain
+            log.exception("a request could not be answered")
+            answer = says.Mistake(sentence="The master could not answer this request.")
         if answer is not None:
-            self._send(address, answer)
+            self._send(address, says.encode(answer))
 
     def _answer(self, request: says.Request, address: bytes) -> says.Answer | None:
+        now_s = time.monotonic()
         match request:
             case says.Register():
                 return self._register(request, address)
-            case says.Alive():
-                known = self._registry.confirm(request.instance, time.monotonic())
+            case says.Change():
+                return self._change(request, address)
+            case says.Alive(instance=instance):
+                self._is_restart |= instance not in self._registry.entries
+                known = self._registry.confirm(instance, address, now_s)
                 return says.Heard(epoch=self.epoch, known=known)
-            case says.Bye():
-                self._tell_changes(self._registry.remove(request.instance))
+            case says.Bye(instance=instance):
+                self._news.note(instance, self._registry.remove(instance))
                 return None
             case says.List():
-                told = [entry.registration for entry in self._registry.entries.values()]
-                return says.Listing(epoch=self.epoch, pid=os.getpid(), registrations=told)
+                return self._listing()
+            case says.Find(topic=topic):
+                here = self._registry
+                return says.Found(
+                    topic=topic,
+                    publishers=here.publishers(topic),
+                    subscribers=here.subscribers(topic),
+                )
+            case says.Watch():
+                self._news.watch(address, now_s)
+                if (request.epoch, request.number) != (self.epoch, self._news.number):
+                    return self._listing()
+                return says.Changed(epoch=self.epoch, number=request.number, came=[], gone=[])
+            case says.Stop(node=node):
+                entry = self._registry.holder(node)
+                asked = says.encode(says.StopAsked())
+                return says.Passed(known=entry is not None and self._send(entry.address, asked))
 
-    def _register(self, request: says.Register, address: bytes) -> says.Answer:
-        self._drop_the_gone()
+    def _listing(self) -> says.Listing:
+        return says.Listing(
+            epoch=self.epoch,
+            pid=os.getpid(),
+            registrations=[entry.registration for entry in self._registry.entries.values()],
+            number=self._news.number,
+        )
+
+    def _register(self, request: says.Register, address: bytes) -> says.Answer | None:
         told = request.registration
+        check_registration(told)
+        if self._admission is not None and not self._admission.admits(told, address):
+            return None  # its computer was forgotten
+        if self._has_to_wait(request):
+            self._waiting.append((request, address))
+            return None
+        holder = self._registry.holder(told.node)
+        if holder is not None and self._has_ended(holder.registration):
+            self._drop(holder.registration)
         try:
-            changed = self._registry.register(told, address, time.monotonic())
+            changed = self._registry.register(told, address, time.monotonic(), request.version)
         except NameTaken as error:
             return says.Refused(
                 version=request.version, sentence=error.sentence, checklist=list(error.checklist)
             )
-        self._tell_changes(changed)
-        wanted = set(told.subscribes.values())
+        self._news.note(told.instance, changed)
+        return self._registered(request.version, told.publishes, told.subscribes.values())
+
+    def _has_to_wait(self, request: says.Register) -> bool:
+        """Whether the name of a newcomer may belong to somebody who has not come back yet.
+
+        Programs that live come back within a heartbeat of a restart. That it is one, the first of
+        them tells: without a sign of them, as after a computer's start, nobody has to wait.
+        """
+        self._is_restart |= request.epoch not in ("", self.epoch)
+        is_known = request.epoch or request.registration.instance in self._registry.entries
+        return self._is_restart and not is_known and time.monotonic() < self._grace_until_s
+
+    def _admit(self) -> None:
+        """Register the newcomers that had to wait."""
+        waiting, self._waiting = self._waiting, []
+        for request, address in waiting:
+            answer = self._register(request, address)
+            if answer is not None:
+                self._send(address, says.encode(answer))
+
+    def _change(self, request: says.Change, address: bytes) -> says.Answer:
+        entry = self._registry.entries.get(request.instance)
+        if entry is None or (entry.version, entry.address) != (request.base, address):
+            return says.Heard(epoch=self.epoch, known=False)
+        told = request.of(entry.registration)
+        check_registration(told)
+        changed = self._registry.register(told, address, time.monotonic(), request.version)
+        self._news.note(told.instance, changed)
+        return self._registered(request.version, request.publishes, request.subscribes.values())
+
+    def _registered(
+        self, version: int, publishes: Iterable[str], wanted: Iterable[str]
+    ) -> says.Registered:
         return says.Registered(
             epoch=self.epoch,
-            version=request.version,
-            publishers={topic: self._registry.publishers(topic) for topic in wanted},
-            subscribers={topic: self._registry.subscribers(topic) for topic in told.publishes},
+            version=version,
+            publishers={topic: self._registry.publishers(topic) for topic in set(wanted)},
+            subscribers={topic: self._registry.subscribers(topic) for topic in publishes},
         )
 
-    def _drop_the_gone(self) -> None:
+    def _drop_the_gone(self, now_s: float) -> None:
         entries = self._registry.entries
-        gone = set(self._registry.expired(time.monotonic()))
+        gone = set(self._registry.expired(now_s))
         gone |= {i for i, entry in entries.items() if self._has_ended(entry.registration)}
         for instance in gone:
-            log.info("%s is gone", entries[instance].registration.node)
-            self._tell_changes(self._registry.remove(instance))
+            self._drop(entries[instance].registration)
+        self._processes.keep_only(entry.registration.pid for entry in entries.values())
+
+    def _drop(self, told: Registration) -> None:
+        log.info("%s is gone", told.node)
+        self._news.note(told.instance, self._registry.remove(told.instance))
 
     def _has_ended(self, told: Registration) -> bool:
-        if told.host != self._host or told.pid == os.getpid():
-            return False  # another computer's processes cannot be seen
+        """Whether its process has; another computer's processes cannot be seen."""
+        return told.host == self._host and self._processes.has_ended(told.pid)
+
+    def _send(self, address: bytes, answer: bytes) -> bool:
+        """Whether it goes: not to who has gone, nor to who has not read for long."""
         try:
-            return bool(psutil.Process(told.pid).status() == psutil.STATUS_ZOMBIE)
-        except psutil.NoSuchProcess:
-            return True
-        except psutil.Error:
+            self._socket.send_multipart([address, answer], zmq.NOBLOCK)
+        except zmq.ZMQError:
             return False
-
-    def _tell_changes(self, topics: set[str]) -> None:
-        for topic in topics:
-            news = says.Publishers(topic=topic, publishers=self._registry.publishers(topic))
-            for address in self._registry.listeners(topic):
-                self._send(address, news)
-
-    def _send(self, address: bytes, answer: says.Answer) -> None:
-        # A ROUTER drops what it cannot deliver: a program that is gone needs no answer.
-        self._socket.send_multipart([address, says.encode(answer)])
+        return True

@@ -8,10 +8,40 @@ from nep_core.registry import Publishing, Registration
 
 
 class Register(msgspec.Struct, tag="register", tag_field="do", kw_only=True):
-    """Here I am, with all my topics; ``version`` counts my changes."""
+    """Here I am, with all my topics; ``version`` counts my changes.
+
+    ``epoch`` is that of the master that knew me before, empty for a newcomer.
+    """
 
     version: int
     registration: Registration
+    epoch: str = ""
+
+
+class Change(msgspec.Struct, tag="change", tag_field="do", kw_only=True):
+    """What is different from version ``base`` of my registration, so that many topics are cheap.
+
+    A master that does not have that version answers Heard with ``known`` false.
+    """
+
+    instance: str
+    version: int
+    base: int
+    publishes: list[str] = []
+    publishes_no_more: list[str] = []
+    subscribes: dict[str, str] = {}
+    subscribes_no_more: list[str] = []
+
+    def of(self, told: Registration) -> Registration:
+        """The registration after this change."""
+        lost, left = set(self.publishes_no_more), set(self.subscribes_no_more)
+        kept = [topic for topic in told.publishes if topic not in lost]
+        heard = {i: topic for i, topic in told.subscribes.items() if i not in left}
+        return msgspec.structs.replace(
+            told,
+            publishes=list(dict.fromkeys((*kept, *self.publishes))),
+            subscribes=heard | self.subscribes,
+        )
 
 
 class Alive(msgspec.Struct, tag="alive", tag_field="do", kw_only=True):
@@ -30,11 +60,30 @@ class List(msgspec.Struct, tag="list", tag_field="do"):
     """Who is there?"""
 
 
-Request = Register | Alive | Bye | List
+class Find(msgspec.Struct, tag="find", tag_field="do", kw_only=True):
+    """Who publishes this topic, and who hears it?"""
+
+    topic: str
+
+
+class Watch(msgspec.Struct, tag="watch", tag_field="do", kw_only=True):
+    """Tell me of every change for the next seconds; I know the listing with this number already."""
+
+    epoch: str = ""
+    number: int = 0
+
+
+class Stop(msgspec.Struct, tag="stop", tag_field="do", kw_only=True):
+    """Ask the program of this node to stop."""
+
+    node: str
+
+
+Request = Register | Change | Alive | Bye | List | Find | Watch | Stop
 
 
 class Registered(msgspec.Struct, tag="registered", tag_field="do", kw_only=True):
-    """The answer to Register: who is already there for my topics."""
+    """The answer to Register and Change: who is already there for the topics that were told."""
 
     epoch: str
     version: int
@@ -70,6 +119,37 @@ class Listing(msgspec.Struct, tag="listing", tag_field="do", kw_only=True):
     epoch: str
     pid: int
     registrations: list[Registration]
+    number: int = 0
+
+
+class Found(msgspec.Struct, tag="found", tag_field="do", kw_only=True):
+    """The answer to Find: the publishers of a topic, and the ids of its subscribers."""
+
+    topic: str
+    publishers: list[Publishing]
+    subscribers: list[str]
+
+
+class Changed(msgspec.Struct, tag="changed", tag_field="do", kw_only=True):
+    """Pushed to who watches: registrations that are new or different, and instances that went.
+
+    ``number`` counts; who misses one watches again and gets a Listing.
+    """
+
+    epoch: str
+    number: int
+    came: list[Registration]
+    gone: list[str]
+
+
+class Passed(msgspec.Struct, tag="passed", tag_field="do", kw_only=True):
+    """The answer to Stop: whether there is such a node, which has been asked now."""
+
+    known: bool
+
+
+class StopAsked(msgspec.Struct, tag="stop_asked", tag_field="do"):
+    """Pushed to a program: somebody asks it to stop."""
 
 
 class Mistake(msgspec.Struct, tag="error", tag_field="do", kw_only=True):
@@ -78,7 +158,25 @@ class Mistake(msgspec.Struct, tag="error", tag_field="do", kw_only=True):
     sentence: str
 
 
-Answer = Registered | Refused | Heard | Publishers | Listing | Mistake
+class Computers(msgspec.Struct, tag="computers", tag_field="do", kw_only=True):
+    """Which computers an opened network lets in, by their public keys: this is the whole list."""
+
+    keys: list[str]
+
+
+Answer = (
+    Registered
+    | Refused
+    | Heard
+    | Publishers
+    | Listing
+    | Found
+    | Changed
+    | Passed
+    | Computers
+    | StopAsked
+    | Mistake
+)
 
 decode_request = msgspec.json.Decoder(Request).decode
 decode_answer = msgspec.json.Decoder(Answer).decode
