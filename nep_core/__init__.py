@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from nep_core.behavior import Behavior
     from nep_core.broker import Broker
+    from nep_core.broker_network import BrokerNetwork
     from nep_core.choosing import in_turn, one_of
     from nep_core.colours import colour_from, mix_colours
     from nep_core.errors import NepError
@@ -23,18 +24,18 @@ if TYPE_CHECKING:
     )
     from nep_core.launcher import Launcher
     from nep_core.master import Master
-    from nep_core.network import BrokerNetwork, DirectNetwork
     from nep_core.node import Node
     from nep_core.p2p import PeerNetwork
     from nep_core.pubsub import Publisher, Subscriber
     from nep_core.robot import Robot
     from nep_core.tasks import stop_program, together, wait, wait_until
+    from nep_core.zmq_network import DirectNetwork
 
 _HOMES = {
     "Behavior": "behavior",
     "Broker": "broker",
-    "BrokerNetwork": "network",
-    "DirectNetwork": "network",
+    "BrokerNetwork": "broker_network",
+    "DirectNetwork": "zmq_network",
     "Launcher": "launcher",
     "Master": "master",
     "NepError": "errors",

@@ -6,18 +6,18 @@ import atexit
 import threading
 
 from nep_core.network import Network
-from nep_core.p2p import PeerNetwork
+from nep_core.transports import network_for
 
 _lock = threading.Lock()
 _network: Network | None = None
 
 
 def default_network() -> Network:
-    """This program's network: the one that was set, else a p2p network made at first use."""
+    """This program's network: the one that was set, else one of NEP_NETWORK's kind."""
     global _network
     with _lock:
         if _network is None or _network.closed:
-            _network = PeerNetwork()
+            _network = network_for()
             atexit.register(_network.close)
         return _network
 

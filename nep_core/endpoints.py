@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 import re
 
+from nep_core import security
 from nep_core.errors import NetworkError
 
 MASTER_VARIABLE = "NEP_MASTER"
 BROKER_VARIABLE = "NEP_BROKER"
 DEFAULT_MASTER = "tcp://127.0.0.1:7100"
 DEFAULT_BROKER = "tcp://127.0.0.1:7110"
-"""Publishers connect here; subscribers to the next port."""
+"""Publishers connect here, subscribers to the next port; the registry is at the one after it."""
+NETWORK_VARIABLE = "NEP_NETWORK"
 LAST_PORT = 65535
 
 _ENDPOINT = re.compile(
@@ -41,17 +43,33 @@ def fixed_endpoint(endpoint: str) -> str:
 
 
 def master_endpoint() -> str:
-    """The master's endpoint: the variable NEP_MASTER, else port 7100 of this computer."""
-    return fixed_endpoint(os.environ.get(MASTER_VARIABLE) or DEFAULT_MASTER)
+    """The master's endpoint: NEP_MASTER, else the key file's, else port 7100 of this computer.
+
+    In a broker network (NEP_NETWORK) it is the registry of the broker.
+    """
+    if os.environ.get(NETWORK_VARIABLE) == "broker":
+        return broker_registry()
+    return fixed_endpoint(
+        os.environ.get(MASTER_VARIABLE) or security.told_master() or DEFAULT_MASTER
+    )
 
 
 def broker_endpoints(first: str | None = None) -> tuple[str, str]:
-    """The broker's two endpoints: publishers' and subscribers', one port apart."""
+    """The broker's endpoints for messages: publishers' and subscribers', one port apart."""
     endpoint = fixed_endpoint(first or os.environ.get(BROKER_VARIABLE) or DEFAULT_BROKER)
+    return endpoint, _after(endpoint, 1)
+
+
+def broker_registry(first: str | None = None) -> str:
+    """Where the broker keeps who is there: two ports after its first one."""
+    return _after(broker_endpoints(first)[0], 2)
+
+
+def _after(endpoint: str, ports: int) -> str:
     host, _, port = endpoint.rpartition(":")
-    if int(port) == LAST_PORT:
+    if int(port) > LAST_PORT - 2:
         raise NetworkError(
-            f"The broker needs {port} and the port after it, which there is not.",
-            checklist=(f"Choose a port to {LAST_PORT - 1}.",),
+            f"The broker needs {port} and the two ports after it, which there are not.",
+            checklist=(f"Choose a port to {LAST_PORT - 2}.",),
         )
-    return endpoint, f"{host}:{int(port) + 1}"
+    return f"{host}:{int(port) + ports}"

@@ -3,14 +3,20 @@
 NepError
 ├── NetworkError
 │   ├── MasterNotFound        no NEP master answers
+│   │   ├── NotLetIn          one does, but only to programs with its keys, or without any
+│   │   ├── BrokerNotFound    no NEP broker answers, which takes its place
+│   │   └── RouterNotFound    no zenoh router answers, which takes its place
 │   ├── PortTaken             an endpoint is used by another program
 │   ├── NameTaken             a node of this name is already running
+│   ├── KeyFileError          the key file of an opened network cannot be used
+│   ├── PairingError          a second computer could not be paired
 │   └── BadMessage            a message lacks a key or has one of the wrong type
 ├── NodeError
 │   ├── ManifestError         a node's description file is wrong
 │   ├── NodeNotFound          no node of this type and name
 │   ├── ParameterError        a parameter that the node does not take, or a wrong value
-│   └── NodeStartError        a node did not become ready
+│   ├── NodeStartError        a node did not become ready
+│   └── NodeStopError         a node did not stop when it was asked
 ├── RobotError
 │   ├── RobotNotAnswering     no action node plays this robot
 │   └── ActionFailed          the robot could not do what it was asked
@@ -46,6 +52,24 @@ class MasterNotFound(NetworkError):
     title = "The NEP master does not answer"
 
 
+class NotLetIn(MasterNotFound):
+    """A NEP master is there, but its keys and ours do not fit."""
+
+    title = "The network is closed to this program"
+
+
+class BrokerNotFound(MasterNotFound):
+    """No NEP broker answers at its endpoint."""
+
+    title = "The NEP broker does not answer"
+
+
+class RouterNotFound(MasterNotFound):
+    """No zenoh router answers at its endpoint."""
+
+    title = "The zenoh router does not answer"
+
+
 class PortTaken(NetworkError):
     """An endpoint is used by another program."""
 
@@ -56,6 +80,18 @@ class NameTaken(NetworkError):
     """A node of this name is already running."""
 
     title = "Two nodes have the same name"
+
+
+class KeyFileError(NetworkError):
+    """The key file of an opened network cannot be used."""
+
+    title = "The key file cannot be used"
+
+
+class PairingError(NetworkError):
+    """A second computer could not be paired."""
+
+    title = "The computers were not paired"
 
 
 class BadMessage(NetworkError):
@@ -92,6 +128,12 @@ class NodeStartError(NodeError):
     """A node did not become ready."""
 
     title = "A node did not start"
+
+
+class NodeStopError(NodeError):
+    """A node did not stop when it was asked."""
+
+    title = "A node does not stop"
 
 
 class RobotError(NepError):

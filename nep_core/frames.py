@@ -1,9 +1,11 @@
 """Messages as ZeroMQ frames: ``topic NUL header NUL payload [NUL payload ...]``.
 
-The header is a JSON array ``[node, number of the first payload, time in ns, encoding]``. The
-NUL behind the topic matters: ZeroMQ matches subscriptions by prefix, and ``/gesture`` must not
-receive ``/gesture_debug``. Only JSON payloads, which hold no NUL, may share a frame. Frames
-whose first byte is 0xFF are private: see handshake.py.
+The header is a JSON array ``[node, number of the first payload, time in ns, encoding, run]``;
+``run`` is text that differs each time that a publisher's program starts: its numbers begin at 1
+again. The NUL behind the topic matters: ZeroMQ matches subscriptions by prefix, and ``/gesture``
+must not receive ``/gesture_debug``. Only JSON payloads, which hold no NUL, may share a frame.
+Frames whose first byte is 0xFF are private: see handshake.py. What they bring is a *notice*: its
+header has a sixth value, how many messages were sent so far; without a payload it is a *mark*.
 """
 
 from __future__ import annotations
@@ -19,17 +21,25 @@ Encoding = Literal["json", "text", "msgpack", "bytes"]
 Sendable = msgspec.Struct | dict[str, Any] | list[Any] | str | bytes
 
 NUL = b"\0"
-JSON_HEAD = b'"json"]'
-"""How the header of a frame of JSON ends: what is frequent is found without decoding it."""
+RUN_CHARACTERS = 8
+JSON_HEAD = slice(-18, -10)
+JSON_MARK = b'"json","'
+"""head[JSON_HEAD] == JSON_MARK in a frame of JSON: what is frequent is found without decoding."""
 
 
 class Header(msgspec.Struct, array_like=True):
-    """Who sent a message: node, number in its topic's sequence, time in ns since 1970, encoding."""
+    """Who sent a message: node, number in its topic's sequence, time in ns since 1970, encoding.
+
+    ``run`` is the first characters of the sending network's instance ("": not told). ``sent`` is
+    None but in notices.
+    """
 
     node: str
     sequence: int
     time_ns: int
     encoding: Encoding = "json"
+    run: str = ""
+    sent: int | None = None
 
 
 to_json = msgspec.json.Encoder().encode
@@ -57,10 +67,27 @@ def subscription(topic: str) -> bytes:
 
 
 def join(
-    start: bytes, node: str, sequence: int, time_ns: int, encoding: Encoding, payload: bytes
+    start: bytes,
+    node: str,
+    sequence: int,
+    time_ns: int,
+    encoding: Encoding,
+    payload: bytes,
+    run: str = "",
 ) -> bytes:
     """A frame from its start (the subscription to its topic), header values and payload(s)."""
-    return start + to_json((node, sequence, time_ns, encoding)) + NUL + payload
+    return start + to_json((node, sequence, time_ns, encoding, run)) + NUL + payload
+
+
+def mark(topic: str, node: str, run: str, sent: int) -> bytes:
+    """A notice that only tells how many messages were sent on ``topic`` so far."""
+    return subscription(topic) + to_json((node, sent, 0, "json", run, sent))
+
+
+def notice(frame: bytes, sent: int) -> bytes:
+    """``frame``, which was sent before, as a notice."""
+    topic, head, payload = frame.split(NUL, 2)
+    return b"%b\0%b,%d]\0%b" % (topic, head[:-1], sent, payload)
 
 
 def read_header(head: bytes) -> Header:

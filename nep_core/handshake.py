@@ -2,7 +2,7 @@
 
 After its data subscription a subscriber makes a private one. When a publisher sees the private
 one, the data subscription is in force, and it answers with a *welcome* on the private topic,
-which no other subscriber gets.
+which no other subscriber gets: its instance and a notice (frames.py) of what was sent so far.
 
 The order holds because ZeroMQ sends what is already subscribed in the order of the bytes when a
 connection is made: private topics begin with 0xFF, which no UTF-8 text holds, and come last.
@@ -41,14 +41,13 @@ def read_subscription(event: bytes) -> Seen | None:
     return Seen(event[:1] == b"\1", topic, subscriber)
 
 
-def welcome(seen: Seen, instance: str, latched: bytes = b"") -> bytes:
-    """The frame that answers ``seen``: who answers, and the last message of a latched topic."""
-    start = private_subscription(seen.topic, seen.subscriber)
-    return start + instance.encode() + _NUL + latched
+def private_frame(topic: str, subscriber: str, instance: str, notice: bytes = b"") -> bytes:
+    """What one subscriber is told: by whom, and a notice (empty: only that it is heard)."""
+    return private_subscription(topic, subscriber) + instance.encode() + _NUL + notice
 
 
 def read_welcome(frame: bytes) -> tuple[str, bytes]:
-    """The instance that sent a welcome, and the latched frame (empty when there is none)."""
+    """The instance that sent a private frame, and its notice."""
     _topic, _subscriber, rest = frame[len(PRIVATE) :].split(_NUL, 2)
-    instance, _, latched = rest.partition(_NUL)
-    return instance.decode(errors="replace"), latched
+    instance, _, notice = rest.partition(_NUL)
+    return instance.decode(errors="replace"), notice

@@ -2,7 +2,7 @@
 
 Reading where the message is wanted saves a thread hop (a third of the latency). While nobody
 reads, the I/O thread moves what arrives into a bounded backlog, so that a slow subscriber keeps
-the newest messages; sequence numbers tell how many it lost.
+the newest messages and knows how many it lost.
 """
 
 from __future__ import annotations
@@ -11,16 +11,19 @@ import math
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 import zmq
 
 from nep_core import handshake
+from nep_core.backlog import Backlog
 from nep_core.frames import subscription
+from nep_core.network import Policy
 from nep_core.outbox import HIGH_WATER_MARK, bind
 
-BACKLOG = 10_000
-"""Frames kept for a subscriber that does not read; the oldest are dropped."""
+if TYPE_CHECKING:
+    from nep_core.security.curve import Security
 
 LAST_WORDS_S = 1.0
 """How long a publisher that has left is still heard: disconnecting drops what is on its way."""
@@ -28,7 +31,11 @@ LAST_WORDS_S = 1.0
 WAKE_ENDPOINT = "inproc://wake"
 """Where the I/O thread's socket is bound that ends another thread's wait for a message."""
 
-FOR_EVER_MS = -1
+LONGEST_WAIT_S = 1.0
+"""A wait looks so often whether it should end, should a wake be lost."""
+
+DRAIN_S = 0.01
+"""How long the I/O thread empties one inbox before it turns to the others."""
 
 
 class Inbox:
@@ -42,11 +49,14 @@ class Inbox:
         context: zmq.Context[zmq.Socket[bytes]],
         topic: str,
         subscriber: str,
+        policy: Policy = "events",
         *,
         wake: Callable[[], None],
         waker: zmq.Socket[bytes],
         high_water_mark: int = HIGH_WATER_MARK,
+        security: Security | None = None,
     ) -> None:
+        self._security = security
         self._private = handshake.private_subscription(topic, subscriber)
         self._socket = context.socket(zmq.SUB)
         self._socket.linger = 0
@@ -56,39 +66,60 @@ class Inbox:
         self._socket.connect(WAKE_ENDPOINT)
         self._wake = wake
         self._waker = waker
-        self._timeout_ms = FOR_EVER_MS
+        self._timeout_ms = -1
         self._lock = threading.Lock()
-        self._backlog: deque[bytes] = deque()
+        self._backlog = Backlog(topic, policy)
         self._commands: deque[Callable[[], None]] = deque()
         self._wanted: set[str] = set()
         self._leaving: dict[str, float] = {}
         self._publishers: set[str] = set()
+        self._gone: Callable[[set[str]], set[str]] = lambda _: set()
         self.closed = False
 
-    def connect(self, endpoints: set[str]) -> None:
-        """Hear exactly these publishers from now on; safe from any thread."""
+    def connect(self, endpoints: Mapping[str, str], instances: set[str] | None = None) -> None:
+        """Hear exactly the publishers at these endpoints, by their keys; safe from any thread.
+
+        ``instances`` are those publishers, where somebody keeps a list: all others are gone.
+        """
+        if instances is not None:
+            self._gone = lambda some: some - instances
         self._do(lambda: self._connect_now(endpoints))
 
     def bind(self, endpoint: str) -> None:
         """Let publishers connect to ``endpoint``; raises PortTaken."""
         with self._lock:
-            bind(self._socket, endpoint)
+            bind(self._socket, endpoint, self._security)
 
     def take(self, timeout_s: float | None) -> bytes | None:
         """The next frame; None after ``timeout_s`` (None: wait for ever), or when closed."""
         deadline = None if timeout_s is None else time.monotonic() + timeout_s
         while True:
             with self._lock:
-                if self._commands:
-                    self._run_commands()
-                if self._backlog:
-                    return self._backlog.popleft()
                 if self.closed:
                     return None
+                if self._commands:
+                    self._run_commands()
+                if self._leaving:
+                    self._disconnect_left()
+                self._backlog.count_passed()  # before we wait: it must not delay the next one
+                if self._backlog:
+                    return self._backlog.pop()
                 left_s = None if deadline is None else max(0.0, deadline - time.monotonic())
                 frame = self._receive(left_s)
-                if frame is not None or left_s == 0.0:
+                if frame is not None and (frame := self._newest(frame)) is not None:
                     return frame
+                if left_s == 0.0 and not self._backlog:
+                    return None
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive, or were dropped; any thread may ask."""
+        if self._lock.acquire(blocking=False):
+            try:
+                self._backlog.count_passed()
+            finally:
+                self._lock.release()
+        return self._backlog.lost
 
     def tend(self) -> None:
         """Keep the newest messages while nobody reads, or wake the reader (the I/O thread)."""
@@ -106,17 +137,26 @@ class Inbox:
             self._lock.release()
 
     def wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
-        """Wait until all these publishers, and at least ``count``, have welcomed us."""
+        """Wait until all these publishers, and at least ``count``, have welcomed us.
+
+        Those that are gone are not waited for.
+        """
         deadline = time.monotonic() + timeout_s
-        while not (instances <= self._publishers and len(self._publishers) >= count):
+        while not (
+            instances - self._gone(instances) <= self._publishers and len(self._publishers) >= count
+        ):
             left_s = deadline - time.monotonic()
             if left_s <= 0 or self.closed:
                 return False
-            with self._lock:
+            if not self._lock.acquire(timeout=min(0.02, left_s)):
+                continue  # a thread that waits in take() hears them for us
+            try:
                 self._run_commands()
                 if not self.closed:
                     self._socket.poll(min(20, math.ceil(left_s * 1000)))
                     self._drain()
+            finally:
+                self._lock.release()
         return True
 
     def interrupt(self) -> None:
@@ -144,14 +184,17 @@ class Inbox:
         while self._commands and not self._socket.closed:
             self._commands.popleft()()
 
-    def _connect_now(self, endpoints: set[str]) -> None:
+    def _connect_now(self, endpoints: Mapping[str, str]) -> None:
         now_s = time.monotonic()
-        for endpoint in self._wanted - endpoints:
+        for endpoint in self._wanted - endpoints.keys():
             self._leaving[endpoint] = now_s + LAST_WORDS_S
-        for endpoint in endpoints:
+        for endpoint, key in endpoints.items():
             if endpoint not in self._wanted and self._leaving.pop(endpoint, None) is None:
+                if self._security is not None:
+                    self._security.trust(self._socket, key)
                 self._socket.connect(endpoint)
         self._wanted = set(endpoints)
+        self._publishers -= self._gone(self._publishers)
 
     def _disconnect_left(self) -> None:
         now_s = time.monotonic()
@@ -160,8 +203,9 @@ class Inbox:
             self._socket.disconnect(endpoint)
 
     def _receive(self, timeout_s: float | None) -> bytes | None:
-        """A message, or None: nothing came, or a private frame did (a welcome, a wake)."""
-        timeout_ms = FOR_EVER_MS if timeout_s is None else math.ceil(timeout_s * 1000)
+        """A frame, or None: nothing came, or something private did (a notice, a wake)."""
+        wait_s = LONGEST_WAIT_S if timeout_s is None else min(timeout_s, LONGEST_WAIT_S)
+        timeout_ms = math.ceil(wait_s * 1000)
         if timeout_ms != self._timeout_ms:
             self._socket.rcvtimeo = self._timeout_ms = timeout_ms
         while True:
@@ -169,23 +213,33 @@ class Inbox:
                 frame = self._socket.recv()
             except zmq.Again:
                 return None
-            if frame[0] != handshake.PRIVATE_BYTE:
+            if not frame or frame[0] != handshake.PRIVATE_BYTE:
                 return frame
-            latched = self._greet(frame)
-            if latched is not None or timeout_s != 0.0:
-                return latched  # None: perhaps a wake, so look at the commands
+            self._hear_privately(frame)
+            if timeout_s != 0.0 or self._backlog:
+                return None  # perhaps it was a wake: the caller looks why
 
-    def _greet(self, frame: bytes) -> bytes | None:
+    def _newest(self, frame: bytes) -> bytes | None:
+        if self._backlog.policy == "events":
+            return self._backlog.pass_by(frame)
+        self._backlog.put(frame)
+        self._drain()
+        return self._backlog.pop()
+
+    def _hear_privately(self, frame: bytes) -> None:
         if not frame.startswith(self._private) or frame == self._private:
-            return None
-        instance, latched = handshake.read_welcome(frame)
+            return
+        instance, notice = handshake.read_welcome(frame)
         self._publishers.add(instance)
-        return latched or None
+        if notice:
+            self._backlog.put(notice)
 
     def _drain(self) -> None:
+        until_s = time.monotonic() + DRAIN_S
         while not self.closed and int(self._socket.EVENTS) & zmq.POLLIN:
             frame = self._receive(0.0)
             if frame is not None:
-                if len(self._backlog) >= BACKLOG:
-                    self._backlog.popleft()  # its subscriber sees the gap in the sequence
-                self._backlog.append(frame)
+                self._backlog.put(frame)
+            if time.monotonic() > until_s:
+                self._wake()  # there may be more: the I/O thread comes back at once
+                return

@@ -1,7 +1,6 @@
 """One program's place in a NEP network; all its publishers and subscribers share it.
 
-The paper's three kinds: DirectNetwork (fixed endpoints), BrokerNetwork (a central service), and
-PeerNetwork (p2p.py, the default: the NEP Master tells who is where).
+This is what publishers, subscribers and nodes need of a network, whatever carries its messages.
 """
 
 from __future__ import annotations
@@ -11,42 +10,82 @@ import threading
 import uuid
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, Literal, Self
+from typing import Any, Literal, Protocol, Self
 
-import zmq
-
-from nep_core.endpoints import broker_endpoints, check_endpoint
 from nep_core.errors import NetworkError
-from nep_core.inbox import WAKE_ENDPOINT, Inbox
+from nep_core.frames import Encoding
 from nep_core.io_thread import IoThread
-from nep_core.outbox import HIGH_WATER_MARK, Outbox
+from nep_core.stream import Stream
 
 HANDSHAKE_S = 1.0
 """How long a constructor waits for a peer that it knows of; then it goes on with a warning."""
+
+Policy = Literal["events", "state"]
+"""What a subscriber keeps while it does not read: events, or of each publisher the newest state."""
+
+
+class Sending(Protocol):
+    """The sending side of a network."""
+
+    def stream(self, topic: str, encoding: Encoding | None) -> Stream:
+        """The one stream of ``topic``; raises NetworkError when it has another encoding."""
+
+    def subscribers(self, topic: str) -> set[str]:
+        """The ids of the subscribers that hear ``topic`` now."""
+
+    def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
+        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``."""
+
+    def tend(self) -> None:
+        """Note who hears, and send what waits (the I/O thread)."""
+
+    def close(self) -> None:
+        """Send what waits (half a second at most) and close."""
+
+
+class Receiving(Protocol):
+    """The receiving side of one subscriber."""
+
+    closed: bool
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive, or were dropped; any thread may ask."""
+
+    def take(self, timeout_s: float | None) -> bytes | None:
+        """The next frame; None after ``timeout_s`` (None: wait for ever), or when closed."""
+
+    def wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
+        """Wait until all these publishers, and at least ``count``, are heard."""
+
+    def tend(self) -> None:
+        """Take in what has arrived while nobody reads (the I/O thread)."""
+
+    def interrupt(self) -> None:
+        """Make take() return None from now on; safe in a signal handler."""
+
+    def close(self) -> None:
+        """End, also for a thread that waits in take()."""
 
 
 class Network(ABC):
     """What publishers and subscribers need of a network.
 
-    ``node`` is the name that others see; ``high_water_mark`` how many frames may wait for a slow
-    subscriber, on each side (0: no limit).
+    ``node`` is the name that others see; ``on_stop`` is called when somebody asks this program
+    to stop. Whoever extends it makes ``outbox`` and starts ``io``.
     """
 
-    def __init__(self, node: str = "", *, high_water_mark: int = HIGH_WATER_MARK) -> None:
-        self._high_water_mark = high_water_mark
+    outbox: Sending
+
+    def __init__(self, node: str = "") -> None:
         self.node = node or f"program-{os.getpid()}"
         self.instance = uuid.uuid4().hex
-        self.context: zmq.Context[zmq.Socket[bytes]] = zmq.Context(io_threads=1)
         self.io = IoThread(self.node)
-        self._waker = self.context.socket(zmq.PUB)
-        self._waker.bind(WAKE_ENDPOINT)
-        self.outbox = Outbox(self.context, self.node, self.instance, self.io.hurry, high_water_mark)
-        self.io.watch(self.outbox.file_number)
-        self.io.tend(self.outbox.tend)
+        self.on_stop: Callable[[], None] = lambda: None
         self.closed = False
         self._lock = threading.RLock()
         self._shared_lock = threading.RLock()
-        self._inboxes: dict[str, Inbox] = {}
+        self._inboxes: dict[str, Any] = {}
         self._shared: dict[str, Any] = {}
 
     @abstractmethod
@@ -54,10 +93,14 @@ class Network(ABC):
         """Make ``topic`` known; the ids of the subscribers that are known to wait for it."""
 
     @abstractmethod
-    def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
+    def add_subscriber(self, topic: str, subscriber: str, inbox: Any) -> set[str]:
         """Bring ``inbox`` to its publishers; the instances that are known to be there."""
 
-    def remove_publisher(self, topic: str) -> None:  # noqa: B027  only p2p has one to tell
+    @abstractmethod
+    def _make_inbox(self, topic: str, subscriber: str, policy: Policy) -> Receiving:
+        """The inbox of a new subscriber; ``_lock`` is held."""
+
+    def remove_publisher(self, topic: str) -> None:  # noqa: B027  not every network has one to tell
         """Tell that ``topic`` is no longer published here."""
 
     def remove_subscriber(self, subscriber: str) -> None:
@@ -68,22 +111,15 @@ class Network(ABC):
             inbox.close()
             self.io.forget(inbox.tend)
 
-    def open_inbox(self, topic: str) -> tuple[str, Inbox]:
+    def open_inbox(self, topic: str, policy: Policy = "events") -> tuple[str, Receiving]:
         """A new subscriber's id and inbox; raises NetworkError when the network is closed."""
         subscriber = uuid.uuid4().hex
         with self._lock:
-            if self.closed:  # a socket that close() does not know of would keep it waiting
+            if self.closed:  # an inbox that close() does not know of would keep it waiting
                 raise NetworkError(
                     f"The network of {self.node} is closed.", checklist=("Start it again.",)
                 )
-            inbox = Inbox(
-                self.context,
-                topic,
-                subscriber,
-                wake=self.io.wake,
-                waker=self._waker,
-                high_water_mark=self._high_water_mark,
-            )
+            inbox = self._make_inbox(topic, subscriber, policy)
             self._inboxes[subscriber] = inbox
         self.io.tend(inbox.tend)
         return subscriber, inbox
@@ -95,13 +131,17 @@ class Network(ABC):
                 self._shared[key] = make()
             return self._shared[key]
 
+    def take_warning(self) -> str:
+        """What a person should know about the network since the last time; "" for nothing."""
+        return ""
+
     def interrupt(self) -> None:
         """End every wait for messages; safe in a signal handler."""
         for inbox in list(self._inboxes.values()):
             inbox.interrupt()
 
     def close(self) -> None:
-        """Leave the network: what waits is sent (half a second at most), sockets are closed."""
+        """Leave the network: what waits is sent (half a second at most), all is closed."""
         with self._lock:
             if self.closed:
                 return
@@ -111,79 +151,17 @@ class Network(ABC):
             self.remove_subscriber(subscriber)
         self.io.close()
         self._leave()
-        self._waker.close()
         self.outbox.close()
-        self.context.term()
+        self._end()
 
-    def _leave(self) -> None:  # noqa: B027  only p2p has one to tell
+    def _leave(self) -> None:  # noqa: B027  not every network has somebody to tell
         """Say good-bye to whoever keeps a list; the I/O thread has ended."""
+
+    def _end(self) -> None:  # noqa: B027  not every network has more to close
+        """Give back what is left after the outbox is closed."""
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_error: object) -> None:
         self.close()
-
-
-class DirectNetwork(Network):
-    """A fixed endpoint that one side binds: no master, no broker.
-
-    ``binds="publisher"`` is one publisher to many subscribers; ``binds="subscriber"`` the
-    reverse. Raises PortTaken when the endpoint is in use.
-    """
-
-    def __init__(
-        self,
-        endpoint: str,
-        *,
-        binds: Literal["publisher", "subscriber"] = "publisher",
-        node: str = "",
-        high_water_mark: int = HIGH_WATER_MARK,
-    ) -> None:
-        self.endpoint = check_endpoint(endpoint)
-        self._binds = binds
-        self._has_outbox = False
-        super().__init__(node, high_water_mark=high_water_mark)
-        self.io.start()
-
-    def add_publisher(self, topic: str) -> set[str]:
-        """Bind or connect at the first topic; nobody is known to wait."""
-        with self._lock:
-            if not self._has_outbox:
-                open_end = self.outbox.bind if self._binds == "publisher" else self.outbox.connect
-                open_end(self.endpoint)
-                self._has_outbox = True
-        return set()
-
-    def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
-        """Connect or bind; nobody is known to be there."""
-        if self._binds == "subscriber":
-            inbox.bind(self.endpoint)
-        else:
-            inbox.connect({self.endpoint})
-        return set()
-
-
-class BrokerNetwork(Network):
-    """Everybody connects to one central service (``nep broker``), which passes messages on."""
-
-    def __init__(self, broker: str | None = None, *, node: str = "") -> None:
-        self._publishers_end, self._subscribers_end = broker_endpoints(broker)
-        super().__init__(node)
-        self.outbox.connect(self._publishers_end)
-        self.io.start()
-
-    def add_publisher(self, topic: str) -> set[str]:
-        """Wait until a subscription of our own has come back to us: then all others have."""
-        nobodys_topic = f"/probe/{uuid.uuid4().hex}"
-        probe, inbox = self.open_inbox(nobodys_topic)
-        inbox.connect({self._subscribers_end})
-        self.outbox.wait_for(nobodys_topic, {probe}, 1, HANDSHAKE_S)
-        self.remove_subscriber(probe)
-        return set()
-
-    def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
-        """Connect, and wait until our own outbox has seen the subscription through the broker."""
-        inbox.connect({self._subscribers_end})
-        self.outbox.wait_for(topic, {subscriber}, 1, HANDSHAKE_S)
-        return set()

@@ -4,22 +4,42 @@ from __future__ import annotations
 
 import os
 import threading
-from collections import defaultdict
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import zmq
+from zmq.backend import Socket as BackendSocket
 
 from nep_core import handshake
 from nep_core.errors import NetworkError, PortTaken
 from nep_core.frames import Encoding
-from nep_core.stream import FLOOD_NS, Stream
+from nep_core.hearers import Hearers
+from nep_core.security.addresses import require_loopback
+from nep_core.stream import Stream
 
-HIGH_WATER_MARK = 10_000
-"""Frames that wait for a slow subscriber before ZeroMQ drops them; the subscriber sees the gap."""
+if TYPE_CHECKING:
+    from nep_core.security.curve import Security
+
+HIGH_WATER_MARK = 4_000
+"""Frames that wait for a subscriber whose program is frozen, on each side.
+
+A frame holds one message, or in a flood several of up to 16 KB together: at most 64 MB wait for
+each subscriber while messages are below 16 KB. Larger ones are not bounded by that: 4,000 times
+their size may wait. Whoever sends images gives the network a lower high-water mark.
+
+What comes when all that is full is lost, and counted: ZeroMQ keeps the oldest here. It is the
+subscriber's own backlog (backlog.py) that keeps the newest while its program is merely busy.
+"""
+
+# The send of the C back end: pyzmq's own looks for options that we never use.
+_send = BackendSocket.send
 
 
 class Outbox:
-    """Sends in the caller's thread, under a lock; the I/O thread reads the subscriptions."""
+    """Sends in the caller's thread, under a lock; the I/O thread reads the subscriptions.
+
+    ``is_far``: a broker is between us and the subscribers, so that we never see who is slow.
+    """
 
     def __init__(
         self,
@@ -28,27 +48,44 @@ class Outbox:
         instance: str,
         hurry: Callable[[], None],
         high_water_mark: int = HIGH_WATER_MARK,
+        *,
+        is_far: bool = False,
+        security: Security | None = None,
     ) -> None:
+        self._security = security
         self._node = node
         self._instance = instance
-        self._hurry = hurry
+        self._is_far = is_far
         self._socket = context.socket(zmq.XPUB)
         self._socket.linger = 500
         self._socket.sndhwm = high_water_mark
+        self._socket.setsockopt(zmq.XPUB_NODROP, 1)  # tells when somebody cannot take a frame
+        if is_far:  # a broker that comes back brings the same subscribers: welcome them again
+            self._socket.setsockopt(zmq.XPUB_VERBOSE, 1)
         self._lock = threading.Lock()
-        self._seen_changed = threading.Condition()
-        self._seen: dict[str, set[str]] = defaultdict(set)
-        self._streams: dict[str, Stream] = {}
+        self._hearers = Hearers(
+            node,
+            instance,
+            lock=self._lock,
+            sender=lambda _topic: self._send,
+            send_privately=self._send_privately,
+            hurry=hurry,
+        )
+        self.stream: Callable[[str, Encoding | None], Stream] = self._hearers.stream
+        self.subscribers = self._hearers.subscribers
+        self.wait_for = self._hearers.wait_for
 
     def bind(self, endpoint: str) -> str:
         """Bind to ``endpoint``, say where; raises PortTaken."""
         with self._lock:
-            bind(self._socket, endpoint)
+            bind(self._socket, endpoint, self._security)
             return self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
 
     def connect(self, endpoint: str) -> None:
         """Send to ``endpoint``, where a broker or a subscriber is bound."""
         with self._lock:
+            if self._security is not None:
+                self._security.trust(self._socket, self._security.key_at(endpoint))
             self._socket.connect(endpoint)
 
     @property
@@ -56,47 +93,54 @@ class Outbox:
         """Readable when the I/O thread should tend."""
         return int(self._socket.FD)
 
-    def stream(self, topic: str, encoding: Encoding | None) -> Stream:
-        """The one stream of ``topic``; raises NetworkError when it has another encoding."""
-        with self._lock:
-            stream = self._streams.get(topic)
-            if stream is None:
-                stream = Stream(self._socket, self._lock, topic, self._node, encoding, self._hurry)
-                self._streams[topic] = stream
-        if encoding not in (None, stream.encoding):
-            raise NetworkError(
-                f"{topic} is already published as {stream.encoding or 'it comes'} here.",
-                checklist=("Use one encoding for all publishers of a topic.",),
-            )
-        return stream
-
     def tend(self) -> None:
         """Read who subscribed and who left, welcome the newcomers, send what waits."""
         while (event := self._next_event()) is not None:
             seen = handshake.read_subscription(event)
             if seen is not None:
-                self._note(seen)
-        for stream in list(self._streams.values()):
-            stream.flush(older_than_ns=FLOOD_NS)
-
-    def subscribers(self, topic: str) -> set[str]:
-        """The ids of the subscribers that hear ``topic`` now."""
-        with self._seen_changed:
-            return set(self._seen[topic])
-
-    def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
-        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``."""
-        with self._seen_changed:
-            return self._seen_changed.wait_for(
-                lambda: ids <= self._seen[topic] and len(self._seen[topic]) >= count, timeout_s
-            )
+                self._hearers.note(seen.topic, seen.subscriber, seen.present)
+                if seen.present and self._is_far:
+                    self._hearers.note_slow(seen.topic, seen.subscriber)
+        if not self._socket.closed:
+            self._hearers.tend()
 
     def close(self) -> None:
         """Send what waits (half a second at most) and close."""
-        for stream in self._streams.values():
-            stream.flush()
+        if not self._socket.closed:
+            self._hearers.flush()
         with self._lock:
             self._socket.close()
+
+    def _send(self, frame: bytes) -> None:
+        """Send without waiting; the lock is held."""
+        try:
+            _send(self._socket, frame, zmq.NOBLOCK)
+        except zmq.Again:
+            self._send_to_whoever_has_room(frame)
+        except zmq.ZMQError as error:
+            raise NetworkError(
+                f"The network of {self._node} is closed.", checklist=("Start it again.",)
+            ) from error
+
+    def _send_to_whoever_has_room(self, frame: bytes) -> None:
+        """Note who has none; from then on ZeroMQ leaves those out until they have read."""
+        for topic, subscriber in self._hearers.everyone():
+            try:
+                _send(self._socket, self._private_frame(topic, subscriber), zmq.NOBLOCK)
+            except zmq.Again:
+                self._hearers.note_slow(topic, subscriber)
+        self._socket.setsockopt(zmq.XPUB_NODROP, 0)
+        try:
+            _send(self._socket, frame, zmq.NOBLOCK)
+        finally:
+            self._socket.setsockopt(zmq.XPUB_NODROP, 1)
+
+    def _send_privately(self, topic: str, subscriber: str, notice: bytes) -> None:
+        if not self._socket.closed:
+            self._send(self._private_frame(topic, subscriber, notice))
+
+    def _private_frame(self, topic: str, subscriber: str, notice: bytes = b"") -> bytes:
+        return handshake.private_frame(topic, subscriber, self._instance, notice)
 
     def _next_event(self) -> bytes | None:
         with self._lock:
@@ -107,23 +151,16 @@ class Outbox:
             except zmq.Again:
                 return None
 
-    def _note(self, seen: handshake.Seen) -> None:
-        if seen.present:
-            self._welcome(seen)
-        with self._seen_changed:
-            change = set.add if seen.present else set.discard
-            change(self._seen[seen.topic], seen.subscriber)
-            self._seen_changed.notify_all()
 
-    def _welcome(self, seen: handshake.Seen) -> None:
-        with self._lock:
-            stream = self._streams.get(seen.topic)
-            latched = stream.latched if stream else b""
-            self._socket.send(handshake.welcome(seen, self._instance, latched))
+def bind(socket: zmq.Socket[bytes], endpoint: str, security: Security | None = None) -> None:
+    """Bind, or raise PortTaken with a sentence when the endpoint cannot be had.
 
-
-def bind(socket: zmq.Socket[bytes], endpoint: str) -> None:
-    """Bind, or raise PortTaken with a sentence when the endpoint cannot be had."""
+    Without keys it must be one that only this computer reaches, else NetworkError is raised.
+    """
+    if security is None:
+        require_loopback(endpoint)
+    else:
+        security.guard(socket)
     try:
         socket.setsockopt(zmq.IPV6, int("[" in endpoint))
         socket.bind(endpoint)

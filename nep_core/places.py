@@ -9,6 +9,8 @@ from pathlib import Path
 
 import platformdirs
 
+from nep_core.errors import KeyFileError
+
 NODES_VARIABLE = "NEP_NODES"
 """More folders with nodes, before the shipped one, separated as in PATH."""
 ROBOT_FILES_VARIABLE = "NEP_ROBOT_FILES"
@@ -37,6 +39,18 @@ def cache_folder() -> Path:
         return Path(platformdirs.user_cache_dir("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home
         return Path(tempfile.gettempdir()) / "nep-studio"
+
+
+def key_file() -> Path:
+    """Where this user's key file of an opened network is, when nobody says another."""
+    try:
+        data = Path(platformdirs.user_data_dir("nep-studio", appauthor=False))
+    except RuntimeError as error:  # a user without a home; other users could read the rest
+        raise KeyFileError(
+            "There is no folder of your own for the key file.",
+            checklist=("Say where it should be: --keys FILE.",),
+        ) from error
+    return data / "network.keys"
 
 
 def robot_folder(robot: str) -> Path:

@@ -14,6 +14,7 @@ from nep_core.default_network import default_network
 from nep_core.errors import BadMessage
 from nep_core.frames import (
     JSON_HEAD,
+    JSON_MARK,
     NUL,
     Encoding,
     Header,
@@ -23,7 +24,7 @@ from nep_core.frames import (
     read_header,
 )
 from nep_core.messages import LATCHED
-from nep_core.network import HANDSHAKE_S, Network
+from nep_core.network import HANDSHAKE_S, Network, Policy
 
 log = logging.getLogger(__name__)
 
@@ -54,7 +55,11 @@ class Publisher:
         self._latched = topic in LATCHED if latched is None else latched
         self._send = self.network.outbox.stream(topic, encoding).send
         self._closed = False
-        expected = self.network.add_publisher(topic)
+        try:
+            expected = self.network.add_publisher(topic)
+        except BaseException:
+            self.close()
+            raise
         if not self.network.outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
             log.warning("a subscriber of %s has not connected yet", topic)
         if wait_for_subscribers:
@@ -88,6 +93,11 @@ class Subscriber(Generic[T]):
     ``kind``: the struct that messages are read into (default: what JSON gives). ``callback``:
     called with each message, in a thread of its own. A message that is not of that kind is
     skipped with a warning that names the key. Only one thread may receive at a time.
+
+    ``policy``: what is kept while nobody receives. "events" (the default): up to 10,000 frames,
+    or 64 MB; then the oldest are dropped, and counted in ``lost``. "state": the newest message
+    of each publisher, and nothing counts as lost. While this whole program is frozen, its
+    publishers keep the oldest (outbox.py), and what they cannot keep is counted all the same.
     """
 
     def __init__(
@@ -97,20 +107,23 @@ class Subscriber(Generic[T]):
         *,
         network: Network | None = None,
         callback: Callable[[T], None] | None = None,
+        policy: Policy | None = None,
     ) -> None:
         check_topic(topic)
         self.topic = topic
         self.network = network or default_network()
-        self._lost = 0
         self._header: Header | None = None
         self._head = b""
-        self._messages = 1
+        self._keeps_newest = policy == "state"
         self._decoders = decoders(kind)
         self._decode = self._from_json = self._decoders["json"]
         self._payloads: deque[bytes] = deque()
-        self._last_sequence: dict[str, int] = {}
-        self._id, self._inbox = self.network.open_inbox(topic)
-        known = self.network.add_subscriber(topic, self._id, self._inbox)
+        self._id, self._inbox = self.network.open_inbox(topic, policy or "events")
+        try:
+            known = self.network.add_subscriber(topic, self._id, self._inbox)
+        except BaseException:
+            self.close()
+            raise
         if known and not self._wait_for(known, 0, HANDSHAKE_S):
             log.warning("a publisher of %s does not answer", topic)
         if callback is not None:
@@ -119,19 +132,21 @@ class Subscriber(Generic[T]):
     @property
     def header(self) -> Header | None:
         """Who sent the last message, when, and which number it (or the first beside it) has."""
-        self._look_at_head()
+        if self._head:
+            head, self._head = self._head, b""
+            try:
+                self._header = read_header(head)
+            except BadMessage as error:
+                log.warning("%s: %s", self.topic, error)
         return self._header
 
     @property
     def lost(self) -> int:
-        """How many messages were sent but did not arrive."""
-        self._look_at_head()
-        return self._lost
+        """How many messages were sent but did not arrive, or were dropped; any thread may ask.
 
-    @property
-    def lost_so_far(self) -> int:
-        """How many were lost before the last frame; any thread may ask."""
-        return self._lost
+        It is known within a second, also when nothing more is sent.
+        """
+        return self._inbox.lost
 
     def receive(self, timeout_s: float | None = None) -> T | None:
         """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
@@ -139,13 +154,11 @@ class Subscriber(Generic[T]):
             if self._payloads:
                 payload = self._payloads.popleft()
             else:
-                if self._head:
-                    self._look_at_head()  # of the frame before: it must not delay this one
                 frame = self._inbox.take(timeout_s)
                 if frame is None:
                     return None
                 parts = frame.split(NUL)
-                if len(parts) == 3 and parts[1].endswith(JSON_HEAD):
+                if len(parts) == 3 and parts[1][JSON_HEAD] == JSON_MARK:
                     _, self._head, payload = parts
                     self._decode = self._from_json
                 else:
@@ -184,35 +197,20 @@ class Subscriber(Generic[T]):
         if len(parts) < 3:
             log.warning("%s: a frame has no header: its sender does not speak NEP", self.topic)
             return
-        self._head = parts[1]
-        if parts[1].endswith(JSON_HEAD):
-            self._decode = self._from_json
-            self._payloads.extend(parts[2:])
-            self._messages = len(self._payloads)
+        try:
+            self._header, self._head = read_header(parts[1]), b""
+        except BadMessage as error:
+            log.warning("%s: %s", self.topic, error)
             return
-        self._look_at_head()
-        decode = self._decoders.get(self._header.encoding) if self._header else None
+        decode = self._decoders.get(self._header.encoding)
         if decode is None:
             log.warning("%s: a message of %s is not JSON", self.topic, self._sender())
             return
         self._decode = decode
-        self._payloads.append(NUL.join(parts[2:]))
-
-    def _look_at_head(self) -> None:
-        """Read the header of the last frame and count what is missing before it."""
-        if not self._head:
-            return
-        head, self._head = self._head, b""
-        messages, self._messages = self._messages, 1
-        try:
-            self._header = header = read_header(head)
-        except BadMessage as error:
-            log.warning("%s: %s", self.topic, error)
-            return
-        last = self._last_sequence.get(header.node, 0)
-        if 0 < last < header.sequence - 1:
-            self._lost += header.sequence - last - 1
-        self._last_sequence[header.node] = header.sequence + messages - 1
+        if self._header.encoding != "json":
+            self._payloads.append(NUL.join(parts[2:]))
+        else:
+            self._payloads.extend(parts[-1:] if self._keeps_newest else parts[2:])
 
     def _sender(self) -> str:
         return header.node if (header := self.header) else "somebody"

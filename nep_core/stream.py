@@ -1,7 +1,7 @@
 """The messages of one topic on their way out.
 
 Each message leaves at once. Only in a flood (more than 32 within a millisecond) the rest of that
-millisecond travels in frames of up to 128 KB: a call of ZeroMQ costs more than the message itself.
+millisecond travels in frames of up to 16 KB: a call of ZeroMQ costs more than the message itself.
 """
 
 from __future__ import annotations
@@ -10,9 +10,7 @@ import threading
 import time
 from collections.abc import Callable
 
-import zmq
-from zmq.backend import Socket as BackendSocket
-
+from nep_core import frames
 from nep_core.frames import (
     CANNOT_ENCODE,
     NUL,
@@ -27,37 +25,44 @@ from nep_core.frames import (
 )
 
 _now_ns = time.time_ns
-# The send of the C back end: pyzmq's own looks for options that we never use.
-_send = BackendSocket.send
 
 FLOOD = 32
 FLOOD_NS = 1_000_000
 MILLISECOND_BITS = 20
 """Nanoseconds without their last 20 bits count windows of about a millisecond."""
-SHARED_FRAME_BYTES = 128_000
+SHARED_FRAME_BYTES = 16_000
+"""Messages share a frame up to here; times the high-water mark: what may wait for a subscriber."""
 
 
 class Stream:
-    """Numbers, encodes and sends; safe from any thread."""
+    """Numbers, encodes and sends; safe from any thread.
+
+    ``send`` takes a frame and does not wait; it is called under ``lock``.
+    """
 
     def __init__(
         self,
-        socket: zmq.Socket[bytes],
+        send: Callable[[bytes], object],
         lock: threading.Lock,
         topic: str,
         node: str,
         encoding: Encoding | None,
         hurry: Callable[[], None],
+        run: str = "",
     ) -> None:
         self.encoding = encoding
-        self.latched = b""
+        self.sent = 0
+        self._latched = b""
         self._is_json = encoding in (None, "json")
-        self._socket = socket
+        self._send_frame = send
         self._lock = lock
+        self._topic = topic
         self._node = node
+        self._run = run
         self._start = subscription(topic)
+        self._head = self._start + b"[" + to_json(node) + b","
+        self._head_end = b',"json",' + to_json(run) + b"]" + NUL
         self._hurry = hurry
-        self._sequence = 0
         self._window = 0
         self._in_window = 0
         self._waiting: list[bytes] = []
@@ -83,9 +88,10 @@ class Stream:
                     self._window, self._in_window = now_ns >> MILLISECOND_BITS, 0
                 self._in_window += 1
                 if self._in_window <= FLOOD:
-                    self._sequence += 1
-                    head = to_json((self._node, self._sequence, now_ns, "json"))
-                    _send(self._socket, self._start + head + NUL + payload)
+                    self.sent += 1
+                    self._send_frame(
+                        b"%b%d,%d%b%b" % (self._head, self.sent, now_ns, self._head_end, payload)
+                    )
                     return
                 self._begin_to_wait(now_ns)
             self._waiting.append(payload)
@@ -99,16 +105,26 @@ class Stream:
             with self._lock:
                 self._flush()
 
+    def welcome(self) -> bytes:
+        """The notice for a newcomer: what is latched, how many were sent; call under the lock."""
+        return frames.notice(self._latched, self.sent) if self._latched else self.mark()
+
+    def mark(self) -> bytes:
+        """The notice of how many were sent; call under the lock."""
+        return frames.mark(self._topic, self._node, self._run, self.sent)
+
     def _send_alone(self, message: Sendable, latch: bool) -> None:
         encoding = self.encoding or natural_encoding(message)
         payload = encode(message, encoding)
         with self._lock:
             self._flush()
-            self._sequence += 1
-            frame = join(self._start, self._node, self._sequence, _now_ns(), encoding, payload)
-            _send(self._socket, frame)
+            self.sent += 1
+            frame = join(
+                self._start, self._node, self.sent, _now_ns(), encoding, payload, self._run
+            )
             if latch:
-                self.latched = frame
+                self._latched = frame
+            self._send_frame(frame)
 
     def _begin_to_wait(self, now_ns: int) -> None:
         self._room_bytes = SHARED_FRAME_BYTES
@@ -119,10 +135,9 @@ class Stream:
         if not self._waiting:
             return
         waiting, self._waiting = self._waiting, []
-        first, since_ns = self._sequence + 1, self._waiting_since_ns
-        payloads = NUL.join(waiting)
-        frame = join(self._start, self._node, first, since_ns, "json", payloads)
-        _send(self._socket, frame)
-        self._sequence += len(waiting)
+        first, since_ns = self.sent + 1, self._waiting_since_ns
+        frame = join(self._start, self._node, first, since_ns, "json", NUL.join(waiting), self._run)
+        self.sent += len(waiting)
+        self._send_frame(frame)
         # It stays a flood until a quiet moment.
         self._window, self._in_window = _now_ns() >> MILLISECOND_BITS, FLOOD

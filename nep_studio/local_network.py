@@ -14,10 +14,11 @@ import msgspec
 from nep_core import messages as m
 from nep_core.errors import NodeStartError
 from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.network import Network
 from nep_core.outcome import Outcome
-from nep_core.p2p import PeerNetwork
 from nep_core.places import log_folder
 from nep_core.pubsub import Subscriber
+from nep_core.transports import network_for, transport
 from nep_studio.own_master import MASTER, READY_S, is_up, start_master
 from nep_studio.plan import PlannedNode
 from nep_studio.signals import postponed
@@ -53,7 +54,7 @@ class LocalNetwork:
 
     def __init__(self, *, logs: Path | None = None, master: str | None = None) -> None:
         self.logs = logs or log_folder()
-        self.network: PeerNetwork | None = None
+        self.network: Network | None = None
         self.voice: Voice | None = None
         self.planned: dict[str, PlannedNode] = {}
         """The nodes that it was asked to start, by name."""
@@ -106,12 +107,15 @@ class LocalNetwork:
 
     def _open(self) -> None:
         self._stack.callback(self._master_launcher.close)
-        self.launcher.master = start_master(self._master_launcher, self._wanted_master)
-        network = self._stack.enter_context(PeerNetwork(STUDIO, master=self.launcher.master))
+        if transport() == "p2p":  # a broker or a router serves more than one session
+            self.launcher.master = start_master(self._master_launcher, self._wanted_master)
+        network = self._stack.enter_context(network_for(STUDIO, master=self.launcher.master))
         self.voice = Voice(network)
         self._stack.callback(self.voice.fall_silent)
+        self._stack.callback(self._master_launcher.leave)
         self._stack.callback(self.launcher.close)
-        self.launcher.hear(network)
+        for launcher in (self.launcher, self._master_launcher):
+            launcher.hear(network)
         for topic in HEARD:
             self._hear(topic, network)
         self.network = network
@@ -163,7 +167,7 @@ class LocalNetwork:
                 return launched.process.last_lines
         return []
 
-    def _hear(self, topic: str, network: PeerNetwork) -> None:
+    def _hear(self, topic: str, network: Network) -> None:
         def callback(message: msgspec.Struct) -> None:
             for listener in self._listeners:
                 listener(topic, message)
@@ -173,8 +177,6 @@ class LocalNetwork:
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if launched.name == MASTER:
             self._on_master_end(launched, outcome, again)
-        if self.voice is not None and (not outcome.was_successful or outcome.asked):
-            self.voice.tell_end(launched, outcome, again)
         for listener in self._end_listeners:
             listener(launched, outcome, again)
 

@@ -15,9 +15,9 @@ from nep_core.launcher import LaunchedNode, Launcher
 from nep_core.manifest import Value
 from nep_core.master_probe import ask_master
 from nep_core.node_name import check_node_name
-from nep_core.p2p import PeerNetwork
 from nep_core.places import log_folder
 from nep_core.process import ON_WINDOWS
+from nep_core.transports import network_for, transport
 from nep_studio.commands.arguments import speed
 from nep_studio.commands.project import explain
 from nep_studio.own_master import start_master
@@ -73,10 +73,10 @@ def _network() -> Iterator[Launcher]:
     with contextlib.ExitStack() as stack:
         services = Launcher(logs=log_folder())
         stack.callback(services.close)
-        wanted = master_endpoint()
-        is_there = ask_master(wanted, timeout_s=LOOK_S) is not None
-        master = wanted if is_there else start_master(services)
-        network = stack.enter_context(PeerNetwork(f"naoqi-{os.getpid()}", master=master))
+        master = master_endpoint()
+        if transport() == "p2p" and ask_master(master, timeout_s=LOOK_S) is None:
+            master = start_master(services)
+        network = stack.enter_context(network_for(f"naoqi-{os.getpid()}", master=master))
         launcher = Launcher(logs=log_folder(), master=master)
         stack.callback(_stop, launcher)
         launcher.hear(network)
@@ -109,7 +109,7 @@ def _offer(launcher: Launcher, options: argparse.Namespace) -> None:
         "naoqi_port": options.port,
         "model": options.model,
     }
-    robot = launcher.launch(NODE, options.robot, settings, restart_on_error=False)
+    robot = launcher.launch(NODE, options.robot, settings, restart="on-kill")
     robot.wait_ready()
     print(_welcome(options), flush=True)
     _wait(robot)

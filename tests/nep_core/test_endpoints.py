@@ -9,7 +9,9 @@ from nep_core.cli import main
 from nep_core.endpoints import (
     BROKER_VARIABLE,
     MASTER_VARIABLE,
+    NETWORK_VARIABLE,
     broker_endpoints,
+    broker_registry,
     check_endpoint,
     fixed_endpoint,
     master_endpoint,
@@ -52,14 +54,22 @@ def test_a_master_that_is_looked_for_needs_a_port(monkeypatch: pytest.MonkeyPatc
             look_for()
 
 
-def test_a_broker_has_two_ports_in_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(BROKER_VARIABLE, "tcp://127.0.0.1:65534")
+def test_a_broker_has_three_ports_in_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(BROKER_VARIABLE, "tcp://127.0.0.1:65533")
 
-    assert broker_endpoints() == ("tcp://127.0.0.1:65534", "tcp://127.0.0.1:65535")
+    assert broker_endpoints() == ("tcp://127.0.0.1:65533", "tcp://127.0.0.1:65534")
+    assert broker_registry() == "tcp://127.0.0.1:65535"
 
 
-@pytest.mark.parametrize("port", ["65535", "*"])
-def test_a_broker_without_a_port_after_its_own_is_refused(port: str) -> None:
+def test_in_a_broker_network_its_registry_is_the_master(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(NETWORK_VARIABLE, "broker")
+    monkeypatch.setenv(BROKER_VARIABLE, "tcp://127.0.0.1:7000")
+
+    assert master_endpoint() == "tcp://127.0.0.1:7002"
+
+
+@pytest.mark.parametrize("port", ["65534", "*"])
+def test_a_broker_without_two_ports_after_its_own_is_refused(port: str) -> None:
     with pytest.raises(NetworkError, match="port"):
         Broker(f"tcp://127.0.0.1:{port}")
 
@@ -69,4 +79,4 @@ def test_a_tool_with_a_wrong_master_says_what_an_endpoint_is(
     command: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["--master", "rubbish", command]) == 1
-    assert "'rubbish' is not an endpoint." in capsys.readouterr().err
+    assert "'rubbish' is not an endpoint." in "".join(capsys.readouterr())

@@ -1,4 +1,4 @@
-"""The three networks: what cannot be joined is told, and nobody is lost or killed."""
+"""The networks: what cannot be joined is told, and nobody is lost or killed."""
 
 from __future__ import annotations
 
@@ -7,13 +7,12 @@ from collections.abc import Callable
 import pytest
 import zmq
 
-from nep_core.broker import Broker
 from nep_core.errors import MasterNotFound, NameTaken, NetworkError, PortTaken
 from nep_core.frames import subscription
 from nep_core.handshake import read_subscription
-from nep_core.network import BrokerNetwork, DirectNetwork
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
+from nep_core.zmq_network import DirectNetwork
 
 Join = Callable[[str], PeerNetwork]
 
@@ -74,15 +73,3 @@ def test_a_subscriber_of_a_closed_network_is_refused_and_nothing_hangs(join: Joi
 
     with pytest.raises(NetworkError, match="closed"):
         Subscriber("/x", network=hearer)
-
-
-def test_through_a_broker_no_first_message_is_lost(free_port: int) -> None:
-    endpoint = f"tcp://127.0.0.1:{free_port}"
-    broker = Broker(endpoint)
-    for trial in range(10):
-        with BrokerNetwork(endpoint) as talker, BrokerNetwork(endpoint) as hearer:
-            subscriber = Subscriber[list[int]]("/x", network=hearer)
-            Publisher("/x", network=talker).send([trial])
-
-            assert subscriber.receive(5) == [trial]
-    broker.close()

@@ -10,25 +10,25 @@ from typing import Any
 import msgspec
 
 from nep_core.errors import NepError
-from nep_core.p2p import PeerNetwork
+from nep_core.network import Network
 from nep_core.pubsub import Publisher
 
 log = logging.getLogger(__name__)
 
-Sent = tuple[PeerNetwork, str, msgspec.Struct | dict[str, Any]]
+Sent = tuple[Network, str, msgspec.Struct | dict[str, Any]]
 
 
 class Sender:
     """Sends to any topic; it keeps a publisher for each that was used."""
 
     def __init__(self) -> None:
-        self._network: PeerNetwork | None = None
+        self._network: Network | None = None
         self._publishers: dict[str, Publisher] = {}
         self._waiting: queue.SimpleQueue[Sent | None] = queue.SimpleQueue()
         self._thread: threading.Thread | None = None
 
     def send(
-        self, network: PeerNetwork | None, topic: str, message: msgspec.Struct | dict[str, Any]
+        self, network: Network | None, topic: str, message: msgspec.Struct | dict[str, Any]
     ) -> bool:
         """Send a message, soon and in order; False when there is no network."""
         if network is None or network.closed:
@@ -50,7 +50,7 @@ class Sender:
             except (NepError, ValueError, TypeError) as error:  # also what JSON cannot carry
                 log.warning("%s was not sent: %s", sent[1], error)
 
-    def _publisher(self, network: PeerNetwork, topic: str) -> Publisher:
+    def _publisher(self, network: Network, topic: str) -> Publisher:
         if network is not self._network:
             self._network, self._publishers = network, {}
         if topic not in self._publishers:

@@ -11,7 +11,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from nep_core.errors import NepError
-from nep_core.p2p import PeerNetwork
+from nep_core.network import Network
 from nep_core.pubsub import Subscriber
 from nep_studio.monitor import Monitor
 
@@ -62,7 +62,7 @@ class Tap(QObject):
         """How many messages were sent but did not arrive."""
         return self._lost + sum(ear.lost for ear in self._ears)
 
-    def listen(self, network: PeerNetwork | None) -> None:
+    def listen(self, network: Network | None) -> None:
         """Hear this network from now on; None: nothing."""
         while self._ears:
             ear = self._ears.pop()
@@ -99,7 +99,7 @@ class _Ear:
     """A subscriber in a thread of its own: to open it may take a second."""
 
     def __init__(
-        self, topic: str, kind: type[Any] | None, network: PeerNetwork, monitor: Monitor
+        self, topic: str, kind: type[Any] | None, network: Network, monitor: Monitor
     ) -> None:
         self._topic, self._kind, self._network, self._monitor = topic, kind, network, monitor
         self.lost = 0

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from nep_core.p2p import PeerNetwork
+from nep_core.network import Network
 
 from .seen import Seen
 from .watch import NetworkWatch
@@ -21,7 +21,7 @@ class NetworkFeed(QObject):
 
     changed = Signal(object)
 
-    def __init__(self, find_network: Callable[[], PeerNetwork | None], parent: QObject) -> None:
+    def __init__(self, find_network: Callable[[], Network | None], parent: QObject) -> None:
         super().__init__(parent)
         self._find_network = find_network
         self._watchers: set[int] = set()
@@ -73,7 +73,7 @@ class NetworkFeed(QObject):
             self.changed.emit(self.seen)
 
 
-def feed_of(owner: QObject, find_network: Callable[[], PeerNetwork | None]) -> NetworkFeed:
+def feed_of(owner: QObject, find_network: Callable[[], Network | None]) -> NetworkFeed:
     """The one feed of a window, which both its panels share."""
     found = owner.findChild(NetworkFeed)
     return found if found is not None else NetworkFeed(find_network, owner)

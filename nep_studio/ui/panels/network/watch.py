@@ -11,10 +11,10 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
+from nep_core import transports
 from nep_core.errors import NepError
-from nep_core.master_probe import ask_master
 from nep_core.messages import NODE_STATE
-from nep_core.p2p import PeerNetwork
+from nep_core.network import Network
 from nep_core.pubsub import Subscriber
 from nep_core.registry import Registration
 from nep_core.topics import topics_of
@@ -27,9 +27,8 @@ log = logging.getLogger(__name__)
 
 DRAIN_S = 0.1
 """How often what has arrived is counted; the network keeps 10,000 messages of a topic meanwhile."""
-LIST_S = 1.0
-"""How often the master is asked and the processes are measured."""
-ANSWER_S = 0.5
+MEASURE_S = 1.0
+"""How often the processes are measured."""
 MOST_AT_ONCE = 3000
 """So many messages of a topic are counted before the next topic has its turn."""
 
@@ -40,16 +39,17 @@ class NetworkWatch:
     ``latest`` is what was seen last, a new object each time; any thread may read it.
     """
 
-    def __init__(self, find_network: Callable[[], PeerNetwork | None]) -> None:
+    def __init__(self, find_network: Callable[[], Network | None]) -> None:
         self._find_network = find_network
         self._ending = threading.Event()
-        self._network: PeerNetwork | None = None
+        self._network: Network | None = None
         self._subscribers: dict[str, Subscriber[Any]] = {}
         self._traffic = Traffic()
         self._meter = ProcessMeter()
         self._uses: dict[int, Use | None] = {}
+        self._feed: transports.Feed | None = None
         self._registered: list[Registration] = []
-        self._listed_s = 0.0
+        self._measured_s = 0.0
         self.latest = Seen()
 
     def start(self) -> None:
@@ -77,15 +77,17 @@ class NetworkWatch:
         if network is not self._network or (network is not None and network.closed):
             self._leave()
             self._network = None if network is None or network.closed else network
+            if self._network is not None:
+                self._feed = transports.follow_in(self._network, self._on_registrations)
         if self._network is None:
             if self.latest.is_up:
                 self.latest = Seen()
             return
         now_s = time.monotonic()
-        if now_s - self._listed_s >= LIST_S:
-            self._listed_s = now_s
-            self._list(self._network)
-            self.latest = self._seen()
+        if now_s - self._measured_s >= MEASURE_S:
+            self._measured_s = now_s
+            self._measure()
+        self._forget_topics()
         self._hear_one_more(self._network)
         for topic, subscriber in self._subscribers.items():
             self._drain(topic, subscriber)
@@ -96,26 +98,33 @@ class NetworkWatch:
         for subscriber in self._subscribers.values():
             with contextlib.suppress(NepError):
                 subscriber.close()
+        if self._feed is not None:
+            self._feed.close()
+        self._feed = None
         self._subscribers, self._traffic = {}, Traffic()
-        self._registered, self._uses, self._listed_s = [], {}, 0.0
+        self._registered, self._uses, self._measured_s = [], {}, 0.0
         self._network = None
 
-    def _list(self, network: PeerNetwork) -> None:
-        """Ask who is there, and measure those on this computer."""
-        listing = ask_master(network.master, ANSWER_S)
-        if listing is None:
-            return  # the master is gone or busy: its nodes still talk
-        self._registered = listing.registrations
+    def _on_registrations(self, told: list[Registration]) -> None:
+        """Who is there now; while the master is away its nodes still talk."""
+        self._registered = told
+        self._measured_s = 0.0  # measure newcomers at once
+
+    def _measure(self) -> None:
+        """Measure the processes on this computer."""
         here = socket.gethostname()
         local = {told.pid for told in self._registered if told.host == here}
         self._meter.keep_only_running()
         self._uses = {pid: self._meter.measure(pid) for pid in local}
+
+    def _forget_topics(self) -> None:
+        """Hear no more what nobody publishes."""
         wanted = {topic for told in self._registered for topic in told.publishes}
         for topic in set(self._subscribers) - wanted:
             self._subscribers.pop(topic).close()
             self._traffic.forget(topic)
 
-    def _hear_one_more(self, network: PeerNetwork) -> None:
+    def _hear_one_more(self, network: Network) -> None:
         """Hear a new topic, one at a time: a publisher that is frozen takes a second."""
         published = (topic for told in self._registered for topic in told.publishes)
         topic = next((one for one in published if one not in self._subscribers), None)
