@@ -34,7 +34,7 @@ class BrokerNetwork(PeerNetwork):
 
     def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
         """Connect to the broker and register; the publishers that are known."""
-        inbox.connect({self._subscribers_end: self._key_at(self._subscribers_end)})
+        inbox.connect(self._endpoints_of([]))
         with self._broker_found():
             return super().add_subscriber(topic, subscriber, inbox)
 
@@ -42,8 +42,8 @@ class BrokerNetwork(PeerNetwork):
         self.outbox.connect(self._publishers_end)
         return self._publishers_end
 
-    def _connect_subscribers(self, topic: str, publishers: list[Publishing]) -> None:
-        """They are connected to the broker, and to nobody else."""
+    def _endpoints_of(self, publishers: list[Publishing]) -> dict[str, str]:
+        return {self._subscribers_end: self._key_at(self._subscribers_end)}
 
     @contextlib.contextmanager
     def _broker_found(self) -> Iterator[None]:

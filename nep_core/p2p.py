@@ -100,11 +100,15 @@ class PeerNetwork(ZmqNetwork):
         told.publishes = sorted(topic for topic, count in self._topics.items() if count > 0)
 
     def _connect_subscribers(self, topic: str, publishers: list[Publishing]) -> None:
-        endpoints = {publisher.endpoint: publisher.key for publisher in publishers}
+        endpoints = self._endpoints_of(publishers)
         with self._lock:
             inboxes = list(self._inboxes_by_topic.get(topic, []))
         for inbox in inboxes:
             inbox.connect(endpoints, {publisher.instance for publisher in publishers})
+
+    def _endpoints_of(self, publishers: list[Publishing]) -> dict[str, str]:
+        """Where they are heard, and their keys."""
+        return {publisher.endpoint: publisher.key for publisher in publishers}
 
     def _leave(self) -> None:
         self._client.close()

@@ -52,10 +52,12 @@ class ZenohInbox:
         deadline = None if timeout_s is None else time.monotonic() + timeout_s
         while True:
             self._is_awaited = True  # before we look, so that nothing comes unseen
+            if self.closed:
+                return None
             with self._lock:
                 if (frame := self._backlog.pop()) is not None:
                     return frame
-            if self.closed or not self._wait(deadline):
+            if not self._wait(deadline):
                 return None
 
     def wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:

@@ -58,7 +58,12 @@ class LocalNetwork:
         self.voice: Voice | None = None
         self.planned: dict[str, PlannedNode] = {}
         """The nodes that it was asked to start, by name."""
-        self._wanted_master = master
+        self.name = STUDIO
+        """What this program is called in its network."""
+        self.wanted_master = master
+        """Where its own master is started; None: where there is room."""
+        self.joined_master = ""
+        """The master of another computer, which it joins instead of starting one."""
         self.on_open: Callable[[], None] = lambda: None
         """Called each time that nodes can be started, in the thread that opened it."""
         self.on_master: Callable[[MasterEvent, str], None] = lambda event, sentence: None
@@ -108,8 +113,10 @@ class LocalNetwork:
     def _open(self) -> None:
         self._stack.callback(self._master_launcher.close)
         if transport() == "p2p":  # a broker or a router serves more than one session
-            self.launcher.master = start_master(self._master_launcher, self._wanted_master)
-        network = self._stack.enter_context(network_for(STUDIO, master=self.launcher.master))
+            self.launcher.master = self.joined_master or start_master(
+                self._master_launcher, self.wanted_master
+            )
+        network = self._stack.enter_context(network_for(self.name, master=self.launcher.master))
         self.voice = Voice(network)
         self._stack.callback(self.voice.fall_silent)
         self._stack.callback(self._master_launcher.leave)
@@ -128,6 +135,27 @@ class LocalNetwork:
             self.network = None
             self._stack.close()
             self.planned.clear()
+
+    def reopen(self, prepare: Callable[[], None], nodes: Iterable[PlannedNode]) -> None:
+        """Close, let ``prepare`` change how it is opened, open again and start these nodes.
+
+        Does not wait until they are ready; raises NepError.
+        """
+        with self._opening:
+            self.close()
+            prepare()
+            self.open()
+            self.start(nodes)
+
+    @property
+    def running(self) -> list[PlannedNode]:
+        """The nodes that run now, as they were started."""
+        nodes = self.launcher.nodes
+        return [
+            planned
+            for name, planned in self.planned.items()
+            if name in nodes and not nodes[name].ended.is_set()
+        ]
 
     def start(self, nodes: Iterable[PlannedNode]) -> list[LaunchedNode]:
         """Start those of the nodes that do not run yet as they are wanted; all of them, launched.
