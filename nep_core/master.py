@@ -9,7 +9,6 @@ from __future__ import annotations
 import logging
 import math
 import os
-import socket as sockets
 import threading
 import time
 import uuid
@@ -51,15 +50,14 @@ class Master:
 
     def __init__(self, endpoint: str | None = None) -> None:
         self.epoch = uuid.uuid4().hex
-        self._host = sockets.gethostname()
         self._registry = Registry()
         self._news = News(self.epoch, self._registry, self._send)
-        self._processes = Processes()
         self._stopping = threading.Event()
         self._wake = Wake()
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         self._security = security.from_environment(self._context)
         self._admission = self._admit_by_keys()
+        self._processes = Processes(self._security.key if self._security else "")
         self._socket = self._context.socket(zmq.ROUTER)
         self._socket.linger = 200
         self._socket.sndhwm = ANSWERS_KEPT
@@ -150,10 +148,11 @@ class Master:
         until_s = time.monotonic() + seconds
         while time.monotonic() < until_s:
             try:
-                frames = self._socket.recv_multipart(zmq.NOBLOCK)
+                frames = self._socket.recv_multipart(zmq.NOBLOCK, copy=False)
             except zmq.Again:
                 return True
-            self._serve(frames)
+            if self._admission is None or self._admission.hears(frames[0]):
+                self._serve([frame.bytes for frame in frames])
         return False
 
     def _serve(self, frames: list[bytes]) -> None:
@@ -221,7 +220,7 @@ class Master:
             self._waiting.append((request, address))
             return None
         holder = self._registry.holder(told.node)
-        if holder is not None and self._has_ended(holder.registration):
+        if holder is not None and self._processes.has_ended(holder.registration):
             self._drop(holder.registration)
         try:
             changed = self._registry.register(told, address, time.monotonic(), request.version)
@@ -229,6 +228,7 @@ class Master:
             return says.Refused(
                 version=request.version, sentence=error.sentence, checklist=list(error.checklist)
             )
+        self._processes.register(told)
         self._news.note(told.instance, changed)
         return self._registered(request.version, told.publishes, told.subscribes.values())
 
@@ -273,18 +273,15 @@ class Master:
     def _drop_the_gone(self, now_s: float) -> None:
         entries = self._registry.entries
         gone = set(self._registry.expired(now_s))
-        gone |= {i for i, entry in entries.items() if self._has_ended(entry.registration)}
+        ended = self._processes.has_ended
+        gone |= {i for i, entry in entries.items() if ended(entry.registration)}
         for instance in gone:
             self._drop(entries[instance].registration)
-        self._processes.keep_only(entry.registration.pid for entry in entries.values())
+        self._processes.keep_only(entry.registration for entry in entries.values())
 
     def _drop(self, told: Registration) -> None:
         log.info("%s is gone", told.node)
         self._news.note(told.instance, self._registry.remove(told.instance))
-
-    def _has_ended(self, told: Registration) -> bool:
-        """Whether its process has; another computer's processes cannot be seen."""
-        return told.host == self._host and self._processes.has_ended(told.pid)
 
     def _send(self, address: bytes, answer: bytes) -> bool:
         """Whether it goes: not to who has gone, nor to who has not read for long."""

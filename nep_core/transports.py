@@ -51,7 +51,7 @@ def network_for(node: str = "", *, master: str | None = None) -> Network:
 
             return BrokerNetwork(node=node)
         case "zenoh":
-            from nep_core.zenoh_network import ZenohNetwork
+            from nep_core.over_zenoh.network import ZenohNetwork
 
             return ZenohNetwork(node)
         case _:
@@ -61,7 +61,7 @@ def network_for(node: str = "", *, master: str | None = None) -> Network:
 def registrations(master: str | None = None) -> list[Registration]:
     """Who is there; raises MasterNotFound when nobody can tell."""
     if transport() == "zenoh":
-        from nep_core.zenoh_network import zenoh_registrations
+        from nep_core.over_zenoh.network import zenoh_registrations
 
         return zenoh_registrations()
     listing = master_probe.ask_master(_registry(master))
@@ -73,7 +73,7 @@ def registrations(master: str | None = None) -> list[Registration]:
 def ask_to_stop(node: str, master: str | None = None) -> bool:
     """Ask a node to stop; whether there is one. Raises MasterNotFound when nobody can tell."""
     if transport() == "zenoh":
-        from nep_core.zenoh_network import zenoh_stop
+        from nep_core.over_zenoh.network import zenoh_stop
 
         return zenoh_stop(node)
     known = master_probe.ask_to_stop(_registry(master), node)
@@ -85,7 +85,7 @@ def ask_to_stop(node: str, master: str | None = None) -> bool:
 def follow(on_change: OnChange, master: str | None = None) -> Feed:
     """Call ``on_change``, in a thread of its own, with all that are there whenever it changes."""
     if transport() == "zenoh":
-        from nep_core.zenoh_feed import ZenohFeed
+        from nep_core.over_zenoh.feed import ZenohFeed
 
         return ZenohFeed(on_change)
     return MasterFeed(_registry(master), on_change)
@@ -95,8 +95,8 @@ def follow_in(network: Network, on_change: OnChange) -> Feed:
     """The same in a network that this program has joined."""
     if isinstance(network, PeerNetwork):
         return MasterFeed(network.master, on_change)
-    from nep_core.zenoh_feed import ZenohFeed
-    from nep_core.zenoh_network import ZenohNetwork
+    from nep_core.over_zenoh.feed import ZenohFeed
+    from nep_core.over_zenoh.network import ZenohNetwork
 
     if isinstance(network, ZenohNetwork):
         return ZenohFeed(on_change, network.routers)

@@ -64,6 +64,8 @@ class LocalNetwork:
         """Where its own master is started; None: where there is room."""
         self.joined_master = ""
         """The master of another computer, which it joins instead of starting one."""
+        self.master_options: Callable[[], Iterable[str]] = tuple
+        """What its own master is told when it is started, as on the command line."""
         self.on_open: Callable[[], None] = lambda: None
         """Called each time that nodes can be started, in the thread that opened it."""
         self.on_master: Callable[[MasterEvent, str], None] = lambda event, sentence: None
@@ -113,9 +115,7 @@ class LocalNetwork:
     def _open(self) -> None:
         self._stack.callback(self._master_launcher.close)
         if transport() == "p2p":  # a broker or a router serves more than one session
-            self.launcher.master = self.joined_master or start_master(
-                self._master_launcher, self.wanted_master
-            )
+            self.launcher.master = self.joined_master or self._start_master(self.wanted_master)
         network = self._stack.enter_context(network_for(self.name, master=self.launcher.master))
         self.voice = Voice(network)
         self._stack.callback(self.voice.fall_silent)
@@ -128,6 +128,9 @@ class LocalNetwork:
         self.network = network
         self.has_master = True
         self.on_open()
+
+    def _start_master(self, wanted: str | None) -> str:
+        return start_master(self._master_launcher, wanted, self.master_options())
 
     def close(self) -> None:
         """Stop all nodes, leave the network, stop the master."""
@@ -211,7 +214,7 @@ class LocalNetwork:
     def _replace_master(self) -> None:
         """Start one where the last one was, if that is gone: all who were there come to it."""
         if not self.has_master:
-            start_master(self._master_launcher, self.launcher.master)
+            self._start_master(self.launcher.master)
             self.has_master = True
             self.on_master("back", "")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import socket
 import time
+from collections.abc import Iterable
 
 from nep_core.endpoints import master_endpoint
 from nep_core.errors import NodeStartError
@@ -18,8 +19,10 @@ READY_S = 10.0
 TRIES = 5
 
 
-def start_master(launcher: Launcher, wanted: str | None = None) -> str:
-    """Start a master at ``wanted``, or where there is room; its endpoint.
+def start_master(
+    launcher: Launcher, wanted: str | None = None, options: Iterable[str] = ()
+) -> str:
+    """Start a master at ``wanted``, or where there is room, with these options; its endpoint.
 
     Another program may take the port at the same moment, so several are tried. Raises
     NodeStartError.
@@ -27,7 +30,7 @@ def start_master(launcher: Launcher, wanted: str | None = None) -> str:
     endpoint, lines = "", list[str]()
     for _ in range(1 if wanted else TRIES):
         endpoint = wanted or free_endpoint(master_endpoint())
-        command = program_command(MASTER, "--endpoint", endpoint)
+        command = program_command(MASTER, "--endpoint", endpoint, *options)
         with postponed():
             launched = launcher.start_command(MASTER, command)
         if is_up(launched, endpoint):

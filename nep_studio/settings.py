@@ -236,6 +236,24 @@ class Settings:
     def has_sound(self, is_on: bool) -> None:
         self._values.setValue("robots/sound", "on" if is_on else "off")
 
+    @property
+    def lets_original_join(self) -> bool:
+        """Whether programs of the original NEP may join the studio's network."""
+        return self._text("network/original", "no") == "yes"
+
+    @lets_original_join.setter
+    def lets_original_join(self, is_on: bool) -> None:
+        self._values.setValue("network/original", "yes" if is_on else "no")
+
+    @property
+    def kept_open_at(self) -> str:
+        """The address at which the network is opened at each start; "" when it is not."""
+        return self._text("network/open_at", "")
+
+    @kept_open_at.setter
+    def kept_open_at(self, address: str) -> None:
+        self._values.setValue("network/open_at", address)
+
     def is_shown(self, panel: str, *, default: bool) -> bool:
         """Whether a person left a panel open."""
         return self._text(f"panels/{panel}", "yes" if default else "no") == "yes"

@@ -36,6 +36,7 @@ VARIABLES = {
     ROBOT_FILES_VARIABLE: "where robots on the screen keep files",
     "NEP_KEYS": "the key file of an opened network",
     "NEP_HOST": "the address of this computer in an opened network",
+    "NEP_ORIGINAL": "whether programs of the original NEP may join (0 or 1)",
     "NEP_NETWORK": f"which network: {', '.join(NETWORKS)}",
     "NEP_ZENOH": "where the routers of a zenoh network are",
     "NEP_ZENOH_KEYS": "the certificates of a zenoh network",

@@ -27,7 +27,7 @@ from nep_core.cli.showing import (
     value_of,
     value_text,
 )
-from nep_core.raw import RawMessage, RawSubscriber
+from nep_core.recordings.raw import RawMessage, RawSubscriber
 
 WINDOW_S = 10.0
 WINDOW_MESSAGES = 100_000

@@ -16,7 +16,7 @@ from nep_core.cli.showing import say, say_json, table
 from nep_core.messages import BY_TOPIC, NODE_STATE, NodeState
 from nep_core.network import Network
 from nep_core.pubsub import Subscriber
-from nep_core.raw import RawSubscriber
+from nep_core.recordings.raw import RawSubscriber
 from nep_core.registry import Registration
 from nep_core.topics import TopicEnds, topics_of
 

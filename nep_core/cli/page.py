@@ -39,13 +39,13 @@ a second: of a recording that ended by a power cut everything but the last chunk
 From Python:
 
 ```python
-from nep_core.player import read_recording
+from nep_core.recordings.player import read_recording
 
 for message in read_recording("walk.mcap"):
     print(message.topic, message.arrived_ns, message.node, message.encoding, message.payload)
 ```
 
-`nep_core.recorder.Recorder` and `nep_core.player.Player` do what the two commands do.
+`nep_core.recordings.recorder.Recorder` and `nep_core.recordings.player.Player` do what the two commands do.
 """
 
 

@@ -17,9 +17,9 @@ from nep_core.errors import RecordingError
 from nep_core.io_thread import Wake
 from nep_core.messages import NODE_STATE
 from nep_core.node import STOP_SIGNALS
-from nep_core.player import Player
-from nep_core.recorder import Recorder
-from nep_core.recording import Overview, overview
+from nep_core.recordings.file import Overview, overview
+from nep_core.recordings.player import Player
+from nep_core.recordings.recorder import Recorder
 
 TOLD_S = 1.0
 LOOK_S = 0.2

@@ -6,7 +6,7 @@ import argparse
 
 from nep_core.broker import Broker
 from nep_core.errors import NetworkError
-from nep_core.zenoh_router import ZenohRouter
+from nep_core.over_zenoh.router import ZenohRouter
 
 
 def add_router_arguments(parser: argparse.ArgumentParser) -> None:

@@ -18,10 +18,10 @@ from nep_core.errors import NetworkError
 from nep_core.io_thread import Wake
 from nep_core.master import Master
 from nep_core.node import STOP_SIGNALS
+from nep_core.over_zenoh.router import ZenohRouter
 from nep_core.p2p import PeerNetwork
 from nep_core.security import KEYS_VARIABLE
 from nep_core.security.service_voice import ServiceVoice
-from nep_core.zenoh_router import ZenohRouter
 
 if TYPE_CHECKING:
     from nep_core.gateway import Gateway

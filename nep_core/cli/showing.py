@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from nep_core.raw import RawMessage
+from nep_core.recordings.raw import RawMessage
 
 SHOWN_BYTES = 32
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import zmq
+
 from nep_core import master_messages as says
 from nep_core.registry import Registration, Registry
 from nep_core.security.curve import Security
@@ -19,6 +21,10 @@ class Admission:
         self._registry = registry
         self._send = send
         self._told = self._file.keys.allowed
+
+    def hears(self, frame: zmq.Frame) -> bool:
+        """Whether a request is listened to: a connection may be older than its refusal."""
+        return frame.get("User-Id") in self._file.keys.allowed
 
     def admits(self, told: Registration, address: bytes) -> bool:
         """Whether a program may register; if so it is told who else may."""

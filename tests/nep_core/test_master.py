@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import subprocess
 import sys
 from collections.abc import Callable
@@ -11,12 +12,15 @@ import zmq
 from hypothesis import given
 from hypothesis import strategies as st
 
+from nep_core import master_messages as says
 from nep_core.errors import NameTaken, PortTaken
-from nep_core.master import Master
+from nep_core.living import Processes
+from nep_core.master import CHECK_S, Master
 from nep_core.master_probe import ask_master
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
 from nep_core.registry import LEASE_S, Registration, Registry
+from tests.nep_core.master_process import RawProgram, nodes_of, registration, until
 
 Join = Callable[[str], PeerNetwork]
 
@@ -143,6 +147,33 @@ def test_a_killed_program_frees_its_name_at_once(master: Master, join: Join) -> 
     listing = ask_master(master.endpoint)
     assert listing is not None
     assert [r.node for r in listing.registrations] == ["watch"]
+
+
+def test_a_program_whose_process_cannot_be_seen_stays_until_its_lease_runs_out(
+    master: Master,
+) -> None:
+    child = subprocess.Popen([sys.executable, "-c", ""])
+    child.wait()
+    in_a_container = registration("arm", pid=child.pid, host=socket.gethostname())
+
+    with RawProgram(master.endpoint) as program:
+        program.ask(says.Register(version=1, registration=in_a_container))
+
+        assert not until(lambda: nodes_of(master.endpoint) != {"arm"}, timeout_s=2 * CHECK_S)
+
+
+@pytest.mark.parametrize(("key", "is_ours"), [("this computer's", True), ("the laptop's", False)])
+def test_only_processes_of_this_computer_are_looked_for_whatever_another_is_called(
+    key: str, is_ours: bool
+) -> None:
+    processes = Processes("this computer's")
+    child = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+    told = registration("arm", pid=child.pid, host=socket.gethostname(), key=key)
+    processes.register(told)
+
+    child.communicate()
+
+    assert processes.has_ended(told) == is_ours
 
 
 def test_a_subscriber_forgets_a_publisher_that_left(join: Join) -> None:

@@ -181,7 +181,7 @@ def test_without_the_central_service_a_sentence_says_how_to_start_it(
     free_port: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("nep_core.master_client.ANSWER_S", 0.1)
-    monkeypatch.setattr("nep_core.zenoh_session.CONNECT_MS", 100)
+    monkeypatch.setattr("nep_core.over_zenoh.session.CONNECT_MS", 100)
     monkeypatch.setenv("NEP_MASTER", f"tcp://127.0.0.1:{free_port}")
     monkeypatch.setenv("NEP_BROKER", f"tcp://127.0.0.1:{free_port}")
     monkeypatch.setenv("NEP_ZENOH", f"tcp/127.0.0.1:{free_port}")
@@ -217,7 +217,7 @@ def test_without_the_zenoh_library_the_checklist_says_how_to_install_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setenv("NEP_NETWORK", "zenoh")
-    monkeypatch.setattr("nep_core.zenoh_session.find_spec", lambda name: None)
+    monkeypatch.setattr("nep_core.over_zenoh.session.find_spec", lambda name: None)
 
     with pytest.raises(NetworkError, match="not installed") as raised:
         transports.network_for("x")

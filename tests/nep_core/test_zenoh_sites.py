@@ -17,16 +17,16 @@ import pytest
 
 from nep_core.cli import main
 from nep_core.errors import NameTaken, NetworkError, PortTaken, RouterNotFound
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.zenoh_keys import (
+from nep_core.over_zenoh.keys import (
     frames_key,
     hears_token,
     node_token,
     registrations_of,
     says_token,
 )
-from nep_core.zenoh_network import ZenohNetwork, zenoh_registrations
-from nep_core.zenoh_router import ZenohRouter
+from nep_core.over_zenoh.network import ZenohNetwork, zenoh_registrations
+from nep_core.over_zenoh.router import ZenohRouter
+from nep_core.pubsub import Publisher, Subscriber
 from tests.nep_core.certificates import make_certificates
 from tests.nep_core.relay import Relay
 
@@ -35,7 +35,7 @@ pytest.importorskip("zenoh")
 FROZEN = """
 import os, signal, sys
 from nep_core.pubsub import Subscriber
-from nep_core.zenoh_network import ZenohNetwork
+from nep_core.over_zenoh.network import ZenohNetwork
 subscriber = Subscriber("/x", network=ZenohNetwork("frozen", connect=[sys.argv[1]]))
 os.kill(os.getpid(), signal.SIGSTOP)
 """
@@ -121,7 +121,7 @@ def test_a_frozen_subscriber_takes_nothing_from_the_others(leaving: ExitStack, h
 def test_encrypted_sites_let_in_only_who_has_a_certificate_of_their_authority(
     leaving: ExitStack, free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.zenoh_session.CONNECT_MS", 300)
+    monkeypatch.setattr("nep_core.over_zenoh.session.CONNECT_MS", 300)
     ours, theirs = (make_certificates(tmp_path / name) for name in ("ours", "theirs"))
     place = f"tls/127.0.0.1:{free_port}"
     monkeypatch.setenv("NEP_ZENOH_KEYS", str(ours))

@@ -13,9 +13,9 @@ from nep_core.broker import Broker
 from nep_core.broker_network import BrokerNetwork
 from nep_core.master import Master
 from nep_core.network import Network
+from nep_core.over_zenoh.network import ZenohNetwork
+from nep_core.over_zenoh.router import ZenohRouter
 from nep_core.p2p import PeerNetwork
-from nep_core.zenoh_network import ZenohNetwork
-from nep_core.zenoh_router import ZenohRouter
 from nep_core.zmq_network import DirectNetwork
 
 WITH_ZENOH = pytest.param(

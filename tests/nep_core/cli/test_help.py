@@ -21,7 +21,7 @@ from nep_core.messages import HUMAN_BEHAVIOR
 from nep_core.p2p import PeerNetwork
 from nep_core.places import NODES_VARIABLE
 from nep_core.pubsub import Subscriber
-from nep_core.recorder import Recorder
+from nep_core.recordings.recorder import Recorder
 from tests.conftest import PROJECT
 from tests.nep_core.cli.conftest import Call, nep, until
 from tests.nep_core.node_making import write_node

@@ -16,14 +16,14 @@ from nep_core.cli.kill import process_of
 from nep_core.master import Master
 from nep_core.master_probe import ask_master
 from nep_core.p2p import PeerNetwork
-from nep_core.player import overview
+from nep_core.recordings.player import overview
 from nep_core.registry import Registration
 from tests.nep_core.cli.conftest import Call, nep
 
 DEAF = """
 import sys, time
 from nep_core.p2p import PeerNetwork
-from nep_core.player import overview
+from nep_core.recordings.player import overview
 network = PeerNetwork("deaf")
 network.join()
 print("joined", flush=True)

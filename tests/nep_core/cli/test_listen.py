@@ -13,7 +13,7 @@ from nep_core.cli.listen import Pace
 from nep_core.frames import Encoding
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher
-from nep_core.raw import RawMessage
+from nep_core.recordings.raw import RawMessage
 from tests.nep_core.cli.conftest import Answer, Call
 
 

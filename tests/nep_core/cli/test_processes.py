@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from nep_core.p2p import PeerNetwork
-from nep_core.player import overview
 from nep_core.pubsub import Publisher
+from nep_core.recordings.player import overview
 from tests.nep_core.cli.conftest import nep, until
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals")

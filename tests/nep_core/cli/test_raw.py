@@ -8,7 +8,7 @@ import pytest
 import zmq
 
 from nep_core.frames import Encoding, join
-from nep_core.raw import RawSubscriber, SteadyClock
+from nep_core.recordings.raw import RawSubscriber, SteadyClock
 from nep_core.zmq_network import DirectNetwork
 from tests.nep_core.cli.conftest import until
 

@@ -7,12 +7,13 @@ import pytest
 import zmq
 
 from nep_core import master_client
+from nep_core import master_messages as says
 from nep_core.broker import Broker
 from nep_core.broker_network import BrokerNetwork
 from nep_core.errors import NetworkError, NotLetIn, PortTaken
 from nep_core.master import Master
 from nep_core.master_feed import MasterFeed
-from nep_core.master_probe import ask_master
+from nep_core.master_probe import MasterProbe, ask_master
 from nep_core.messages import NODE_STATE, NodeState
 from nep_core.node import Node
 from nep_core.p2p import PeerNetwork
@@ -115,6 +116,18 @@ def test_a_computer_that_is_forgotten_cannot_come_back(
     assert wait_until(lambda: ask_names(opened) == [])
     with pytest.raises(NotLetIn):
         opened.join("watch2", laptop).join()
+
+
+def test_a_computer_that_is_forgotten_is_not_heard_over_old_connections_either(
+    opened: Opened,
+) -> None:
+    opened.use(opened.guest("laptop"))
+    with MasterProbe(opened.master.endpoint) as probe:
+        assert probe.ask(says.List(), says.Listing) is not None
+
+        opened.file.forget("laptop")
+
+        assert probe.ask(says.List(), says.Listing, timeout_s=0.3) is None
 
 
 @pytest.mark.usefixtures("impatient")

@@ -10,9 +10,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Self
 
 from nep_core.master_feed import OnChange
+from nep_core.over_zenoh.keys import ALL_TOKENS, registrations_of
+from nep_core.over_zenoh.session import open_client, router_endpoints
 from nep_core.registry import Registration
-from nep_core.zenoh_keys import ALL_TOKENS, registrations_of
-from nep_core.zenoh_session import open_client, router_endpoints
 
 if TYPE_CHECKING:
     import zenoh

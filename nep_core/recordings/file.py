@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from nep_core.errors import RecordingError
-from nep_core.raw import RawMessage
-from nep_core.recording_format import Channel, payload_of, read_channel
+from nep_core.recordings.format import Channel, payload_of, read_channel
+from nep_core.recordings.raw import RawMessage
 
 if TYPE_CHECKING:
     from mcap.records import McapRecord

@@ -18,7 +18,7 @@ import msgspec
 
 from nep_core.frames import Encoding
 from nep_core.messages import BY_TOPIC
-from nep_core.raw import RawMessage
+from nep_core.recordings.raw import RawMessage
 
 Json = dict[str, Any]
 _ENCODINGS: dict[str, Encoding] = {"json": "json", "msgpack": "msgpack"}

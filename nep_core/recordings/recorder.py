@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 from nep_core import transports
 from nep_core.errors import RecordingError
 from nep_core.network import Network
-from nep_core.raw import RawMessage, RawSubscriber, SteadyClock
-from nep_core.recording_format import Channel, channel_of
+from nep_core.recordings.format import Channel, channel_of
+from nep_core.recordings.raw import RawMessage, RawSubscriber, SteadyClock
 from nep_core.registry import Registration
 from nep_core.topics import topics_of
 

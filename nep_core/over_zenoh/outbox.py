@@ -12,8 +12,8 @@ from nep_core import handshake
 from nep_core.errors import NetworkError
 from nep_core.frames import Encoding
 from nep_core.hearers import Hearers, SendFrame
+from nep_core.over_zenoh.keys import frames_key, hears_token, last_part
 from nep_core.stream import Stream
-from nep_core.zenoh_keys import frames_key, hears_token, last_part
 
 if TYPE_CHECKING:
     import zenoh

@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 from collections.abc import Iterable
 
-from nep_core.zenoh_session import (
+from nep_core.over_zenoh.session import (
     check_private,
     check_zenoh_endpoint,
     open_router,

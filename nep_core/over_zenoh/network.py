@@ -17,9 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 from nep_core.errors import NameTaken
 from nep_core.network import HANDSHAKE_S, Network, Policy
-from nep_core.registry import Registration
-from nep_core.zenoh_inbox import ZenohInbox
-from nep_core.zenoh_keys import (
+from nep_core.over_zenoh.inbox import ZenohInbox
+from nep_core.over_zenoh.keys import (
     ALL_TOKENS,
     hears_token,
     last_part,
@@ -29,8 +28,9 @@ from nep_core.zenoh_keys import (
     says_token,
     stop_key,
 )
-from nep_core.zenoh_outbox import ZenohOutbox
-from nep_core.zenoh_session import open_client, router_endpoints
+from nep_core.over_zenoh.outbox import ZenohOutbox
+from nep_core.over_zenoh.session import open_client, router_endpoints
+from nep_core.registry import Registration
 
 if TYPE_CHECKING:
     import zenoh

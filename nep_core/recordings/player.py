@@ -17,8 +17,8 @@ from nep_core.messages import LATCHED, NODE_STATE
 from nep_core.network import Network
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher
-from nep_core.raw import RawMessage
-from nep_core.recording import Overview, Recording, overview, read_recording
+from nep_core.recordings.file import Overview, Recording, overview, read_recording
+from nep_core.recordings.raw import RawMessage
 
 __all__ = ["Overview", "Player", "Recording", "overview", "read_recording"]
 

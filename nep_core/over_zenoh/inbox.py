@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from nep_core import handshake
 from nep_core.backlog import Backlog
 from nep_core.network import Policy
-from nep_core.zenoh_keys import frames_key
+from nep_core.over_zenoh.keys import frames_key
 
 if TYPE_CHECKING:
     import zenoh

@@ -1,0 +1,1 @@
+"""A network over zenoh: the same publishers and subscribers, across several sites."""

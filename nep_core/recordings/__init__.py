@@ -1,0 +1,1 @@
+"""Recordings of a network in MCAP files: making them, reading them, playing them."""

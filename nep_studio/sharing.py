@@ -1,0 +1,347 @@
+"""The studio's network opened to other computers, or left for the one of another computer."""
+
+from __future__ import annotations
+
+import logging
+import os
+import re
+import socket
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+from urllib.parse import urlsplit
+
+import msgspec
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_core.errors import NepError, NetworkError, PairingError
+from nep_core.messages import NodeState
+from nep_core.places import key_file
+from nep_core.security import KEYS_VARIABLE
+from nep_core.security.addresses import HOST_VARIABLE, endpoint_at, is_ours
+from nep_core.security.door import Code, DoorEvent
+from nep_core.security.joining import pair
+from nep_core.security.keys import Computer, Keys
+from nep_core.security.opening import DOOR_PORT, MASTER_PORT, Opening
+from nep_studio.local_network import STUDIO, LocalNetwork
+from nep_studio.own_master import free_endpoint
+from nep_studio.refusals import Refusal, Refusals, refusals_in
+
+log = logging.getLogger(__name__)
+
+State = Literal["closed", "busy", "open", "joined"]
+
+TITLE = "NEP Studio"
+LOOK_MS = 1000
+
+
+class Sharing(QObject):
+    """Opens and closes the network of a window; what takes a while is done in a thread.
+
+    ``changed``: its state or who is let in; ``happened`` gives a DoorEvent, ``refused`` a new
+    Refusal, ``failed`` the NepError of what was asked; ``went_down`` tells that the network has
+    ended and is about to come up anew, with the nodes that ran.
+    """
+
+    changed = Signal()
+    happened = Signal(object)
+    refused = Signal(object)
+    failed = Signal(object)
+    went_down = Signal()
+    _heard = Signal(str)
+
+    def __init__(
+        self,
+        local: LocalNetwork,
+        parent: QObject | None = None,
+        *,
+        keys: Path | None = None,
+        ports: tuple[int, int] = (MASTER_PORT, DOOR_PORT),
+        is_announced: bool = True,
+    ) -> None:
+        """``ports``: those of the master and the door, if they are free."""
+        super().__init__(parent)
+        self.opening: Opening | None = None
+        self.joined: Keys | None = None
+        self.refusals = Refusals()
+        self._local, self._keys = local, keys
+        self._ports, self._is_announced = ports, is_announced
+        self._before: dict[str, str | None] | None = None
+        self._usual_master = local.wanted_master
+        self._thread: threading.Thread | None = None
+        self._is_ended = False
+        self._looking = QTimer(self, interval=LOOK_MS)
+        self._looking.timeout.connect(self._on_look)
+        self._heard.connect(self._on_heard)
+        self.happened.connect(self._on_happened)
+        local.listen(self._on_message)
+
+    # What it is like
+
+    @property
+    def state(self) -> State:
+        """Whether the network is open, joined to another computer's, or neither."""
+        if self._thread is not None:
+            return "busy"
+        if self.opening is not None:
+            return "open"
+        return "joined" if self.joined is not None else "closed"
+
+    @property
+    def code(self) -> Code | None:
+        """The code that holds now."""
+        return self.opening.code if self.opening is not None else None
+
+    @property
+    def computers(self) -> tuple[Computer, ...]:
+        """The computers that are let in."""
+        return self.opening.peers if self.opening is not None else ()
+
+    @property
+    def address(self) -> str:
+        """What is typed on the other computer; with a port where it is an unusual one."""
+        if self.opening is None:
+            return ""
+        is_usual = self.opening.door_port == DOOR_PORT
+        return self.opening.host if is_usual else self.opening.door_place
+
+    @property
+    def key_path(self) -> Path:
+        """The key file of the network that this computer opens."""
+        return self._keys or key_file()
+
+    # What is asked
+
+    def open(self, address: str) -> None:
+        """Let other computers come to this one, at one of its addresses, if they know a code."""
+        self._aside(lambda: self._open(address))
+
+    def close(self) -> None:
+        """Let nobody in any more, or leave the network of another computer."""
+        self._aside(self._close)
+
+    def join(self, address: str, code: str) -> None:
+        """Take part in the network of another computer, which shows this code."""
+        self._aside(lambda: self._join(address, code))
+
+    def begin_anew(self) -> None:
+        """Start master and nodes again, so that connections of removed computers end."""
+        self._aside(lambda: self._restart(lambda: None))
+
+    def new_code(self) -> None:
+        """Make a code for one more computer."""
+        if self.opening is not None:
+            self.opening.new_code()
+            self.changed.emit()
+
+    def remove(self, computer: str) -> None:
+        """Let a computer come in no more; connections that exist stay until ``begin_anew``."""
+        if self.opening is not None:
+            try:
+                self.opening.forget(computer)
+            except NepError as error:
+                self.failed.emit(error)
+            self.changed.emit()
+
+    def end(self) -> None:
+        """Close the door, as when the window goes; the network itself is closed by others."""
+        self._is_ended = True
+        self._local.unlisten(self._on_message)
+        self._looking.stop()
+        if self._thread is not None:
+            self._thread.join()
+        self._shut_door()
+        self._give_back()
+
+    # How it is done
+
+    def _aside(self, do: Callable[[], None]) -> None:
+        if self._thread is not None or self._is_ended:
+            return
+
+        def run() -> None:
+            error: NepError | None = None
+            try:
+                do()
+            except NepError as reason:
+                error = reason
+            except Exception as reason:
+                log.exception("the network could not be opened, closed or joined")
+                error = _unexpected(reason)
+            self._thread = None
+            if not self._is_ended:
+                self.changed.emit()
+                if error is not None:
+                    self.failed.emit(error)
+
+        thread = threading.Thread(target=run, name="nep-studio-sharing", daemon=True)
+        self._thread = thread
+        self.changed.emit()
+        thread.start()
+        self._looking.start()
+
+    def _open(self, address: str) -> None:
+        if not is_ours(address):
+            raise NetworkError(
+                f"This computer is not at {address} any more.",
+                checklist=(
+                    "Is it still in the Wi-Fi, or at the cable, of the other computers?",
+                    "Choose its address of now, then open the network again.",
+                ),
+            )
+        self._leave()
+        master, door = (free_endpoint(endpoint_at(address, port)) for port in self._ports)
+        opening = Opening(
+            self.key_path,
+            title=TITLE,
+            host=address,
+            port=_port_of(master),
+            door_port=_port_of(door),
+            is_announced=self._is_announced,
+            on_event=self.happened.emit,
+        )
+
+        def prepare() -> None:
+            self._take(self.key_path, address)
+            self._local.wanted_master = opening.master
+
+        self._restart_or_go_back(prepare, opening.start)
+        self.opening = opening
+        self.refusals.clear()
+        opening.new_code()
+
+    def _join(self, address: str, code: str) -> None:
+        host, port = door_at(address)
+        path = self.key_path.with_name(f"joined {re.sub(r'[^A-Za-z0-9.]', '-', host)}.keys")
+        keys = pair(host, port, code, path)
+        self._leave()
+
+        def prepare() -> None:
+            self._take(path, os.environ.get(HOST_VARIABLE, ""))
+            self._local.joined_master = keys.master
+            self._local.name = f"{STUDIO} {socket.gethostname()}"
+
+        self._restart_or_go_back(prepare)
+        if not self._local.is_open:
+            self._local.open()
+        self.joined = keys
+
+    def _close(self) -> None:
+        was_open = self._local.is_open
+        self._leave()
+        self._restart(self._give_back, is_wanted=was_open)
+
+    def _leave(self) -> None:
+        """End what there is with other computers; the network itself is still as it was."""
+        self._shut_door()
+        self.joined = None
+
+    def _restart_or_go_back(
+        self, prepare: Callable[[], None], then: Callable[[], None] = lambda: None
+    ) -> None:
+        """Start anew in another way; when that fails as before, with what ran."""
+        was_open, nodes = self._local.is_open, self._local.running
+        try:
+            self._restart(prepare)
+            then()
+        except BaseException:
+            self._shut_door()
+            if was_open:
+                self._local.reopen(self._give_back, nodes)
+            else:
+                self._local.close()
+                self._give_back()
+            raise
+
+    def _restart(self, prepare: Callable[[], None], *, is_wanted: bool = True) -> None:
+        nodes = self._local.running
+        self.went_down.emit()
+        if is_wanted:
+            self._local.reopen(prepare, nodes)
+        else:
+            prepare()
+
+    def _take(self, keys: Path, host: str) -> None:
+        """Let this program, and all that it starts, use these keys."""
+        self._give_back()
+        wanted = {KEYS_VARIABLE: str(keys.absolute()), HOST_VARIABLE: host}
+        self._before = {name: os.environ.get(name) for name in wanted}
+        for name, value in wanted.items():
+            _set_variable(name, value)
+
+    def _give_back(self) -> None:
+        """Be as before: programs of this computer only."""
+        before, self._before = self._before or {}, None
+        for name, value in before.items():
+            _set_variable(name, value)
+        self._local.wanted_master, self._local.joined_master = self._usual_master, ""
+        self._local.name = STUDIO
+
+    def _shut_door(self) -> None:
+        opening, self.opening = self.opening, None
+        if opening is not None:
+            opening.close()
+
+    # What happens
+
+    def _on_message(self, _topic: str, message: msgspec.Struct) -> None:
+        """In a thread of the network: the master, or a node, tells whom it refused."""
+        if isinstance(message, NodeState) and message.event == "warning":
+            self._heard.emit(message.description)
+
+    def _on_look(self) -> None:
+        """Once a second: whom our own sockets refused."""
+        network = self._local.network
+        if self.state == "closed":
+            self._looking.stop()
+        elif network is not None and (told := network.take_warning()):
+            self._on_heard(told)
+
+    def _on_heard(self, told: str) -> None:
+        for refusal in refusals_in(told):
+            self._note(refusal)
+
+    def _on_happened(self, event: DoorEvent) -> None:
+        if event.kind != "paired":
+            self._note(Refusal(event.kind, event.address, time.time()))
+        self.changed.emit()
+
+    def _note(self, refusal: Refusal) -> None:
+        if self.refusals.add(refusal):
+            self.refused.emit(refusal)
+        self.changed.emit()
+
+
+def door_at(typed: str) -> tuple[str, int]:
+    """The address and port of a door, as the other computer shows them; raises PairingError."""
+    try:
+        place = urlsplit("//" + typed.strip().removeprefix("tcp://"))
+        if place.hostname:
+            return place.hostname, place.port or DOOR_PORT
+    except ValueError:
+        log.info("no address: %r", typed)
+    raise PairingError(
+        f"“{typed}” is no address.",
+        checklist=("Write it as the other computer shows it, such as 192.168.1.5.",),
+    )
+
+
+def _port_of(endpoint: str) -> int:
+    return int(endpoint.rpartition(":")[2])
+
+
+def _set_variable(name: str, value: str | None) -> None:
+    if value:
+        os.environ[name] = value
+    else:
+        os.environ.pop(name, None)
+
+
+def _unexpected(reason: Exception) -> NetworkError:
+    return NetworkError(
+        "The network could not be changed.",
+        checklist=("Try it once more.", "Start NEP Studio again."),
+        details=f"{type(reason).__name__}: {reason}",
+    )
