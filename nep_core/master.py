@@ -46,9 +46,13 @@ ANSWERS_KEPT = 300
 
 
 class Master:
-    """Serves in a thread of its own; raises PortTaken when the endpoint is in use."""
+    """Serves in a thread of its own; raises PortTaken when the endpoint is in use.
 
-    def __init__(self, endpoint: str | None = None) -> None:
+    ``is_shared``: it is there for all programs of this computer, not for one session.
+    """
+
+    def __init__(self, endpoint: str | None = None, *, is_shared: bool = False) -> None:
+        self._is_shared = is_shared
         self.epoch = uuid.uuid4().hex
         self._registry = Registry()
         self._news = News(self.epoch, self._registry, self._send)
@@ -209,6 +213,7 @@ class Master:
             pid=os.getpid(),
             registrations=[entry.registration for entry in self._registry.entries.values()],
             number=self._news.number,
+            shared=self._is_shared,
         )
 
     def _register(self, request: says.Register, address: bytes) -> says.Answer | None:

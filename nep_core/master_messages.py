@@ -114,12 +114,16 @@ class Publishers(msgspec.Struct, tag="publishers", tag_field="do", kw_only=True)
 
 
 class Listing(msgspec.Struct, tag="listing", tag_field="do", kw_only=True):
-    """The answer to List: the master's process, and everything that is registered."""
+    """The answer to List: the master's process, and everything that is registered.
+
+    ``shared``: it is there for all programs of its computer, not for one session.
+    """
 
     epoch: str
     pid: int
     registrations: list[Registration]
     number: int = 0
+    shared: bool = False
 
 
 class Found(msgspec.Struct, tag="found", tag_field="do", kw_only=True):

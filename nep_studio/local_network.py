@@ -14,12 +14,13 @@ import msgspec
 from nep_core import messages as m
 from nep_core.errors import NodeStartError
 from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.master_probe import ask_master
 from nep_core.network import Network
 from nep_core.outcome import Outcome
 from nep_core.places import log_folder
 from nep_core.pubsub import Subscriber
 from nep_core.transports import network_for, transport
-from nep_studio.own_master import MASTER, READY_S, is_up, start_master
+from nep_studio.own_master import MASTER, READY_S, is_up, shared_master, start_master
 from nep_studio.plan import PlannedNode
 from nep_studio.signals import postponed
 from nep_studio.voice import Voice
@@ -61,7 +62,9 @@ class LocalNetwork:
         self.name = STUDIO
         """What this program is called in its network."""
         self.wanted_master = master
-        """Where its own master is started; None: where there is room."""
+        """Where its own master is started; None: where there is room, unless one is shared."""
+        self.shared_master = ""
+        """The master that somebody runs for all programs of this computer, if it is that."""
         self.joined_master = ""
         """The master of another computer, which it joins instead of starting one."""
         self.master_options: Callable[[], Iterable[str]] = tuple
@@ -115,7 +118,7 @@ class LocalNetwork:
     def _open(self) -> None:
         self._stack.callback(self._master_launcher.close)
         if transport() == "p2p":  # a broker or a router serves more than one session
-            self.launcher.master = self.joined_master or self._start_master(self.wanted_master)
+            self.launcher.master = self.joined_master or self._find_master()
         network = self._stack.enter_context(network_for(self.name, master=self.launcher.master))
         self.voice = Voice(network)
         self._stack.callback(self.voice.fall_silent)
@@ -128,6 +131,10 @@ class LocalNetwork:
         self.network = network
         self.has_master = True
         self.on_open()
+
+    def _find_master(self) -> str:
+        self.shared_master = "" if self.wanted_master else shared_master(self.name)
+        return self.shared_master or self._start_master(self.wanted_master)
 
     def _start_master(self, wanted: str | None) -> str:
         return start_master(self._master_launcher, wanted, self.master_options())
@@ -213,6 +220,8 @@ class LocalNetwork:
 
     def _replace_master(self) -> None:
         """Start one where the last one was, if that is gone: all who were there come to it."""
+        if self.shared_master and ask_master(self.shared_master) is None:
+            self.shared_master, self.has_master = "", False
         if not self.has_master:
             self._start_master(self.launcher.master)
             self.has_master = True

@@ -1,13 +1,15 @@
-"""The master that a session starts for itself."""
+"""The master of a session: one that is there for all programs, or one that it starts for itself."""
 
 from __future__ import annotations
 
 import contextlib
+import os
 import socket
 import time
 from collections.abc import Iterable
 
-from nep_core.endpoints import master_endpoint
+from nep_core.cli.arguments import OWN
+from nep_core.endpoints import MASTER_VARIABLE, master_endpoint
 from nep_core.errors import NodeStartError
 from nep_core.launcher import LaunchedNode, Launcher
 from nep_core.master_probe import ask_master
@@ -17,11 +19,11 @@ from nep_studio.signals import postponed
 MASTER = "master"
 READY_S = 10.0
 TRIES = 5
+LOOK_S = 0.5
+"""How long a master may take that is there for all programs."""
 
 
-def start_master(
-    launcher: Launcher, wanted: str | None = None, options: Iterable[str] = ()
-) -> str:
+def start_master(launcher: Launcher, wanted: str | None = None, options: Iterable[str] = ()) -> str:
     """Start a master at ``wanted``, or where there is room, with these options; its endpoint.
 
     Another program may take the port at the same moment, so several are tried. Raises
@@ -30,7 +32,7 @@ def start_master(
     endpoint, lines = "", list[str]()
     for _ in range(1 if wanted else TRIES):
         endpoint = wanted or free_endpoint(master_endpoint())
-        command = program_command(MASTER, "--endpoint", endpoint, *options)
+        command = program_command(MASTER, "--endpoint", endpoint, OWN, *options)
         with postponed():
             launched = launcher.start_command(MASTER, command)
         if is_up(launched, endpoint):
@@ -42,6 +44,21 @@ def start_master(
         checklist=("Is another program using that port?", "Try again."),
         details="\n".join(lines),
     )
+
+
+def shared_master(studio: str) -> str:
+    """The endpoint of a master that somebody runs for all programs of this computer, else "".
+
+    Nor is one joined that has a session already (a program named ``studio``): two sessions at once
+    do not disturb each other.
+    """
+    endpoint = master_endpoint()
+    if free_endpoint(endpoint) == endpoint:
+        return ""
+    listing = ask_master(endpoint, timeout_s=LOOK_S)
+    if listing is None or any(told.node == studio for told in listing.registrations):
+        return ""
+    return endpoint if listing.shared or MASTER_VARIABLE in os.environ else ""
 
 
 def is_up(launched: LaunchedNode, endpoint: str) -> bool:

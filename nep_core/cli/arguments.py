@@ -6,6 +6,9 @@ import argparse
 import math
 from collections.abc import Callable
 
+OWN = "--own"
+"""Told to a master that a session starts for itself: other sessions do not join it."""
+
 MOST_SECONDS = 1e6
 """Nearly twelve days; the longest wait of some systems is not much longer."""
 

@@ -85,7 +85,7 @@ def _open(options: argparse.Namespace) -> int:
         on_event=_tell,
     )
     os.environ[KEYS_VARIABLE] = str(path)
-    master = Master(opening.master)
+    master = Master(opening.master, is_shared=True)
     try:
         opening.start()
         return serve(master, lambda: _begin(opening, path))

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING
 from nep_core import lifeline
 from nep_core.broker import Broker
 from nep_core.broker_network import BrokerNetwork
+from nep_core.cli.arguments import OWN
 from nep_core.cli.router import add_router_arguments, broker_for
+from nep_core.endpoints import NETWORK_VARIABLE
 from nep_core.errors import NetworkError
 from nep_core.io_thread import Wake
 from nep_core.master import Master
@@ -22,6 +24,7 @@ from nep_core.over_zenoh.router import ZenohRouter
 from nep_core.p2p import PeerNetwork
 from nep_core.security import KEYS_VARIABLE
 from nep_core.security.service_voice import ServiceVoice
+from nep_core.transports import transport
 
 if TYPE_CHECKING:
     from nep_core.gateway import Gateway
@@ -34,7 +37,8 @@ ORIGINAL_VARIABLE = "NEP_ORIGINAL"
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     """Say which options the command has."""
-    parser.add_argument("--endpoint", help="where, such as tcp://127.0.0.1:7100")
+    port = 7100 if name == "master" else 7110
+    parser.add_argument("--endpoint", help=f"where, such as tcp://127.0.0.1:{port}")
     parser.add_argument(
         "--keys",
         type=Path,
@@ -48,6 +52,7 @@ def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
             default=os.environ.get(ORIGINAL_VARIABLE) != "0",
             help="let programs of the original NEP on this computer join (ports 7000 and 50000)",
         )
+        parser.add_argument(OWN, action="store_true", help=argparse.SUPPRESS)
     else:
         add_router_arguments(parser)
 
@@ -55,10 +60,12 @@ def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve until stopped."""
     is_master = options.command == "master"
+    if is_master:
+        _require_p2p()
     endpoint = options.endpoint or (options.master if is_master else None)
     if options.keys is not None:
         os.environ[KEYS_VARIABLE] = str(options.keys.absolute())
-    service = Master(endpoint) if is_master else broker_for(options)
+    service = Master(endpoint, is_shared=not options.own) if is_master else broker_for(options)
     name = "zenoh router" if isinstance(service, ZenohRouter) else f"NEP {options.command}"
     gateway = _gateway(service.endpoint) if is_master and options.original else None
     try:
@@ -72,6 +79,19 @@ def run(options: argparse.Namespace) -> int:
         )
     finally:
         service.close()
+
+
+def _require_p2p() -> None:
+    """Raise NetworkError when programs that are started here would not ask a master."""
+    if (kind := transport()) != "p2p":
+        service = "nep broker" if kind == "broker" else "nep broker --zenoh"
+        raise NetworkError(
+            f"{NETWORK_VARIABLE} is {kind}: programs of that network ask no NEP master.",
+            checklist=(
+                f"Run the service of that network: {service}",
+                f"Or take the variable {NETWORK_VARIABLE} away, here and for all programs.",
+            ),
+        )
 
 
 def serve(

@@ -37,6 +37,10 @@ class Printer:
             if node.reason:
                 self._tell(f"   added  {node.name} ({node.node}): {node.reason}")
 
+    def joined(self, master: str) -> None:
+        """Say that the project takes part in a network that was there before."""
+        self._tell(f"   joined the network of the NEP master at {master}")
+
     def hear(self, topic: str, message: msgspec.Struct) -> None:
         """Print a message; safe from any thread."""
         with self._lock:

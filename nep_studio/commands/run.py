@@ -79,6 +79,8 @@ def _play(code: Code, nodes: list[PlannedNode], printer: Printer, most_s: float 
         session = Session(program, nodes, hear)
         try:
             with session:
+                if session.network.shared_master:
+                    printer.joined(session.network.shared_master)
                 ending = session.wait(most_s)
         except KeyboardInterrupt:
             ending = Ending()
