@@ -48,7 +48,7 @@ class Broker:
             self._security.take_warning() if self._security else "",
             self._master.take_warning(),
         )
-        return " ".join(filter(None, told))
+        return " ".join(dict.fromkeys(filter(None, told)))
 
     def close(self) -> None:
         """Stop passing messages on."""

@@ -17,6 +17,8 @@ def default_network() -> Network:
     global _network
     with _lock:
         if _network is None or _network.closed:
+            if _network is not None:
+                atexit.unregister(_network.close)
             _network = network_for()
             atexit.register(_network.close)
         return _network

@@ -108,6 +108,8 @@ def find(
             news.wait(min(left_s, 0.2))
             news.clear()
             for name in [name for name in names if name not in found]:
+                if time.monotonic() > end_s:
+                    break
                 info = zeroconf.get_service_info(SERVICE, name, timeout=300)
                 if info is not None and (one := _found_of(info)) is not None:
                     found[name] = one

@@ -11,7 +11,7 @@ header has a sixth value, how many messages were sent so far; without a payload 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 
@@ -22,6 +22,8 @@ Sendable = msgspec.Struct | dict[str, Any] | list[Any] | str | bytes
 
 NUL = b"\0"
 RUN_CHARACTERS = 8
+MOST = 2**63 - 1
+"""The largest number in a header: files and other languages count with 64 bits."""
 JSON_HEAD = slice(-18, -10)
 JSON_MARK = b'"json","'
 """head[JSON_HEAD] == JSON_MARK in a frame of JSON: what is frequent is found without decoding."""
@@ -35,11 +37,11 @@ class Header(msgspec.Struct, array_like=True):
     """
 
     node: str
-    sequence: int
-    time_ns: int
+    sequence: Annotated[int, msgspec.Meta(ge=0, le=MOST)]
+    time_ns: Annotated[int, msgspec.Meta(ge=0, le=MOST)]
     encoding: Encoding = "json"
     run: str = ""
-    sent: int | None = None
+    sent: Annotated[int, msgspec.Meta(ge=0, le=MOST)] | None = None
 
 
 to_json = msgspec.json.Encoder().encode
@@ -152,3 +154,8 @@ def decoders(kind: type[Any] | None) -> dict[Encoding, Decode]:
         ways["text"] = bytes.decode
         ways["bytes"] = bytes
     return ways
+
+
+def lines_decoder(kind: type[Any] | None) -> Callable[[bytes], list[Any]]:
+    """How to decode JSON lines into a list of ``kind``; it raises what ``decoders`` raise."""
+    return msgspec.json.Decoder(Any if kind is None else kind).decode_lines

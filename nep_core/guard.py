@@ -37,8 +37,12 @@ def main(words: list[str]) -> int:
         signal.signal(number, lambda number, _frame: _pass_on(child, number))
     stopped = threading.Event()
     lifeline.on_parent_end(stopped.set)
-    threading.Thread(target=_end_when, args=(stopped, child), daemon=True).start()
-    return _ended_like(child.wait())
+    ending = threading.Thread(target=_end_when, args=(stopped, child), daemon=True)
+    ending.start()
+    code = child.wait()
+    if stopped.is_set():
+        ending.join()  # else what the node started would outlive us
+    return _ended_like(code)
 
 
 def _start(words: list[str]) -> subprocess.Popen[bytes]:

@@ -125,6 +125,11 @@ class Hearers:
                 with self._lock:
                     self._send_privately(topic, subscriber, self.mark(topic))
 
+    def abandon(self, send: SendFrame) -> None:
+        """In the child of a fork: ``send`` gets what its streams send, nobody holds a lock."""
+        for stream in self._streams.values():
+            stream.abandon(send)
+
     def flush(self) -> None:
         """Send all that waits."""
         for stream in list(self._streams.values()):

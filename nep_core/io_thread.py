@@ -61,6 +61,7 @@ class IoThread:
         self._wake = Wake()
         self._poller = zmq.Poller()
         self._poller.register(self._wake.fileno(), zmq.POLLIN)
+        self._lock = threading.Lock()
         self._tending: list[Callable[[], None]] = []
         self._hurry_until_s = 0.0
         self._stopping = threading.Event()
@@ -76,11 +77,13 @@ class IoThread:
 
     def tend(self, function: Callable[[], None]) -> None:
         """Call ``function`` again and again from this thread."""
-        self._tending = [*self._tending, function]
+        with self._lock:
+            self._tending = [*self._tending, function]
 
     def forget(self, function: Callable[[], None]) -> None:
         """Stop calling ``function``."""
-        self._tending = [kept for kept in self._tending if kept != function]
+        with self._lock:
+            self._tending = [kept for kept in self._tending if kept != function]
 
     def wake(self) -> None:
         """Tend at once."""

@@ -52,8 +52,12 @@ class LaunchedNode:
         """Take note of what a node of its name told."""
         if not self.ready.is_set() and state.event in AT_WORK and self.owns(state.pid):
             self.ready.set()
-        elif state.event == "stopped" and state.pid == self.pid:
+        elif state.event == "stopped" and self.owns(state.pid):
             self.said_end.set()
+
+    def was_ended(self, outcome: Outcome) -> bool:
+        """Whether it was killed on purpose: ``nep kill --force`` tells so before it does it."""
+        return outcome.code < 0 and self.said_end.is_set()
 
     def has_said_end(self, outcome: Outcome) -> bool:
         """Whether the node itself told that it stopped; waits a moment for its last message."""

@@ -95,9 +95,7 @@ class Launcher:
         self.hear()
         manifest = self.catalog.find(node)
         name = name or manifest.name
-        given = dict(parameters or {})
-        manifest.read_parameters(given)  # a wrong one is told here, not in the node's log
-        settings = [f"{key}={value}" for key, value in given.items()]
+        settings = _settings(manifest.read_parameters(dict(parameters or {})))
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
@@ -187,6 +185,8 @@ class Launcher:
         )
 
     def _ended(self, launched: LaunchedNode, outcome: Outcome) -> None:
+        if launched.was_ended(outcome):
+            outcome = replace(outcome, asked=True)
         again = launched.deserves_another(outcome)
         self._tell_end(launched, outcome, again)
         if again:
@@ -222,6 +222,15 @@ class Launcher:
         launched = self.nodes.get(state.node)
         if launched is not None:
             launched.hear(state)
+
+
+def _settings(parameters: Mapping[str, Value]) -> list[str]:
+    """As words that every language reads: no True and False of Python."""
+    words = {True: "true", False: "false"}
+    return [
+        f"{name}={words[value] if isinstance(value, bool) else value}"
+        for name, value in parameters.items()
+    ]
 
 
 def _guarded(command: list[str]) -> list[str]:

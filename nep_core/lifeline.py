@@ -20,6 +20,7 @@ VARIABLE = "NEP_LIFELINE"
 """Set by the launcher: standard input is a life line."""
 
 GRACE_S = 2.0
+LATEST_S = 10
 ORPHANED = 70
 PR_SET_PDEATHSIG = 1
 
@@ -45,6 +46,8 @@ def on_parent_end(stop: Callable[[], None]) -> bool:
         # Raw reads: a buffered reader here aborts the interpreter when it shuts down.
         while os.read(line, 1):
             pass
+        if sys.platform == "linux":
+            _put_off_alarm()
         gone.set()
         stop()
         time.sleep(GRACE_S)
@@ -74,6 +77,18 @@ def _set_alarm_for_parent_end() -> None:
     system.signal.argtypes, system.signal.restype = (ctypes.c_int, ctypes.c_void_p), ctypes.c_void_p
     system.signal(signal.SIGQUIT, ctypes.cast(system.alarm, ctypes.c_void_p))
     system.prctl(PR_SET_PDEATHSIG, signal.SIGQUIT)
+
+
+def _put_off_alarm() -> None:
+    """Python runs, and ends this process by itself: give it time, should the computer be busy.
+
+    The life line ends a moment before the system sends its SIGQUIT, which is ignored from now on.
+    """
+    import ctypes
+
+    ignored = ctypes.c_void_p(1)  # SIG_IGN; Python's own call is for the main thread only
+    ctypes.CDLL(None).signal(signal.SIGQUIT, ignored)
+    signal.alarm(LATEST_S)
 
 
 def _end_all_when(gone: threading.Event) -> None:

@@ -11,6 +11,7 @@ import uuid
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any, Literal, Protocol, Self
+from weakref import WeakSet
 
 from nep_core.errors import NetworkError
 from nep_core.frames import Encoding
@@ -39,6 +40,9 @@ class Sending(Protocol):
     def tend(self) -> None:
         """Note who hears, and send what waits (the I/O thread)."""
 
+    def abandon(self, send: Callable[[bytes], object]) -> None:
+        """In the child of a fork: ``send`` gets the frames."""
+
     def close(self) -> None:
         """Send what waits (half a second at most) and close."""
 
@@ -64,6 +68,9 @@ class Receiving(Protocol):
     def interrupt(self) -> None:
         """Make take() return None from now on; safe in a signal handler."""
 
+    def abandon(self) -> None:
+        """In the child of a fork: nothing comes here any more."""
+
     def close(self) -> None:
         """End, also for a thread that waits in take()."""
 
@@ -87,6 +94,7 @@ class Network(ABC):
         self._shared_lock = threading.RLock()
         self._inboxes: dict[str, Any] = {}
         self._shared: dict[str, Any] = {}
+        _networks.add(self)
 
     @abstractmethod
     def add_publisher(self, topic: str) -> set[str]:
@@ -146,13 +154,29 @@ class Network(ABC):
             if self.closed:
                 return
             self.closed = True
-            subscribers = list(self._inboxes)
-        for subscriber in subscribers:
-            self.remove_subscriber(subscriber)
+            inboxes, self._inboxes = self._inboxes, {}
+        for inbox in inboxes.values():
+            inbox.interrupt()  # all of them first, so that no close() waits for a reader
+        for inbox in inboxes.values():
+            inbox.close()
         self.io.close()
         self._leave()
         self.outbox.close()
         self._end()
+
+    def _abandon(self) -> None:
+        """In the child of a fork there is no I/O thread: what is sent would vanish."""
+        self.closed = True
+        self._lock, self._shared_lock = threading.RLock(), threading.RLock()
+        self.outbox.abandon(self._refuse)
+        for inbox in self._inboxes.values():
+            inbox.abandon()
+
+    def _refuse(self, _frame: bytes) -> None:
+        raise NetworkError(
+            f"The network of {self.node} belongs to the process that this one was forked from.",
+            checklist=("Make publishers, subscribers and nodes in the process that uses them.",),
+        )
 
     def _leave(self) -> None:  # noqa: B027  not every network has somebody to tell
         """Say good-bye to whoever keeps a list; the I/O thread has ended."""
@@ -165,3 +189,15 @@ class Network(ABC):
 
     def __exit__(self, *_error: object) -> None:
         self.close()
+
+
+_networks: WeakSet[Network] = WeakSet()
+
+
+def _abandon_all() -> None:
+    for network in list(_networks):
+        network._abandon()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_abandon_all)

@@ -10,12 +10,16 @@ import signal
 import socket
 import time
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from dataclasses import dataclass
+from typing import Any, TypeVar, get_args
+from weakref import ref
 
+from nep_core.errors import ParameterError
 from nep_core.frames import Encoding
 from nep_core.io_thread import Wake
 from nep_core.messages import NODE_STATE, NodeEvent, NodeState, NodeType
 from nep_core.network import Network, Policy
+from nep_core.node_name import check_node_name
 from nep_core.pubsub import Publisher, Subscriber
 from nep_core.transports import network_for
 
@@ -24,6 +28,8 @@ log = logging.getLogger(__name__)
 T = TypeVar("T")
 
 HEARTBEAT_S = 1.0
+LONGEST_WAIT_S = 1e9
+"""Thirty years: no system waits longer at once."""
 MEASURES_S = 0.5
 """Measures alone are sent no more often than this."""
 QUIET_BEATS = 5
@@ -33,24 +39,36 @@ STOP_SIGNALS = tuple(
 )
 
 
+@dataclass(eq=False)
+class _Listening:
+    """A subscriber, as long as the node keeps it, and how many messages it had lost so far."""
+
+    subscriber: ref[Subscriber[Any]]
+    lost: int = 0
+
+    def lost_since(self, lost: int) -> int:
+        """How many it lost since the last time, by what it has lost now."""
+        before, self.lost = self.lost, lost
+        return lost - before
+
+
 class Node:
-    """A node in this process; raises MasterNotFound or NameTaken when it cannot join.
+    """A node in this process; raises MasterNotFound, NameTaken or ParameterError if it cannot join.
 
     Its states go out on ``/node_state``, with a heartbeat once a second. Use it in a ``with``
     statement: leaving it tells "stopped", or "crashed" with the error's sentence.
     """
 
     def __init__(self, name: str, type: NodeType, *, network: Network | None = None) -> None:
-        self.name = name
-        self.type = type
+        self.name = check_node_name(name)
+        self.type = _check(type, NodeType, "type")
         self.network = network or network_for(name)
         self.was_asked = False
         """Whether it stops because somebody in the network asked it to."""
         self._stopping = False
         self._stopped = Wake()  # an Event could deadlock in a signal handler
         self._host = socket.gethostname()
-        self._subscribers: list[Subscriber[Any]] = []
-        self._lost: dict[str, int] = {}
+        self._listening: list[_Listening] = []
         self._beats_since_loss = QUIET_BEATS
         self._well_again = ""
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
@@ -87,7 +105,7 @@ class Node:
     ) -> Subscriber[T]:
         """A subscriber of this node; its waits end when the node stops."""
         subscriber = Subscriber(topic, kind, network=self.network, callback=callback, policy=policy)
-        self._subscribers.append(subscriber)
+        self._listening.append(_Listening(ref(subscriber)))
         return subscriber
 
     def state(
@@ -104,7 +122,7 @@ class Node:
         """
         if measures is not None and (event == "alive" or self._told == (event, description)):
             return self._measure(measures)
-        self._told = (event, description)
+        self._told = (_check(event, NodeEvent, "state"), description)
         self._states.send(self._state(event, description, measures))
         return True
 
@@ -120,7 +138,7 @@ class Node:
     def wait(self, seconds: float) -> bool:
         """Wait so long; True at once when the node is asked to stop."""
         if not self._stopping:
-            select.select([self._stopped], [], [], max(0.0, seconds))
+            select.select([self._stopped], [], [], max(0.0, min(seconds, LONGEST_WAIT_S)))
         return self._stopping
 
     def stop(self) -> None:
@@ -179,7 +197,7 @@ class Node:
             node=self.name,
             type=self.type,
             event=event,
-            description=description,
+            description=str(description),
             measures={name: value for name, value in (measures or {}).items() if _is_number(value)},
             pid=os.getpid(),
             host=self._host,
@@ -198,19 +216,30 @@ class Node:
     def _look_for_losses(self) -> None:
         """Warn when more messages came than the node could take, and say when that is over."""
         lost: dict[str, int] = {}
-        for subscriber in self._subscribers:
-            lost[subscriber.topic] = lost.get(subscriber.topic, 0) + subscriber.lost
-        news = {topic: n - self._lost.get(topic, 0) for topic, n in lost.items()}
-        self._lost = lost
-        if topics := [topic for topic, count in news.items() if count > 0]:
+        for one in list(self._listening):
+            if (subscriber := one.subscriber()) is None:
+                self._listening.remove(one)
+            elif count := one.lost_since(subscriber.lost):
+                lost[subscriber.topic] = lost.get(subscriber.topic, 0) + count
+        if lost:
             self._beats_since_loss, self._well_again = 0, "It keeps up again."
-            count = sum(news[topic] for topic in topics)
-            told = f"Messages of {', '.join(topics)} were lost: {count}. It could not keep up."
+            count = sum(lost.values())
+            told = f"Messages of {', '.join(lost)} were lost: {count}. It could not keep up."
             self.state("warning", told)
         elif self._beats_since_loss < QUIET_BEATS:
             self._beats_since_loss += 1
             if self._beats_since_loss == QUIET_BEATS:
                 self.state("running", self._well_again)
+
+
+def _check(word: T, known: Any, what: str) -> T:
+    """Give back one of the words that others know; raises ParameterError."""
+    words = get_args(known)
+    if word not in words:
+        raise ParameterError(
+            f"{word!r} is no {what} of a node.", checklist=(f"Use one of: {', '.join(words)}.",)
+        )
+    return word
 
 
 def _is_number(value: float) -> bool:

@@ -74,6 +74,7 @@ class Outbox:
         self.stream: Callable[[str, Encoding | None], Stream] = self._hearers.stream
         self.subscribers = self._hearers.subscribers
         self.wait_for = self._hearers.wait_for
+        self.abandon = self._hearers.abandon
 
     def bind(self, endpoint: str) -> str:
         """Bind to ``endpoint``, say where; raises PortTaken."""

@@ -16,11 +16,13 @@ from nep_core.frames import (
     JSON_HEAD,
     JSON_MARK,
     NUL,
+    Decode,
     Encoding,
     Header,
     Sendable,
     check_topic,
     decoders,
+    lines_decoder,
     read_header,
 )
 from nep_core.messages import LATCHED
@@ -68,6 +70,7 @@ class Publisher:
     def send(self, message: Sendable, *, latch: bool = True) -> None:
         """Send a struct, dictionary, text or bytes; raises BadMessage.
 
+        JSON has no NaN and no infinity: they arrive as null (None); encoding="msgpack" has them.
         ``latch=False`` keeps the message of a latched topic that later subscribers get.
         """
         self._send(message, latch and self._latched)
@@ -92,7 +95,8 @@ class Subscriber(Generic[T]):
 
     ``kind``: the struct that messages are read into (default: what JSON gives). ``callback``:
     called with each message, in a thread of its own. A message that is not of that kind is
-    skipped with a warning that names the key. Only one thread may receive at a time.
+    skipped with a warning that names the key, and so is null, which would look like no message.
+    Only one thread may receive at a time.
 
     ``policy``: what is kept while nobody receives. "events" (the default): up to 10,000 frames,
     or 64 MB; then the oldest are dropped, and counted in ``lost``. "state": the newest message
@@ -116,8 +120,9 @@ class Subscriber(Generic[T]):
         self._head = b""
         self._keeps_newest = policy == "state"
         self._decoders = decoders(kind)
-        self._decode = self._from_json = self._decoders["json"]
-        self._payloads: deque[bytes] = deque()
+        self._from_json = self._decoders["json"]
+        self._from_lines = lines_decoder(kind)
+        self._waiting: deque[T] = deque()
         self._id, self._inbox = self.network.open_inbox(topic, policy or "events")
         try:
             known = self.network.add_subscriber(topic, self._id, self._inbox)
@@ -151,23 +156,23 @@ class Subscriber(Generic[T]):
     def receive(self, timeout_s: float | None = None) -> T | None:
         """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
         while True:
-            if self._payloads:
-                payload = self._payloads.popleft()
-            else:
-                frame = self._inbox.take(timeout_s)
-                if frame is None:
-                    return None
-                parts = frame.split(NUL)
-                if len(parts) == 3 and parts[1][JSON_HEAD] == JSON_MARK:
-                    _, self._head, payload = parts
-                    self._decode = self._from_json
-                else:
-                    self._unpack(parts)
-                    continue
-            try:
-                return self._decode(payload)  # type: ignore[no-any-return]
-            except (msgspec.MsgspecError, UnicodeDecodeError) as error:
-                log.warning("%s: a message of %s: %s", self.topic, self._sender(), error)
+            if self._waiting:
+                return self._waiting.popleft()
+            frame = self._inbox.take(timeout_s)
+            if frame is None:
+                return None
+            parts = frame.split(NUL, 2)
+            decode: Decode | None
+            if len(parts) == 3 and parts[1][JSON_HEAD] == JSON_MARK:
+                self._head = parts[1]
+                decode = self._from_json
+            elif (decode := self._decoder_of(parts)) is None:
+                continue
+            payload = parts[2]
+            if decode is self._from_json and NUL in payload:
+                self._take_in(payload)
+            elif (message := self._read(decode, payload)) is not None:
+                return message
 
     def pending(self) -> list[T]:
         """All that has arrived, without waiting."""
@@ -192,25 +197,45 @@ class Subscriber(Generic[T]):
     def _wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
         return self._inbox.wait_for(instances, count, timeout_s)
 
-    def _unpack(self, parts: list[bytes]) -> None:
-        """Take in a frame of several messages, or of another encoding; skip what cannot be read."""
+    def _decoder_of(self, parts: list[bytes]) -> Decode | None:
+        """How to decode a frame that begins in an unusual way; None: it cannot be read."""
         if len(parts) < 3:
             log.warning("%s: a frame has no header: its sender does not speak NEP", self.topic)
-            return
+            return None
         try:
             self._header, self._head = read_header(parts[1]), b""
         except BadMessage as error:
             log.warning("%s: %s", self.topic, error)
-            return
+            return None
         decode = self._decoders.get(self._header.encoding)
         if decode is None:
             log.warning("%s: a message of %s is not JSON", self.topic, self._sender())
-            return
-        self._decode = decode
-        if self._header.encoding != "json":
-            self._payloads.append(NUL.join(parts[2:]))
-        else:
-            self._payloads.extend(parts[-1:] if self._keeps_newest else parts[2:])
+        return decode
+
+    def _take_in(self, payloads: bytes) -> None:
+        """Decode several messages at once, which is faster, or else one by one."""
+        if self._keeps_newest:
+            payloads = payloads.rpartition(NUL)[2]
+        try:
+            messages = self._from_lines(payloads.replace(NUL, b"\n"))
+        except (msgspec.MsgspecError, UnicodeDecodeError):
+            messages = [None]
+        there = [message for message in messages if message is not None]
+        if len(there) < len(messages):
+            one_by_one = (self._read(self._from_json, one) for one in payloads.split(NUL))
+            there = [message for message in one_by_one if message is not None]
+        self._waiting.extend(there)
+
+    def _read(self, decode: Decode, payload: bytes) -> T | None:
+        """One message; None, with a warning, when it cannot be read or is null."""
+        try:
+            message: T | None = decode(payload)
+        except (msgspec.MsgspecError, UnicodeDecodeError) as error:
+            log.warning("%s: a message of %s: %s", self.topic, self._sender(), error)
+            return None
+        if message is None:
+            log.warning("%s: a message of %s is null: it is skipped", self.topic, self._sender())
+        return message
 
     def _sender(self) -> str:
         return header.node if (header := self.header) else "somebody"
@@ -222,5 +247,8 @@ class Subscriber(Generic[T]):
                     callback(message)
                 except Exception:
                     log.exception("%s: the callback failed", self.topic)
+                except SystemExit:
+                    log.warning("%s: the callback ended itself, and hears no more", self.topic)
+                    self.close()  # else it would look as if it heard
 
         threading.Thread(target=run, name=f"nep-hear-{self.topic}", daemon=True).start()

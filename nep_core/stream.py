@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 
 from nep_core import frames
@@ -32,6 +33,8 @@ MILLISECOND_BITS = 20
 """Nanoseconds without their last 20 bits count windows of about a millisecond."""
 SHARED_FRAME_BYTES = 16_000
 """Messages share a frame up to here; times the high-water mark: what may wait for a subscriber."""
+HELD_S = 1.0
+"""Nobody holds the lock so long, but who waits for us: a signal's handler has interrupted it."""
 
 
 class Stream:
@@ -68,10 +71,12 @@ class Stream:
         self._waiting: list[bytes] = []
         self._room_bytes = SHARED_FRAME_BYTES
         self._waiting_since_ns = 0
+        self._late: deque[tuple[bytes, Encoding, bool]] = deque()
 
     def send(self, message: Sendable, latch: bool = False) -> None:
         """Send ``message``; with ``latch``, subscribers that join later get it too.
 
+        In a signal's handler that interrupts another sending it goes out a little later.
         Written flat: each call here costs as much as encoding the message.
         """
         if latch or not self._is_json or isinstance(message, (str, bytes)):
@@ -81,7 +86,10 @@ class Stream:
             payload = to_json(message)
         except CANNOT_ENCODE as error:
             raise not_encodable("json", error) from error
-        with self._lock:
+        if not self._lock.acquire(True, HELD_S):
+            self._send_later(payload, "json", latch)
+            return
+        try:
             if not self._waiting:
                 now_ns = _now_ns()
                 if now_ns >> MILLISECOND_BITS != self._window:
@@ -98,12 +106,22 @@ class Stream:
             self._room_bytes -= len(payload)
             if self._room_bytes <= 0:
                 self._flush()
+        finally:
+            self._lock.release()
 
     def flush(self, older_than_ns: int = 0) -> None:
         """Send what waits, if it has waited for so long."""
-        if self._waiting and _now_ns() - self._waiting_since_ns >= older_than_ns:
-            with self._lock:
-                self._flush()
+        if self._waiting:
+            waited_ns = _now_ns() - self._waiting_since_ns
+            if waited_ns >= older_than_ns or waited_ns < 0:  # the clock may be set back
+                with self._lock:
+                    self._flush()
+        while self._late:
+            self._send_payload(*self._late.popleft())
+
+    def abandon(self, send: Callable[[bytes], object]) -> None:
+        """From now on ``send`` gets the frames, and whoever held the lock is not there any more."""
+        self._send_frame, self._lock = send, threading.Lock()
 
     def welcome(self) -> bytes:
         """The notice for a newcomer: what is latched, how many were sent; call under the lock."""
@@ -115,8 +133,13 @@ class Stream:
 
     def _send_alone(self, message: Sendable, latch: bool) -> None:
         encoding = self.encoding or natural_encoding(message)
-        payload = encode(message, encoding)
-        with self._lock:
+        self._send_payload(encode(message, encoding), encoding, latch)
+
+    def _send_payload(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
+        if not self._lock.acquire(True, HELD_S):
+            self._send_later(payload, encoding, latch)
+            return
+        try:
             self._flush()
             self.sent += 1
             frame = join(
@@ -125,6 +148,12 @@ class Stream:
             if latch:
                 self._latched = frame
             self._send_frame(frame)
+        finally:
+            self._lock.release()
+
+    def _send_later(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
+        self._late.append((payload, encoding, latch))
+        self._hurry()  # the I/O thread sends it
 
     def _begin_to_wait(self, now_ns: int) -> None:
         self._room_bytes = SHARED_FRAME_BYTES

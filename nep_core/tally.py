@@ -5,7 +5,7 @@ from __future__ import annotations
 from nep_core.frames import Header
 
 MOST_PUBLISHERS = 1_000
-"""Starts of publishers that are remembered: a topic may live for weeks."""
+"""Starts of publishers that are remembered, those heard last: a topic may live for weeks."""
 
 
 class Tally:
@@ -14,11 +14,16 @@ class Tally:
     def __init__(self) -> None:
         self.lost = 0
         self._known: dict[tuple[str, str], list[int]] = {}
-        """By node and run: the number of the first message received, and of the last one sent."""
+        """By node and run: the numbers of the first message received and the last one sent, and
+        at which note of ours it was heard last."""
+        self._notes = 0
 
     def note(self, header: Header, messages: int) -> bool:
         """Count a frame with so many messages; whether they are new to the subscriber."""
         known = self._known.get((header.node, header.run))
+        self._notes += 1
+        if known is not None:
+            known[2] = self._notes
         if header.sent is not None:
             return self._note_notice(header, messages, known)
         last = header.sequence + messages - 1
@@ -45,5 +50,5 @@ class Tally:
 
     def _remember(self, header: Header, first: int, last: int) -> None:
         if len(self._known) >= MOST_PUBLISHERS:
-            del self._known[next(iter(self._known))]
-        self._known[header.node, header.run] = [first, last]
+            del self._known[min(self._known, key=lambda start: self._known[start][2])]
+        self._known[header.node, header.run] = [first, last, self._notes]

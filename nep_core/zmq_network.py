@@ -6,15 +6,20 @@ where; BrokerNetwork (broker_network.py) has a central service.
 
 from __future__ import annotations
 
+import os
 from typing import Any, Literal
 
 import zmq
 
 from nep_core import security
 from nep_core.endpoints import check_endpoint
+from nep_core.errors import NetworkError
 from nep_core.inbox import WAKE_ENDPOINT, Inbox
 from nep_core.network import Network, Policy
 from nep_core.outbox import HIGH_WATER_MARK, Outbox
+
+MOST_SOCKETS = 16_000
+"""ZeroMQ's own limit, 1,023, is less than the topics of a large robot."""
 
 
 class ZmqNetwork(Network):
@@ -32,6 +37,7 @@ class ZmqNetwork(Network):
         super().__init__(node)
         self._high_water_mark = high_water_mark
         self.context: zmq.Context[zmq.Socket[bytes]] = zmq.Context(io_threads=1)
+        self.context.set(zmq.MAX_SOCKETS, MOST_SOCKETS)  # each subscriber has one
         self.security = security.from_environment(self.context)
         self._waker = self.context.socket(zmq.PUB)
         self._waker.bind(WAKE_ENDPOINT)
@@ -46,18 +52,29 @@ class ZmqNetwork(Network):
         )
         self.io.watch(self.outbox.file_number)
         self.io.tend(self.outbox.tend)
+        self.io.tend(self._let_go)
 
     def _make_inbox(self, topic: str, subscriber: str, policy: Policy) -> Inbox:
-        return Inbox(
-            self.context,
-            topic,
-            subscriber,
-            policy,
-            wake=self.io.wake,
-            waker=self._waker,
-            high_water_mark=self._high_water_mark,
-            security=self.security,
-        )
+        try:
+            return Inbox(
+                self.context,
+                topic,
+                subscriber,
+                policy,
+                wake=self.io.wake,
+                waker=self._waker,
+                high_water_mark=self._high_water_mark,
+                security=self.security,
+            )
+        except zmq.ZMQError as error:
+            raise NetworkError(
+                f"{topic} cannot be heard too: {os.strerror(error.errno or 0).lower()}.",
+                checklist=("Allow more open files before you start it: ulimit -n 8192",),
+            ) from error
+
+    def _let_go(self) -> None:
+        """Give back the inboxes that were closed: they end only when the waker looks up."""
+        self._waker.getsockopt(zmq.EVENTS)
 
     def take_warning(self) -> str:
         """Who was refused since the last time, and what to do."""

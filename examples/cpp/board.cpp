@@ -29,8 +29,8 @@ struct Sensor {
 };
 
 void work(nep::Node& node) {
-    const double rate_hz = node.setting("rate_hz", 50.0);
-    const Sensor sensor{node.setting("shaken_every_s", 5.0)};
+    const double rate_hz = node.number("rate_hz");
+    const Sensor sensor{node.number("shaken_every_s")};
     auto& imu = node.publisher("/imu");
     node.ready("an inertial sensor with " + std::to_string(int(rate_hz)) + " samples a second");
     const auto start = nep::Clock::now();

@@ -34,15 +34,15 @@ class Node {
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
-    // A setting: text, or a number.
-    std::string setting(const std::string& name, const std::string& otherwise) const {
+    // A setting: the launcher gives all of the manifest.
+    std::string setting(const std::string& name) const {
         const auto found = settings_.find(name);
-        return found == settings_.end() ? otherwise : found->second;
+        if (found != settings_.end()) return found->second;
+        throw Error("The setting " + name + " is missing.", {"Write it, as in " + name + "=5."});
     }
 
-    double setting(const std::string& name, double otherwise) const {
-        const std::string text = setting(name, std::string());
-        if (text.empty()) return otherwise;
+    double number(const std::string& name) const {
+        const std::string text = setting(name);
         try {
             return std::stod(text);
         } catch (const std::logic_error&) {

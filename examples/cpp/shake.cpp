@@ -32,7 +32,7 @@ class Shaking {
 };
 
 void work(nep::Node& node) {
-    Shaking shaking(node.setting("strength_m_s2", 3.0));
+    Shaking shaking(node.number("strength_m_s2"));
     auto& behavior = node.publisher("/human_behavior");
     node.subscribe("/imu", [&](const nep::json& imu) {
         const nep::json& rows = imu.at("acc");

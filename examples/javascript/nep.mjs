@@ -216,11 +216,11 @@ export class Node {
     this.#stop.abort()
   }
 
-  // A setting that is a number.
-  number(name, otherwise) {
-    const number = Number(this.settings[name] ?? otherwise)
+  // A setting that is a number: the launcher gives all settings of the manifest.
+  number(name) {
+    const number = Number(this.settings[name])
     if (Number.isFinite(number)) return number
-    throw new NepError(`The setting ${name} is no number: ${this.settings[name]}.`, [
+    throw new NepError(`The setting ${name} is no number: ${this.settings[name] ?? 'missing'}.`, [
       `Write a number, such as ${name}=0.5.`
     ])
   }

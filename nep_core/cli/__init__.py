@@ -45,6 +45,9 @@ GROUPS = {
 }
 """How the list of commands is ordered; one that is nowhere here comes last."""
 
+ASK_NO_MASTER = ("master", "broker", "open", "pair", "find", "computers")
+"""Commands that take --master, as all do, but have no use for it."""
+
 WRONG_USE = 2
 
 
@@ -62,6 +65,7 @@ class Parser(argparse.ArgumentParser):
 
 def main(arguments: list[str] | None = None) -> int:
     """The command ``nep``; the exit code. A closed pipe and Ctrl-C end it quietly."""
+    _open_what_is_closed()
     _speak_utf8()
     try:
         try:
@@ -76,12 +80,13 @@ def main(arguments: list[str] | None = None) -> int:
 def _main(arguments: list[str] | None) -> int:
     parser = Parser(prog="nep", add_help=False)
     parser.add_argument("--help", "-h", action="store_true")
+    parser.add_argument("--version", action="store_true")
     parser.add_argument("--master")
     parser.add_argument("command", nargs="?")
     parser.add_argument("rest", nargs=argparse.REMAINDER)
     given = parser.parse_args(arguments)
     if given.command is None:
-        print(overview())
+        print(f"nep {_version()}" if given.version else overview())
         return 0
     if given.command not in COMMANDS:
         meant = near(given.command, COMMANDS)[:1]
@@ -90,6 +95,15 @@ def _main(arguments: list[str] | None) -> int:
         return WRONG_USE
     words = ["--help"] if given.help else given.rest
     return run_command(parse(given.command, words, given.master))
+
+
+def _version() -> str:
+    from importlib import metadata  # here: commands start fast
+
+    try:
+        return metadata.version("nep-studio")
+    except metadata.PackageNotFoundError:  # run from a folder that was not installed
+        return "of unknown version"
 
 
 def overview() -> str:
@@ -120,7 +134,9 @@ def parser_of(command: str) -> Parser:
         "--master",
         default=argparse.SUPPRESS,
         metavar="ENDPOINT",
-        help="where the master is (default: NEP_MASTER, else tcp://127.0.0.1:7100)",
+        help=argparse.SUPPRESS
+        if command in ASK_NO_MASTER
+        else "where the master is (default: NEP_MASTER, else tcp://127.0.0.1:7100)",
     )
     parser.set_defaults(command=command)
     return parser
@@ -178,6 +194,15 @@ def _explain_mistake(error: Exception) -> str:
         f"Something went wrong inside the command ({type(error).__name__}: {error}).\n"
         f"{kept}; please send them to the authors of NEP Studio."
     )
+
+
+def _open_what_is_closed() -> None:
+    """Let a command that was started without a standard stream (``nep topics >&-``) work too."""
+    if sys.stdin is None:
+        sys.stdin = open(os.devnull, encoding="utf-8")  # noqa: SIM115  as long as the program
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
 
 
 def _speak_utf8() -> None:

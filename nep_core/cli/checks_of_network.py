@@ -11,6 +11,7 @@ from pathlib import Path
 
 import psutil
 
+from nep_core import transports
 from nep_core.cli.finding import Finding
 from nep_core.cli.joining import near
 from nep_core.cli.showing import many
@@ -18,7 +19,6 @@ from nep_core.endpoints import BROKER_VARIABLE, MASTER_VARIABLE, fixed_endpoint,
 from nep_core.errors import NepError
 from nep_core.master_probe import ask_master
 from nep_core.messages import NODE_STATE, NodeState
-from nep_core.p2p import PeerNetwork
 from nep_core.places import NODES_VARIABLE, ROBOT_FILES_VARIABLE
 from nep_core.pubsub import Subscriber
 
@@ -82,6 +82,18 @@ def _variable(name: str, value: str) -> Finding:
     return Finding(name, "ok", told)
 
 
+def service(endpoint: str | None = None) -> Finding:
+    """Whether the service of this computer's network answers: a master, a broker, a router."""
+    try:
+        kind = transports.transport()
+        if kind == "p2p":
+            return master(endpoint)
+        count = len(transports.registrations())
+    except NepError as error:
+        return Finding("network", "look", error.sentence, error.checklist)
+    return Finding("network", "ok", f"{many(count, 'program')} over {kind}")
+
+
 def master(endpoint: str | None = None) -> Finding:
     """Whether a master answers, nothing is there, or another program has its port."""
     try:
@@ -119,6 +131,8 @@ def naoqi_port(port: int = NAOQI_PORT) -> Finding:
 def _port(about: str, port: int, for_whom: str) -> Finding:
     if not _answers("127.0.0.1", port):
         return Finding(about, "ok", f"free, for {for_whom}")
+    if _is_of_our_master(port):
+        return Finding(about, "ok", f"the NEP master has it, for {for_whom}")
     return Finding(about, "note", f"in use by {_who_listens(port)}; it is for {for_whom}")
 
 
@@ -141,13 +155,12 @@ def robot(address: str, port: int = NAOQI_PORT) -> Finding:
 def clocks(endpoint: str | None = None) -> list[Finding]:
     """How far the clocks of other computers are from ours, by their nodes' heartbeats."""
     with contextlib.suppress(NepError):
-        place = endpoint or master_endpoint()
-        listing = ask_master(place, ANSWER_S)
         here = socket.gethostname()
-        if listing and any(
-            told.host != here and NODE_STATE in told.publishes for told in listing.registrations
+        if any(
+            told.host != here and NODE_STATE in told.publishes
+            for told in transports.registrations(endpoint)
         ):
-            return [difference(host, ages) for host, ages in _ages(place, here).items()]
+            return [difference(host, ages) for host, ages in _ages(endpoint, here).items()]
     return []
 
 
@@ -161,10 +174,10 @@ def difference(host: str, ages_s: list[float]) -> Finding:
     return Finding(f"clock of {host}", "look", told, steps)
 
 
-def _ages(place: str, here: str) -> dict[str, list[float]]:
+def _ages(master: str | None, here: str) -> dict[str, list[float]]:
     ages: dict[str, list[float]] = {}
     end_s = time.monotonic() + HEARTBEATS_S
-    with PeerNetwork(f"nep-doctor-{os.getpid()}", master=place) as network:
+    with transports.network_for(f"nep-doctor-{os.getpid()}", master=master) as network:
         states = Subscriber(NODE_STATE, NodeState, network=network)
         while (left_s := end_s - time.monotonic()) > 0:
             state = states.receive(left_s)
@@ -183,8 +196,23 @@ def _answers(host: str, port: int) -> bool:
 
 def _who_listens(port: int) -> str:
     """The program that has a port; that of other users cannot be seen."""
+    pid = _listener(port)
+    with contextlib.suppress(psutil.Error, OSError):
+        if pid is not None:
+            return f"{psutil.Process(pid).name()} (process {pid})"
+    return "another program"
+
+
+def _is_of_our_master(port: int) -> bool:
+    with contextlib.suppress(NepError):
+        listing = ask_master(master_endpoint(), ANSWER_S)
+        return listing is not None and listing.pid == _listener(port)
+    return False
+
+
+def _listener(port: int) -> int | None:
     with contextlib.suppress(psutil.Error, OSError):
         for one in psutil.net_connections("tcp"):
             if one.status == psutil.CONN_LISTEN and one.laddr.port == port and one.pid:
-                return f"{psutil.Process(one.pid).name()} (process {one.pid})"
-    return "another program"
+                return int(one.pid)
+    return None

@@ -202,7 +202,7 @@ def key_file(path: str | None = None) -> Finding:
 def disk_space(least: int = FREE_BYTES) -> list[Finding]:
     """Whether logs and recordings have room."""
     found = []
-    for about, path in (("disk of logs", log_folder()), ("disk here", Path.cwd())):
+    for about, path in (("disk of logs", log_folder()), ("disk here", Path(os.curdir))):
         while not path.exists() and path != path.parent:
             path = path.parent
         free = shutil.disk_usage(path).free

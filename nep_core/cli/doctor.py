@@ -35,7 +35,7 @@ def examine(master: str | None = None, robot: str | None = None) -> list[Finding
     return [
         *system.versions(),
         *network.variables(),
-        network.master(master),
+        network.service(master),
         *network.original_ports(),
         network.naoqi_port(),
         *([network.robot(robot)] if robot else []),

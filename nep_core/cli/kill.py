@@ -11,9 +11,11 @@ import time
 import psutil
 
 from nep_core.cli.arguments import seconds
-from nep_core.cli.joining import near, registrations
+from nep_core.cli.joining import join, near, registrations
 from nep_core.cli.showing import say
 from nep_core.errors import NodeNotFound, NodeStopError
+from nep_core.messages import NODE_STATE, NodeState
+from nep_core.pubsub import Publisher
 from nep_core.registry import Registration
 from nep_core.transports import ask_to_stop
 
@@ -53,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
                 f"End its process: nep kill {told.node} --force",
             ),
         )
-    _end(told, process)
+    _end(options, told, process)
     say(f"{told.node} did not stop; its process {told.pid} was ended.")
     return 0
 
@@ -113,7 +115,7 @@ def _wait(
         time.sleep(LOOK_S)
 
 
-def _end(told: Registration, process: psutil.Process | None) -> None:
+def _end(options: argparse.Namespace, told: Registration, process: psutil.Process | None) -> None:
     if process is None:
         raise NodeStopError(
             f"{told.node} did not stop, and its process {told.pid} on {told.host} cannot be "
@@ -123,6 +125,7 @@ def _end(told: Registration, process: psutil.Process | None) -> None:
                 "Is it gone by now? See: nep nodes",
             ),
         )
+    _tell_launcher(options, told)
     try:
         process.kill()
         process.wait(KILLED_S)
@@ -134,3 +137,18 @@ def _end(told: Registration, process: psutil.Process | None) -> None:
             checklist=("Run nep kill as the user who started it.",),
             details=str(error),
         ) from error
+
+
+def _tell_launcher(options: argparse.Namespace, told: Registration) -> None:
+    """Say that the node is ended on purpose: else who launched it starts it again."""
+    with join(options) as network:
+        Publisher(NODE_STATE, network=network).send(
+            NodeState(
+                node=told.node,
+                type="cognitive",  # which of the four it is cannot be seen from here
+                event="stopped",
+                description="It was ended by nep kill.",
+                pid=told.pid,
+                host=told.host,
+            )
+        )

@@ -45,7 +45,8 @@ for message in read_recording("walk.mcap"):
     print(message.topic, message.arrived_ns, message.node, message.encoding, message.payload)
 ```
 
-`nep_core.recordings.recorder.Recorder` and `nep_core.recordings.player.Player` do what the two commands do.
+`Recorder` in `nep_core.recordings.recorder` and `Player` in `nep_core.recordings.player` do what
+the two commands do.
 """
 
 

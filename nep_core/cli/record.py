@@ -8,7 +8,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 
 from nep_core.cli.arguments import add_json, factor, seconds
 from nep_core.cli.joining import about_nobody, join, registrations
@@ -23,6 +23,7 @@ from nep_core.recordings.recorder import Recorder
 
 TOLD_S = 1.0
 LOOK_S = 0.2
+MOST_FILES = 20_000
 
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
@@ -55,6 +56,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _record(options: argparse.Namespace) -> int:
+    _allow_many_topics()
     told = registrations(options)
     for topic in options.topics:
         if sentence := about_nobody(topic, told):
@@ -71,6 +73,15 @@ def _record(options: argparse.Namespace) -> int:
         _wait(recorder, options.seconds, stop)
     _say_recorded(recorder)
     return 0
+
+
+def _allow_many_topics() -> None:
+    """Each topic needs an open file or two; some systems allow 1,024, though more may be had."""
+    with suppress(ImportError, OSError, ValueError):  # Windows has no such limit
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (min(most, MOST_FILES), most))
 
 
 @contextmanager
@@ -167,11 +178,12 @@ def _play(options: argparse.Namespace) -> int:
         node_states=options.node_states,
     ) as player:
         _remark_on(player.overview)
-        if options.wait and not player.wait_for_subscribers(options.wait):
-            remark("Not every topic is heard by somebody; it is played all the same.")
         with _on_stop_signals(player.stop):
+            is_heard = player.wait_for_subscribers(options.wait) or not options.wait
+            if not is_heard and not player.is_stopping:
+                remark("Not every topic is heard by somebody; it is played all the same.")
             player.play(loop=options.loop)
-        if not player.sent and not options.loop:
+        if not player.sent and not player.is_stopping:
             raise RecordingError(
                 f"There was nothing to play in {options.file}.",
                 checklist=(

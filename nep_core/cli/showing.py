@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from typing import Any
 
 import msgspec
 
+from nep_core.errors import NepError
 from nep_core.recordings.raw import RawMessage
 
 SHOWN_BYTES = 32
 
 
 def say(text: str) -> None:
-    """One line for the reader, at once, also into a pipe."""
-    print(text, flush=True)
+    """One line for the reader, at once, also into a pipe; raises NepError."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left goes nowhere
+        raise NepError(
+            f"The output cannot be written: {(error.strerror or 'unknown reason').lower()}.",
+            checklist=("Has the disk room for it?",),
+        ) from error
 
 
 def remark(text: str) -> None:
@@ -75,7 +86,8 @@ def field_of(value: Any, path: str) -> Any:
         elif isinstance(value, list) and step.isdigit() and int(step) < len(value):
             value = value[int(step)]
         else:
-            raise NoField(f'There is no field "{step}" in "{path}"; {_fields(value)}.')
+            inside = f' in "{path}"' if step != path else ""
+            raise NoField(f'There is no field "{step}"{inside}; {_fields(value)}.')
     return value
 
 

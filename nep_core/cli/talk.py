@@ -16,14 +16,19 @@ from nep_core.cli.arguments import count, rate, seconds
 from nep_core.cli.joining import join
 from nep_core.cli.node import settings
 from nep_core.cli.showing import many, remark, say
-from nep_core.errors import BadMessage
+from nep_core.errors import BadMessage, NodeNotFound, NodeStartError
 from nep_core.launcher import LaunchedNode, Launcher
+from nep_core.manifest import Manifest
 from nep_core.messages import BY_TOPIC, NODE_STATE, NodeState
+from nep_core.node_log import log_file_name
 from nep_core.outcome import Outcome
+from nep_core.places import NODES_VARIABLE
 from nep_core.pubsub import Publisher, Subscriber
 
 FIRST_SUBSCRIBER_S = 0.5
 FROM_INPUT = "-"
+TOLD_OTHERWISE = ("alive", "ready", "stopped", "crashed")
+"""States of which `nep launch` tells in its own words, or that come too often."""
 
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
@@ -46,7 +51,13 @@ def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     else:
         add("type", metavar="TYPE", help="sensory, perceptual, cognitive or action")
         add("node", metavar="NODE", help="such as virtual_watch")
-        add("settings", nargs="*", metavar="setting=value", help="parameters of its manifest")
+        add(
+            "settings",
+            nargs="*",
+            default=[],  # else it would count among the arguments that are required
+            metavar="setting=value",
+            help="parameters of its manifest",
+        )
         add("--name", default="", help="the node's name in the network (default: NODE)")
 
 
@@ -115,7 +126,7 @@ def _read(text: str, options: argparse.Namespace) -> Any:
         return text
     try:
         message = msgspec.json.decode(text)
-    except (msgspec.MsgspecError, RecursionError) as error:
+    except (msgspec.MsgspecError, RecursionError, UnicodeError) as error:
         raise BadMessage(
             f"This is not JSON: {error}.",
             checklist=(
@@ -153,8 +164,10 @@ def _check(message: Any, kind: type[msgspec.Struct], topic: str) -> None:
 def _launch(options: argparse.Namespace) -> int:
     endings: SimpleQueue[Outcome] = SimpleQueue()
 
-    def told(_launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        say(f"{outcome}{'; it is started again' if again else ''}.")
+    def told(launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        if outcome.was_successful or launched.ready.is_set() or again:  # else wait_ready() tells
+            log = "" if outcome.was_successful else f" {_log(launcher, launched.name)}"
+            say(f"{outcome}{'; it is started again' if again else ''}.{log}")
         if not again:
             endings.put(outcome)
 
@@ -163,15 +176,34 @@ def _launch(options: argparse.Namespace) -> int:
         Launcher(master=options.master, on_end=told) as launcher,
     ):
         launcher.hear(network)
-        name = options.name or launcher.catalog.find(f"{options.type}/{options.node}").name
+        manifest = _found(launcher, options)
+        name = options.name or manifest.name
         Subscriber(NODE_STATE, NodeState, network=network, callback=_Story(name).tell)
         launched = launcher.launch(
             f"{options.type}/{options.node}", name, settings(options.settings)
         )
-        launched.wait_ready()
+        try:
+            launched.wait_ready()
+        except NodeStartError as error:
+            error.checklist += (_log(launcher, name),)
+            raise
         if launched.ready.is_set():
             say(f"{launched.name} is ready. Ctrl-C stops it.")
         return 0 if endings.get().was_successful else 1
+
+
+def _log(launcher: Launcher, name: str) -> str:
+    return f"Its log: {launcher.logs / log_file_name(name)}"
+
+
+def _found(launcher: Launcher, options: argparse.Namespace) -> Manifest:
+    try:
+        return launcher.catalog.find(f"{options.type}/{options.node}")
+    except NodeNotFound as error:
+        error.checklist += (
+            f"Is it your own? Set {NODES_VARIABLE} to the folder in which {options.type}/ lies.",
+        )
+        raise
 
 
 class _Story:
@@ -181,6 +213,6 @@ class _Story:
         self._name = name
 
     def tell(self, state: NodeState) -> None:
-        if state.node == self._name and state.event not in ("alive", "ready", "stopped"):
+        if state.node == self._name and state.event not in TOLD_OTHERWISE:
             about = f": {state.description}" if state.description else ""
             say(f"{state.node} is {state.event.replace('_', ' ')}{about}")

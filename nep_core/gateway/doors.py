@@ -60,7 +60,7 @@ class Door(ABC):
         """Take what the socket has."""
 
     def _note(self) -> None:
-        event = parse_monitor_message(self._monitor.recv_multipart())
+        event = parse_monitor_message(self._monitor.recv_multipart(zmq.NOBLOCK))
         change = set.add if event["event"] & ARRIVALS else set.discard
         change(self.connections, int(event["value"]))
         self._on_change()
@@ -130,7 +130,7 @@ class WayOut(Door):
         return b"" not in self.wanted
 
     def _receive(self) -> None:
-        event = self._socket.recv()
+        event = self._socket.recv(zmq.NOBLOCK)
         if event[:1] in (b"\0", b"\1"):
             (set.add if event[0] else set.discard)(self.wanted, event[1:])
             self._on_change()

@@ -21,6 +21,7 @@ from nep_core.gateway.our_side import Listener, Speaker
 from nep_core.gateway.registry_feed import RegistryFeed, registry
 from nep_core.gateway.requests import granted, read_request, refused
 from nep_core.gateway.shapes import Shape, read
+from nep_core.gateway.warner import Warner
 from nep_core.gateway.watch import Watch
 from nep_core.io_thread import Wake
 from nep_core.outbox import bind
@@ -34,7 +35,6 @@ WAITING = 1000
 """Messages of ours that may wait for the original's programs; the others wait in our network."""
 MAX_SOCKETS = 8000
 MAX_REQUEST = 1_000_000
-WARN_S = 1.0
 
 Encoding = Literal["msgpack"] | None
 
@@ -79,7 +79,7 @@ class Gateway:
         self._speakers: dict[tuple[str, Encoding], Speaker] = {}
         self._listeners: dict[str, Listener] = {}
         self._arrived: queue.Queue[tuple[str, Any]] = queue.Queue(WAITING)
-        self._warned_s = 0.0
+        self._warn = Warner()
         self._stopping = threading.Event()
         self._wake = Wake()
         self._context: Context = zmq.Context()
@@ -162,11 +162,11 @@ class Gateway:
         self._lines.close()
 
     def _serve(self, socket: zmq.Socket[bytes], old: bool) -> None:
-        frame = socket.recv_multipart()[-1]
+        frame = socket.recv_multipart(zmq.NOBLOCK)[-1]
         try:
             answer = self._answer(frame, old)
         except NetworkError as error:
-            log.warning("a program of the original asked in vain: %s", error.sentence)
+            self._warn(f"A program of the original asked in vain: {error.sentence}")
             answer = refused(frame, error.sentence, self._host)
         except Exception:
             log.exception("a program of the original could not be answered well")
@@ -228,7 +228,7 @@ class Gateway:
         try:
             value = read(frame, topic, shape.kind)
         except BadMessage as error:
-            self._warn(error)
+            self._warn(error.sentence)
             return
         self._give(others, value)
         self._speaker(topic, _encoding(shape)).say(value)
@@ -263,12 +263,7 @@ class Gateway:
             try:
                 way.send(value)
             except BadMessage as error:
-                self._warn(error)
-
-    def _warn(self, error: BadMessage) -> None:
-        if time.monotonic() >= self._warned_s + WARN_S:
-            self._warned_s = time.monotonic()
-            log.warning("%s", error.sentence)
+                self._warn(error.sentence)
 
 
 def _encoding(shape: Shape) -> Encoding:

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any, Literal, TypeVar
 
 from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError
+from nep_core.gateway.warner import Warner
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
 
@@ -34,6 +35,7 @@ class Speaker:
         self._network = network
         self._topic = topic
         self._encoding = encoding
+        self._warn = Warner()
         self._closing = threading.Event()
         self._waiting: queue.Queue[Any] = queue.Queue(WAITING)
         self._thread = threading.Thread(target=self._run, name=f"nep-original-{topic}", daemon=True)
@@ -44,7 +46,7 @@ class Speaker:
         try:
             self._waiting.put_nowait((value,))
         except queue.Full:
-            log.warning("%s: messages of the original come too fast for our network", self._topic)
+            self._warn(f"{self._topic}: messages of the original come too fast for our network.")
 
     def close(self) -> None:
         """Publish what waits, then no more."""
@@ -69,7 +71,7 @@ class Speaker:
             try:
                 publisher.send(*item)
             except BadMessage as error:
-                log.warning("%s: %s", self._topic, error.sentence)
+                self._warn(f"{self._topic}: {error.sentence}")
         publisher.close()
 
     def _open(self) -> Publisher:

@@ -64,7 +64,7 @@ class RegistryFeed:
         self._socket.close()
 
     def _receive(self) -> None:
-        event = self._socket.recv()
+        event = self._socket.recv(zmq.NOBLOCK)
         if event[:1] == b"\1":
             self._socket.setsockopt(zmq.SUBSCRIBE, event[1:] or b"{")
             self.show(self._shown)

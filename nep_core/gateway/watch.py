@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from typing import Any
 
@@ -16,7 +17,11 @@ class Watch:
         self._calls: dict[Any, Callable[[], None]] = {}
 
     def add(self, readable: zmq.Socket[bytes] | int, call: Callable[[], None]) -> None:
-        """Call ``call`` whenever this socket or file number has something."""
+        """Call ``call`` whenever this socket or file number has something.
+
+        It must not wait: a REP socket has something when a request without a head has come, which
+        ZeroMQ then keeps to itself.
+        """
         self._poller.register(readable, zmq.POLLIN)
         self._calls[readable] = call
 
@@ -30,4 +35,5 @@ class Watch:
         for readable, _ in self._poller.poll(round(timeout_s * 1000)):
             call = self._calls.get(readable)
             if call is not None:  # an earlier call may have closed it
-                call()
+                with contextlib.suppress(zmq.Again):  # it was nothing that ZeroMQ gives us
+                    call()

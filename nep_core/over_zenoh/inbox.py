@@ -79,6 +79,10 @@ class ZenohInbox:
         self.closed = True
         self._wakes.put(None)
 
+    def abandon(self) -> None:
+        """In the child of a fork: nothing comes here any more."""
+        self.closed, self._lock = True, threading.Lock()
+
     def close(self) -> None:
         """End, also for a thread that waits in take()."""
         self.interrupt()

@@ -48,6 +48,7 @@ class ZenohOutbox:
         self.stream: Callable[[str, Encoding | None], Stream] = self._hearers.stream
         self.subscribers = self._hearers.subscribers
         self.wait_for = self._hearers.wait_for
+        self.abandon = self._hearers.abandon
 
     def watch(self, topic: str) -> None:
         """Welcome the subscribers of ``topic``: those that are there and those that come."""

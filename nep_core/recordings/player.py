@@ -24,6 +24,8 @@ __all__ = ["Overview", "Player", "Recording", "overview", "read_recording"]
 
 Join = Callable[[str], Network]
 
+LOOK_S = 0.1
+"""How often a wait for subscribers looks whether it should end."""
 SHORTEST_ROUND_S = 0.1
 """A recording of a single message, played in a loop, must not become a flood."""
 
@@ -57,7 +59,7 @@ class Player:
         self._end_ns = None if to_s is None else self.overview.start_ns + round(to_s * 1e9)
         self._prefix = prefix
         self.topics = _chosen(self.overview, topics, node_states)
-        self._is_stopping = False
+        self.is_stopping = False
         self._stopped = Wake()  # an Event could deadlock in a signal handler
         self._join = join
         self._networks: dict[str, Network] = {}
@@ -72,7 +74,7 @@ class Player:
     def play(self, *, loop: bool = False) -> None:
         """Send everything at its time, again and again with ``loop``; returns early on stop()."""
         begin_s = time.monotonic()
-        while not self._is_stopping:
+        while not self.is_stopping:
             before = self.sent
             last_s = self._play_once(begin_s)
             if not loop or self.sent == before:
@@ -80,16 +82,17 @@ class Player:
             begin_s = max(last_s, begin_s + SHORTEST_ROUND_S)
 
     def wait_for_subscribers(self, timeout_s: float) -> bool:
-        """Wait until somebody hears each topic; False when the time is over."""
+        """Wait until somebody hears each topic; False when the time is over, or on stop()."""
         end_s = time.monotonic() + timeout_s
-        return all(
-            publisher.wait_for_subscribers(1, max(0.0, end_s - time.monotonic()))
-            for publisher in self._publishers.values()
-        )
+        for publisher in self._publishers.values():
+            while not publisher.wait_for_subscribers(1, min(LOOK_S, timeout_s)):
+                if self.is_stopping or time.monotonic() >= end_s:
+                    return False
+        return True
 
     def stop(self) -> None:
         """End play() at once; safe in a signal handler and from any thread."""
-        self._is_stopping = True
+        self.is_stopping = True
         self._stopped()
 
     def close(self) -> None:
@@ -113,7 +116,7 @@ class Player:
                 continue
             due_s = begin_s + (message.arrived_ns - self._start_ns) / 1e9 / self._speed
             left_s = due_s - time.monotonic()
-            if self._is_stopping or (left_s > 0 and self._waits(left_s)):
+            if self.is_stopping or (left_s > 0 and self._waits(left_s)):
                 break
             self._send(message)
             last_s = max(last_s, due_s)

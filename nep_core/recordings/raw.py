@@ -49,7 +49,11 @@ class RawSubscriber:
         self._clock = clock or SteadyClock()
         self._waiting: list[RawMessage] = []
         self._id, self._inbox = network.open_inbox(topic)
-        known = network.add_subscriber(topic, self._id, self._inbox)
+        try:
+            known = network.add_subscriber(topic, self._id, self._inbox)
+        except BaseException:
+            self.close()
+            raise
         if known:
             self._inbox.wait_for(known, 0, HANDSHAKE_S)
 

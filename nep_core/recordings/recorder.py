@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 import threading
 import time
 from collections.abc import Callable, Collection, Iterable
@@ -38,6 +39,7 @@ class _Output:
 
     def __init__(self, path: Path, replace: bool) -> None:
         self._file = path.open("wb" if replace else "xb", buffering=0)
+        self._is_on_disk = stat.S_ISREG(os.fstat(self._file.fileno()).st_mode)
         self.whole = 0
 
     def write(self, data: bytes) -> int:
@@ -56,12 +58,14 @@ class _Output:
         self.whole = self._file.tell()
 
     def sync(self) -> None:
-        """Bring it to the disk."""
-        os.fsync(self._file.fileno())
+        """Bring it to the disk, where there is one: /dev/null has none."""
+        if self._is_on_disk:
+            os.fsync(self._file.fileno())
 
     def cut(self) -> None:
         """Drop what is behind the last whole chunk."""
-        self._file.truncate(self.whole)
+        if self._is_on_disk:
+            self._file.truncate(self.whole)
 
     def close(self) -> None:
         """Close the file."""

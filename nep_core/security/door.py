@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import os
 import secrets
 import socket
 import threading
@@ -14,7 +15,7 @@ from typing import Literal
 
 import msgspec
 
-from nep_core.errors import PairingError, PortTaken
+from nep_core.errors import KeyFileError, PairingError, PortTaken
 from nep_core.security import pairing
 from nep_core.security.keys import KeyFile, plain_name
 from nep_core.security.lines import Lines
@@ -23,6 +24,8 @@ log = logging.getLogger(__name__)
 
 CODE_S = 120.0
 TRIES = 3
+HELLO_S = 1.0
+"""Who has not said hello by then is sent away: a guest says it as soon as it is connected."""
 TALK_S = 5.0
 """The longest talk; meanwhile others wait."""
 
@@ -41,16 +44,26 @@ class DoorEvent:
 
 @dataclass(frozen=True)
 class Code:
-    """A one-time code: what people read, until when it holds (time.time()), tries left."""
+    """A one-time code: what people read, until when it holds (time.monotonic()), tries left."""
 
     text: str
-    until: float
+    until_s: float
     tries_left: int = TRIES
 
     @property
     def holds(self) -> bool:
         """Whether a computer may still be paired with it."""
-        return self.tries_left > 0 and time.time() < self.until
+        return self.tries_left > 0 and self.left_s > 0
+
+    @property
+    def left_s(self) -> float:
+        """How long it may still be typed, whatever the computer's clock is set to meanwhile."""
+        return self.until_s - time.monotonic()
+
+    @property
+    def until(self) -> float:
+        """The same as a time of day (time.time())."""
+        return time.time() + self.left_s
 
 
 class Door:
@@ -72,8 +85,11 @@ class Door:
         except OSError as error:
             raise PortTaken(
                 f"Port {address[1]} of {address[0]}, where computers are paired, cannot be used: "
-                f"{(error.strerror or str(error)).lower()}.",
-                checklist=("Is the network already open? Stop the other one.",),
+                f"{os.strerror(error.errno or 0).lower()}.",
+                checklist=(
+                    "Is the network already open? Stop the other one.",
+                    "Choose another port for pairing.",
+                ),
             ) from error
         self.port = int(self._listener.getsockname()[1])
         self._closed = False
@@ -89,7 +105,7 @@ class Door:
     def new_code(self, seconds: float = CODE_S) -> Code:
         """Make a code for one computer; the one before holds no more."""
         digits = f"{secrets.randbelow(1_000_000):06d}"
-        code = Code(f"{digits[:3]} {digits[3:]}", time.time() + seconds)
+        code = Code(f"{digits[:3]} {digits[3:]}", time.monotonic() + seconds)
         with self._lock:
             self._code = code
         return code
@@ -113,7 +129,7 @@ class Door:
                 continue
             with connection:
                 try:
-                    self._talk(Lines(connection, TALK_S), str(address[0]))
+                    self._talk(Lines(connection, HELLO_S), str(address[0]))
                 except PairingError as error:
                     log.info("a talk with %s failed: %s", address[0], error)
                 except Exception:  # a fault of ours must not shut the door
@@ -124,6 +140,7 @@ class Door:
         if not isinstance(hello, pairing.Hello) or hello.version != pairing.VERSION:
             lines.say(_no("These two programs are of different ages.", "Update both computers."))
             return
+        lines.go_on(TALK_S)
         code = self._take_try()
         if code is None:
             lines.say(
@@ -143,7 +160,12 @@ class Door:
         except (PairingError, msgspec.MsgspecError):
             self._refuse(lines, address)
             return
-        self._let_in(guest, address)
+        try:
+            self._let_in(guest, address)
+        except KeyFileError as error:
+            log.error("The computer at %s was not paired: %s", address, error.sentence)
+            lines.say(_no("The other computer cannot keep your key.", error.sentence))
+            return
         lines.say(talk.welcome(proof, self._host()))
 
     def _take_try(self) -> Code | None:

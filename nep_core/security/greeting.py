@@ -20,7 +20,7 @@ def mechanism_at(endpoint: str, timeout_s: float = 1.0) -> str:
     """The mechanism of a ZeroMQ socket: NULL or CURVE; "" when there is none (ZMTP, RFC 23)."""
     heard = b""
     end_s = time.monotonic() + timeout_s
-    with contextlib.suppress(OSError, UnicodeDecodeError):
+    with contextlib.suppress(OSError, ValueError):
         place = (host_of(endpoint), int(endpoint.rpartition(":")[2]))
         with socket.create_connection(place, timeout=timeout_s) as connection:
             connection.sendall(SIGNATURE + VERSION)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import socket
 import time
 from pathlib import Path
@@ -58,12 +57,12 @@ def _own_pair(before: Keys | None) -> tuple[str, str]:
 
 def _talk(host: str, port: int, code: str, guest: pairing.Guest) -> pairing.Host:
     talk = pairing.GuestTalk(code, guest)
+    hello = talk.hello()  # it takes a while, and the door does not wait for it
     try:
         connection = socket.create_connection((host, port), timeout=TALK_S)
-    except OSError as error:
+    except (OSError, UnicodeError, OverflowError) as error:
         raise PairingError(
-            f"No computer answers at {host}, port {port}: "
-            f"{(os.strerror(error.errno) if error.errno else str(error)).lower()}.",
+            f"No computer answers at {host}, port {port}: {_reason(error)}.",
             checklist=(
                 "Is the network open on the other computer? It says so: nep open.",
                 "Are both computers in the same network?",
@@ -73,7 +72,7 @@ def _talk(host: str, port: int, code: str, guest: pairing.Guest) -> pairing.Host
         ) from error
     with connection:
         lines = Lines(connection, TALK_S)
-        lines.say(talk.hello())
+        lines.say(hello)
         offer = _expect(pairing.Offer, lines.hear())
         lines.say(talk.prove(offer))
         try:
@@ -86,12 +85,25 @@ def _talk(host: str, port: int, code: str, guest: pairing.Guest) -> pairing.Host
     return told
 
 
+def _reason(error: Exception) -> str:
+    if isinstance(error, OSError):
+        return (error.strerror or str(error)).lower()
+    return "there can be no such place"
+
+
 def _expect(kind: type[T], message: object) -> T:
     if isinstance(message, pairing.No):
-        raise PairingError(message.sentence, checklist=tuple(message.checklist))
+        raise PairingError(
+            _plain(message.sentence), checklist=tuple(map(_plain, message.checklist))
+        )
     if not isinstance(message, kind):
         raise _strange()
     return message
+
+
+def _plain(text: str) -> str:
+    """What a stranger says, without letters that command a terminal."""
+    return "".join(c for c in text if c.isprintable())
 
 
 def _strange() -> PairingError:

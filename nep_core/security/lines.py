@@ -16,8 +16,12 @@ class Lines:
 
     def __init__(self, connection: socket.socket, seconds: float) -> None:
         self._connection = connection
-        self._end_s = time.monotonic() + seconds
+        self.go_on(seconds)
         self._arrived = b""
+
+    def go_on(self, seconds: float) -> None:
+        """Let the talk end after so long from now."""
+        self._end_s = time.monotonic() + seconds
 
     def say(self, message: Message) -> None:
         """Send; raises PairingError."""

@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 
 from nep_core import discovery
-from nep_core.endpoints import fixed_endpoint
+from nep_core.endpoints import check_endpoint, fixed_endpoint
 from nep_core.errors import KeyFileError
 from nep_core.security.addresses import endpoint_at, lan_address
 from nep_core.security.door import CODE_S, Code, Door, DoorEvent
@@ -43,6 +43,7 @@ class Opening:
     ) -> None:
         self.host = host or lan_address()
         self.master = fixed_endpoint(endpoint_at(self.host, port))
+        check_endpoint(endpoint_at(self.host, door_port or "*"))
         self.file = owned_key_file(keys, title)
         self._door_port = door_port
         self._is_announced = is_announced

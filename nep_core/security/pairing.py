@@ -137,7 +137,7 @@ def wrong_code() -> PairingError:
         "That is not the code.",
         checklist=(
             "Read the code again on the computer that opened the network: six digits.",
-            "After three wrong tries that computer shows a new one.",
+            "After three wrong tries it holds no more: let that computer show a new one.",
         ),
     )
 

@@ -6,6 +6,7 @@ get as far as that: programs without any key.
 
 from __future__ import annotations
 
+import errno
 import logging
 import socket as sockets
 import threading
@@ -101,7 +102,7 @@ class Doorkeeper:
     def _run(self) -> None:
         try:
             while True:
-                self._work(dict(self._poller.poll(LOOK_MS if self._waiting else None)))
+                self._turn(dict(self._poller.poll(LOOK_MS if self._waiting else None)))
         except zmq.ZMQError:
             log.debug("the context has ended")
         finally:
@@ -109,6 +110,15 @@ class Doorkeeper:
                 events.close()
             self._asked.close()
             self._wake.close()
+
+    def _turn(self, ready: dict[object, int]) -> None:
+        try:
+            self._work(ready)
+        except zmq.ZMQError:
+            raise
+        except Exception:  # a fault of ours must not keep everybody out
+            log.exception("the doorkeeper goes on after an error")
+            time.sleep(LOOK_MS / 1000)  # never spin on an error that repeats
 
     def _work(self, ready: dict[object, int]) -> None:
         self._wake.clear()
@@ -160,7 +170,7 @@ class Doorkeeper:
             elif kind == zmq.EVENT_DISCONNECTED:
                 self._on_disconnected(watched, number, event["endpoint"].decode())
             else:
-                watched.failure = kind if kind in FAILURES else 0
+                watched.failure = kind if kind in FAILURES and not _is_broken(kind, number) else 0
 
     def _on_disconnected(self, watched: _Watched, number: int, endpoint: str) -> None:
         # One thread of ZeroMQ makes all events: this is the connection that has just failed.
@@ -171,6 +181,14 @@ class Doorkeeper:
             self._refusals.refuse(address)
         elif failure and failure != zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL:
             self._refusals.cannot_join(endpoint)  # without detail: it may just have ended
+
+
+def _is_broken(kind: int, number: int) -> bool:
+    """Whether a peer left without reading what we had said: it was killed, or just knocked.
+
+    A plain program reads our greeting and leaves because of it.
+    """
+    return kind == zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL and number == errno.ECONNRESET
 
 
 def _address_behind(number: int) -> str:

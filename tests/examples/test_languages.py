@@ -189,7 +189,8 @@ def test_it_hears_and_speaks_through_a_broker_as_well(
     with closing(Broker()), BrokerNetwork(node="test") as network:
         behavior = Subscriber(HUMAN_BEHAVIOR, HumanBehavior, network=network)
         imu = Publisher(IMU, network=network)
-        with subprocess.Popen(command(nodes, "perceptual/shake")) as shake:
+        words = [*command(nodes, "perceptual/shake"), "strength_m_s2=3"]
+        with subprocess.Popen(words) as shake:
             heard = imu.wait_for_subscribers(1, WAIT_S)
             for _ in range(60):
                 imu.send(STRONG)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, get_args
@@ -14,7 +16,11 @@ import pytest
 from nep_core import frames, handshake
 from nep_core import master_messages as says
 from nep_core.manifest import read_manifest
+from nep_core.master import Master
+from nep_core.master_probe import ask_to_stop
 from nep_core.messages import BY_TOPIC, LATCHED, NodeEvent
+from nep_core.p2p import PeerNetwork
+from nep_core.pubsub import Publisher
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "wire.md").read_text(encoding="utf-8")
 BLOCK = re.compile(r"^ *```(\w+) ?(.*)\n((?:.*\n)*?) *```$", re.MULTILINE)
@@ -119,3 +125,23 @@ def test_the_manifest_of_the_page_can_be_read(tmp_path: Path) -> None:
     path.write_text(text, encoding="utf-8")
 
     assert read_manifest(path).command == ["node", "{folder}/shake.mjs"]
+
+
+def test_the_whole_program_of_the_page_hears_the_first_message_and_stops_when_asked(
+    master: Master, network: PeerNetwork, tmp_path: Path
+) -> None:
+    (program,) = blocks("python", "ear.py")
+    path = tmp_path / "ear.py"
+    path.write_text(program, encoding="utf-8")
+    ear = subprocess.Popen([sys.executable, str(path), "/steps"], stdout=subprocess.PIPE, text=True)
+
+    try:
+        Publisher("/steps", network=network, wait_for_subscribers=1, timeout_s=10).send({"n": 1})
+
+        assert ear.stdout is not None
+        assert ear.stdout.readline() == '{"n":1}\n'
+        assert ask_to_stop(master.endpoint, "ear")
+        assert ear.wait(10) == 71
+    finally:
+        ear.kill()
+        ear.communicate()

@@ -28,10 +28,10 @@ def all_of(backlog: Backlog) -> list[bytes]:
 def test_a_gap_between_frames_is_lost_whichever_way_the_frames_go() -> None:
     backlog = Backlog("/t")
     backlog.put(frame(5, b"5", b"6"))
-    backlog.pass_by(frame(7))
+    backlog.passed = frame(7)
     backlog.put(frame(10))
 
-    backlog.pass_by(frame(12))
+    backlog.passed = frame(12)
     backlog.count_passed()
 
     assert backlog.lost == 3
@@ -158,7 +158,7 @@ def test_any_bytes_are_taken_in(rubbish: list[bytes]) -> None:
         backlog = Backlog("/t", policy)  # type: ignore[arg-type]
         for data in rubbish:
             backlog.put(data)
-            backlog.pass_by(data)
+            backlog.passed = data
             backlog.count_passed()
         all_of(backlog)
 

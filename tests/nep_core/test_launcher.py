@@ -156,13 +156,14 @@ def test_a_node_in_another_language_is_started_by_its_command(
     )
     manifest = f'command = ["{sys.executable}", "{{folder}}/foreign.script"]\n'
     manifest += '[parameters.port]\ntype = "integer"\n'
+    manifest += '[parameters.loud]\ntype = "boolean"\ndefault = true\n'
     write_node(tmp_path / "nodes", "foreign", "pass", manifest=manifest)
     states = Subscriber(NODE_STATE, NodeState, network=network)
 
     launcher.start("sensory/foreign", port=5).wait_ready()
 
     ready = next(state for state in states if state.event == "ready")
-    assert ready.description == "port=5"
+    assert ready.description == "port=5 loud=true"
 
 
 def test_a_command_that_is_not_there_is_told(launcher: Launcher) -> None:

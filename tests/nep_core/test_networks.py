@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import psutil
 import pytest
 import zmq
 
@@ -13,6 +14,7 @@ from nep_core.handshake import read_subscription
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
 from nep_core.zmq_network import DirectNetwork
+from tests.nep_core.master_process import until
 
 Join = Callable[[str], PeerNetwork]
 
@@ -73,3 +75,14 @@ def test_a_subscriber_of_a_closed_network_is_refused_and_nothing_hangs(join: Joi
 
     with pytest.raises(NetworkError, match="closed"):
         Subscriber("/x", network=hearer)
+
+
+@pytest.mark.skipif(not hasattr(psutil.Process, "num_fds"), reason="Windows counts otherwise")
+def test_subscribers_that_were_closed_take_no_files(join: Join) -> None:
+    network, files = join("restless"), psutil.Process().num_fds
+    before = files()
+
+    for _ in range(20):
+        Subscriber("/x", network=network).close()
+
+    assert until(lambda: files() < before + 5)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from nep_core.errors import NameTaken
+from nep_core.errors import NameTaken, ParameterError
 from nep_core.master import Master
 from nep_core.messages import NODE_STATE, NodeState
 from nep_core.node import Node
@@ -121,6 +123,22 @@ def test_ctrl_c_ends_a_program_whatever_it_does(master: Master, tmp_path: Path, 
 
     _, errors = child.communicate(timeout=10)
     assert (child.returncode, errors) == (0, "")
+
+
+def test_words_that_nobody_would_understand_are_told_at_once(join: Join) -> None:
+    network = join("watch")
+
+    with pytest.raises(ParameterError, match="is no type of a node") as error:
+        Node("watch", "sensor", network=network)
+    with pytest.raises(ParameterError, match="A node has no name"):
+        Node("", "sensory", network=network)
+    with Node("watch", "sensory", network=network) as node:
+        with pytest.raises(ParameterError, match="is no state of a node"):
+            node.state("working")
+        threading.Timer(0.05, node.stop).start()
+
+        assert node.wait(math.inf)
+    assert "sensory, perceptual" in error.value.checklist[0]
 
 
 def test_late_joiners_hear_that_a_node_is_ready(join: Join) -> None:

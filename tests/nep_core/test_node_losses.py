@@ -12,6 +12,7 @@ from nep_core.messages import NODE_STATE, NodeState
 from nep_core.node import Node
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher, Subscriber
+from tests.nep_core.master_process import until
 
 Join = Callable[[str], PeerNetwork]
 
@@ -47,3 +48,14 @@ def test_lost_messages_are_a_warning_until_the_node_keeps_up_again(
     assert samples.lost == 20  # of 30, 10 were kept
     assert warning.description.startswith("Messages of /samples were lost: ")
     assert calm.description == "It keeps up again."
+
+
+def test_subscribers_that_a_node_gave_up_take_no_memory(
+    join: Join, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(node_module, "HEARTBEAT_S", 0.02)
+    with Node("restless", "perceptual", network=join("restless")) as node:
+        for _ in range(3):
+            node.subscriber("/samples").close()
+
+        assert until(lambda: not node._listening)

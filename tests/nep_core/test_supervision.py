@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -78,6 +79,22 @@ def test_a_node_that_somebody_in_the_network_stopped_is_not_started_again(
     assert state_after(states, "stopped").description == "It was asked to stop."
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="freezes with SIGSTOP")
+def test_a_frozen_node_that_nep_kill_ends_by_force_is_not_started_again(
+    launcher: Launcher, ends: Ends, network: PeerNetwork, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NEP_MASTER", network.master)
+    waiter = launcher.start("sensory/waiter")
+    waiter.wait_ready()
+    os.kill(waiter.pid, signal.SIGSTOP)
+
+    words = ["kill", "waiter", "--force", "--seconds", "0.1"]
+    subprocess.run([sys.executable, "-m", "nep_core.cli", *words], check=True)
+
+    _, outcome, again = ends.get(timeout=5)
+    assert (str(outcome), again) == ("waiter was stopped", False)
+
+
 @pytest.mark.parametrize(
     ("restart", "was_ready", "again"),
     [
@@ -138,7 +155,10 @@ def test_a_node_that_is_stopped_before_its_next_life_stays_stopped_at_once(
     [
         pytest.param("node.ready()\nwhile not node.stopping: print('x' * 1000)", id="floods"),
         pytest.param(f"os.close(1)\nos.close(2)\n{WAIT}", id="closes its output"),
-        pytest.param(f"node.ready()\nos.kill(os.getpid(), {int(signal.SIGSTOP)})", id="frozen"),
+        pytest.param(
+            f"node.ready()\nnode.wait(0.3)\nos.kill(os.getpid(), {int(signal.SIGSTOP)})",
+            id="frozen",
+        ),
     ],
 )
 def test_an_odd_node_is_stopped_by_several_at_once(

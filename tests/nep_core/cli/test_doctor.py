@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from nep_core.broker import Broker
 from nep_core.cli import checks_of_network as network
 from nep_core.cli import checks_of_system as system
 from nep_core.endpoints import MASTER_VARIABLE
@@ -57,6 +58,14 @@ def test_a_port_that_another_program_has_is_told_with_its_name(taken_port: int) 
     assert found.state == "look"
     assert f"(process {os.getpid()}), which is no NEP master" in found.told
     assert original.state == "note"
+
+
+def test_a_port_of_the_original_that_our_own_master_has_is_right(master: Master) -> None:
+    port = int(master.endpoint.rpartition(":")[2])
+
+    [found] = network.original_ports((port,))
+
+    assert found.state == "ok"
 
 
 def test_no_master_is_only_noted(free_port: int) -> None:
@@ -176,3 +185,31 @@ def test_a_full_disk_is_told() -> None:
 def test_a_robot_that_does_not_answer_is_told(taken_port: int, free_port: int) -> None:
     assert network.robot("127.0.0.1", taken_port).state == "ok"
     assert network.robot("127.0.0.1", free_port).state == "look"
+
+
+def test_the_service_of_another_network_is_looked_for(
+    free_port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NEP_NETWORK", "broker")
+    monkeypatch.setenv("NEP_BROKER", f"tcp://127.0.0.1:{free_port}")
+
+    none = network.service()
+    broker = Broker()
+    found = network.service()
+    broker.close()
+
+    assert (none.state, none.steps[0]) == ("look", "Start one in another terminal: nep broker")
+    assert (found.state, found.told) == ("ok", "0 programs over broker")
+
+
+@pytest.mark.parametrize("kind", ["broker", "zenoh"])
+def test_a_master_that_nobody_would_ask_is_not_started(
+    call: Call, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    monkeypatch.setenv("NEP_NETWORK", kind)
+
+    answer = call("nep master --endpoint tcp://127.0.0.1:*")
+
+    assert answer.code == 1
+    assert f"NEP_NETWORK is {kind}" in answer.err
+    assert "nep broker" in answer.err

@@ -174,3 +174,10 @@ def test_the_page_of_the_command_line_has_the_help_of_every_command(
 
     assert f"## nep {command}\n\n```\n{told}```\n" in page, "run: python -m nep_core.cli.page"
     assert overview() in page
+
+
+def test_the_version_is_told(call: Call) -> None:
+    answer = call("nep --version")
+
+    assert answer.code == 0
+    assert answer.out.startswith("nep 0.")

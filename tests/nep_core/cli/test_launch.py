@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -60,7 +61,30 @@ def test_launch_shows_how_a_node_is_doing_and_how_it_ended(
     assert answer.code == exit_code, answer.err
     assert "lamp is connecting: to the lamp\n" in answer.out
     assert "lamp is ready. Ctrl-C stops it.\n" in answer.out
-    assert told in answer.out
+    assert answer.out.count(told) == 1
+    assert ("Its log: " in answer.out) == (exit_code != 0)
+
+
+def test_launch_says_where_the_log_of_a_node_is_that_did_not_start(
+    network: PeerNetwork, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: Call
+) -> None:
+    monkeypatch.setenv(NODES_VARIABLE, str(tmp_path))
+    write_node(tmp_path, "lamp", 'raise NepError("There is no lamp.")')
+
+    answer = call("nep launch sensory lamp")
+
+    assert answer.code == 1
+    assert (answer.out + answer.err).count("There is no lamp") == 1
+    assert "[ ] Its log: " in answer.err
+
+
+def test_launch_names_what_is_missing_and_where_nodes_of_ones_own_are_looked_for(
+    network: PeerNetwork, call: Call
+) -> None:
+    missing, unknown = call("nep launch sensory"), call("nep launch sensory lamp --name red")
+
+    assert "required: NODE.\n" in missing.err
+    assert f"Set {NODES_VARIABLE} to the folder in which sensory/ lies." in unknown.err
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
@@ -68,11 +92,14 @@ def test_a_second_signal_while_the_first_is_answered_does_not_hang_the_master() 
     command = [sys.executable, "-c", SIGNAL_IN_SIGNAL]
     with subprocess.Popen(command, stdout=subprocess.PIPE) as service:
         assert service.stdout is not None
-        assert b"serves" in service.stdout.readline()
-
-        service.terminate()
-
+        limit = threading.Timer(20, service.kill)  # also where it does not begin to serve
+        limit.start()
         try:
-            assert service.wait(5) == 0
+            assert b"serves" in service.stdout.readline()
+
+            service.terminate()
+
+            assert service.wait(20) == 0
         finally:
             service.kill()
+            limit.cancel()

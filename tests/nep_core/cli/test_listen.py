@@ -11,6 +11,7 @@ import pytest
 from nep_core.cli.arguments import seconds
 from nep_core.cli.listen import Pace
 from nep_core.frames import Encoding
+from nep_core.master import Master
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher
 from nep_core.recordings.raw import RawMessage
@@ -147,3 +148,24 @@ def test_a_pace_forgets_what_is_older_than_its_window() -> None:
         pace.add(RawMessage("/x", "n", 1, 0, at_s * 1_000_000_000, "bytes", b""))
 
     assert pace.measures(0)["messages"] == 2
+
+
+def test_lost_messages_are_told(
+    master: Master, join: Callable[[str], PeerNetwork], call: Call
+) -> None:
+    publisher = Publisher("/x", network=join("talker"))
+
+    def talk() -> None:
+        publisher.wait_for_subscribers(1, 10)
+        way_out = publisher.network.outbox.stream("/x", None)
+        for number in range(5):
+            way_out.sent += 1 if number == 2 else 0  # as if one had found no room
+            publisher.send({"n": number})
+
+    talker = threading.Thread(target=talk)
+    talker.start()
+    answer = call("nep echo /x --count 5")
+    talker.join()
+
+    assert len(answer.out.splitlines()) == 5
+    assert answer.err == "1 message lost.\n"

@@ -6,14 +6,18 @@ import os
 import signal
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from nep_core.master import Master
 from nep_core.p2p import PeerNetwork
 from nep_core.pubsub import Publisher
-from nep_core.recordings.player import overview
+from nep_core.recordings.player import Player, overview
+from nep_core.recordings.recorder import Recorder
 from tests.nep_core.cli.conftest import nep, until
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals")
@@ -102,3 +106,46 @@ def test_ctrl_c_finishes_a_recording(busy: PeerNetwork, tmp_path: Path) -> None:
 def overview_of(path: Path) -> int:
     """How many messages a file holds that is still being written."""
     return overview(path).messages if path.stat().st_size > 8 else 0
+
+
+@pytest.mark.parametrize(("stream", "code"), [("stdin", 1), ("stdout", 0), ("stderr", 0)])
+def test_a_command_works_without_a_standard_stream(master: Master, stream: str, code: int) -> None:
+    number = ("stdin", "stdout", "stderr").index(stream)
+    words = ("send", "/x", "-") if stream == "stdin" else ("topics",)
+    with nep(*words, stderr=subprocess.PIPE, preexec_fn=lambda: os.close(number)) as command:
+        _, err = command.communicate(timeout=20)
+
+    assert (command.returncode, err) == (code, "There was no message to send.\n" if code else "")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no disk is always full here")
+@pytest.mark.parametrize("words", ["topics", "record /dev/full --force --seconds 0.1"])
+def test_a_full_disk_is_told_in_a_sentence(master: Master, words: str) -> None:
+    with (
+        open("/dev/full", "w") as full,
+        nep(*words.split(), stdout=full, stderr=subprocess.PIPE) as command,
+    ):
+        _, err = command.communicate(timeout=20)
+
+    assert command.returncode == 1
+    assert "no space left on device" in err
+    assert "inside the command" not in err
+
+
+def test_a_player_that_waits_for_subscribers_is_stopped_at_once(
+    busy: PeerNetwork, tmp_path: Path
+) -> None:
+    path = tmp_path / "short.mcap"
+    with Recorder(path, network=busy) as recorder:
+        recorder.add(["/speed"])
+        until(lambda: recorder.tally.messages)
+    end_s = time.monotonic() + 20
+
+    with Player(path, prefix="/old") as player:
+        stopping = threading.Timer(0.05, player.stop)
+        stopping.start()
+        is_heard = player.wait_for_subscribers(20)
+        stopping.join()
+
+    assert not is_heard
+    assert time.monotonic() < end_s

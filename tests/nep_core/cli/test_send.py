@@ -104,3 +104,10 @@ def test_an_empty_input_is_told(call: Call, monkeypatch: pytest.MonkeyPatch) -> 
 
     assert answer.code == 1
     assert "There was no message to send." in answer.err
+
+
+def test_a_message_in_another_terminals_letters_is_told(call: Call) -> None:
+    answer = call("nep send /x '\"\udcff\"'")
+
+    assert answer.code == 1
+    assert "This is not JSON" in answer.err

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator
 
 import pytest
+import zmq
 from hypothesis import example, given
 from hypothesis import strategies as some
 
@@ -57,6 +58,17 @@ def test_programs_that_may_share_a_port_get_the_same(raw: RawPrograms) -> None:
     ]
 
     assert ports[0] == ports[1] != ports[2] == ports[3]
+
+
+def test_requests_that_no_client_makes_keep_nobody_waiting(raw: RawPrograms) -> None:
+    with zmq.Context() as context, context.socket(zmq.DEALER) as strange:
+        strange.linger = 0
+        strange.connect(raw.at(raw.ports.new))
+        for frames in ([b"no head"], [b"", b"{}", b"more"], [b""], [b"", b"", b""]):
+            strange.send_multipart(frames)
+        strange.recv_multipart()
+
+        assert raw.register("/alive", "publisher")
 
 
 @pytest.mark.parametrize(

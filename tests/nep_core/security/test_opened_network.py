@@ -1,5 +1,7 @@
 """An opened network: who has its keys talks, all others are refused, which everybody sees."""
 
+import select
+import socket
 import time
 
 import msgspec
@@ -82,6 +84,15 @@ def test_a_program_without_a_key_of_the_network_is_refused_and_the_master_tells(
     assert any("nep pair" in step or "Pair it" in step for step in error.value.checklist)
     assert wait_until(lambda: _is_about_refusal(opened.master.take_warning()))
     assert ask_names(opened) == []
+
+
+def test_a_program_that_was_killed_while_it_came_is_no_stranger(opened: Opened) -> None:
+    with socket.create_connection(
+        ("127.0.0.1", int(opened.master.endpoint.rpartition(":")[2]))
+    ) as killed:
+        wait_until(lambda: select.select([killed], [], [], 0)[0])  # and nobody reads it
+
+    assert not wait_until(opened.master.take_warning, seconds=0.3)
 
 
 def test_a_node_warns_when_a_program_without_keys_wants_to_hear_it(opened: Opened) -> None:

@@ -73,6 +73,14 @@ def test_only_the_owner_opens_a_network(opening: Opening, tmp_path: Path) -> Non
         Opening(tmp_path / "guest.keys", host=HOST)
 
 
+def test_a_port_that_cannot_be_is_told(tmp_path: Path) -> None:
+    for ports in ({"port": 99999}, {"door_port": 99999}):
+        with pytest.raises(NetworkError, match="is not an endpoint"):
+            Opening(tmp_path / "new.keys", host="127.0.0.1", **ports)
+
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_network_that_is_announced_is_found() -> None:
     told = Found("Ünïcode karate", "lab", "a" * 32, f"tcp://{HOST}:7123", 7124)
     announcement = announce(told)

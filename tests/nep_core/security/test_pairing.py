@@ -1,6 +1,7 @@
 """Pairing: a second computer gets in by the code, once, in time, and by nothing else."""
 
 import json
+import os
 import socket
 import threading
 import time
@@ -19,6 +20,8 @@ from nep_core.security.keys import KeyFile, Keys, new_keys
 from tests.nep_core.security.conftest import wait_until
 
 HOST = "127.0.0.1"
+CLEAR = b'{"do":"no","sentence":"\\u001b[2J","checklist":["\\u001b"]}\n'
+"""It would clear the terminal."""
 
 
 @pytest.fixture
@@ -210,7 +213,7 @@ def _received(connection: socket.socket) -> bytes:
 def test_somebody_who_says_nothing_is_sent_away_and_others_get_in(
     key_file: KeyFile, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(door_module, "TALK_S", 0.3)
+    monkeypatch.setattr(door_module, "HELLO_S", 0.2)
     key_file.change(_with_master)
     door = Door(key_file, (HOST, 0))
     with socket.create_connection((HOST, door.port)) as silent:
@@ -223,7 +226,9 @@ def test_somebody_who_says_nothing_is_sent_away_and_others_get_in(
     assert waited_s < 5.0
 
 
-@pytest.mark.parametrize("answer", [b"", b"rubbish\n", b"{}\n", b'{"do":"offer","spake":"42"}\n'])
+@pytest.mark.parametrize(
+    "answer", [b"", b"rubbish\n", b"{}\n", b'{"do":"offer","spake":"42"}\n', CLEAR]
+)
 def test_what_answers_that_is_no_door_is_told(tmp_path: Path, answer: bytes) -> None:
     listener = socket.create_server((HOST, 0))
 
@@ -241,6 +246,7 @@ def test_what_answers_that_is_no_door_is_told(tmp_path: Path, answer: bytes) -> 
     listener.close()
 
     assert error.value.checklist
+    assert error.value.sentence.isprintable()
 
 
 def test_no_computer_at_the_address_is_told_with_what_to_look_at(
@@ -250,6 +256,28 @@ def test_no_computer_at_the_address_is_told_with_what_to_look_at(
         pair(HOST, free_port, "123 456", tmp_path / "guest.keys")
 
     assert any("firewall" in step for step in error.value.checklist)
+
+
+@pytest.mark.parametrize(("host", "port"), [("a..b", 7101), ("x" * 64, 7101), (HOST, 99999)])
+def test_a_place_that_cannot_be_is_told(tmp_path: Path, host: str, port: int) -> None:
+    with pytest.raises(PairingError, match="No computer answers"):
+        pair(host, port, "123 456", tmp_path / "guest.keys")
+
+
+def test_both_sides_hear_when_the_door_cannot_keep_the_new_key(
+    door: Door, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    code = door.new_code().text
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+
+    with pytest.raises(PairingError, match="cannot keep your key"):
+        pair(HOST, door.port, code, tmp_path / "guest.keys")
+    assert "No space left" in caplog.text
+    caplog.clear()
 
 
 def test_a_taken_port_of_the_door_is_told(door: Door, key_file: KeyFile) -> None:

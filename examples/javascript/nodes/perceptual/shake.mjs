@@ -7,7 +7,7 @@ const GRAVITY_M_S2 = 9.81
 const CALM_S = 1 // so long it must be calm before it can be shaken again
 
 await run('shake', 'perceptual', async (node) => {
-  const strength = node.number('strength_m_s2', 3)
+  const strength = node.number('strength_m_s2')
   const behavior = await node.publisher('/human_behavior')
   let level = 0 // how much the acceleration differs from gravity, smoothed
   let lastS = -Infinity

@@ -15,8 +15,8 @@ function accelerationMS2(tS, everyS) {
 }
 
 await run('board', 'sensory', async (node) => {
-  const rateHz = node.number('rate_hz', 50)
-  const everyS = node.number('shaken_every_s', 5)
+  const rateHz = node.number('rate_hz')
+  const everyS = node.number('shaken_every_s')
   const imu = await node.publisher('/imu')
   node.ready(`an inertial sensor with ${rateHz} samples a second`)
   const startMs = performance.now()
