@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 import logging
-import os
-import re
 import socket
 import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
-from urllib.parse import urlsplit
 
 import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from nep_core.errors import NepError, NetworkError, PairingError
+from nep_core.errors import NepError, NetworkError
 from nep_core.messages import NodeState
 from nep_core.places import key_file
-from nep_core.security import KEYS_VARIABLE
-from nep_core.security.addresses import HOST_VARIABLE, endpoint_at, is_ours
+from nep_core.security.addresses import endpoint_at, is_ours
 from nep_core.security.door import Code, DoorEvent
-from nep_core.security.joining import pair
 from nep_core.security.keys import Computer, Keys
 from nep_core.security.opening import DOOR_PORT, MASTER_PORT, Opening
 from nep_studio.local_network import STUDIO, LocalNetwork
+from nep_studio.other_network import UsedKeys, pair_with
 from nep_studio.own_master import free_endpoint
 from nep_studio.refusals import Refusal, Refusals, refusals_in
 
@@ -40,12 +36,13 @@ LOOK_MS = 1000
 class Sharing(QObject):
     """Opens and closes the network of a window; what takes a while is done in a thread.
 
-    ``changed``: its state or who is let in; ``happened`` gives a DoorEvent, ``refused`` a new
-    Refusal, ``failed`` the NepError of what was asked; ``went_down`` tells that the network has
-    ended and is about to come up anew, with the nodes that ran.
+    ``changed``: its state or who is let in; ``settled`` gives the state that was asked for and is
+    reached, ``failed`` the NepError of what was asked; ``happened`` a DoorEvent, ``refused`` a new
+    Refusal; ``went_down`` tells that the network is about to be started anew.
     """
 
     changed = Signal()
+    settled = Signal(str)
     happened = Signal(object)
     refused = Signal(object)
     failed = Signal(object)
@@ -66,9 +63,9 @@ class Sharing(QObject):
         self.opening: Opening | None = None
         self.joined: Keys | None = None
         self.refusals = Refusals()
-        self._local, self._keys = local, keys
-        self._ports, self._is_announced = ports, is_announced
-        self._before: dict[str, str | None] | None = None
+        self.keys, self.ports, self.is_announced = keys, ports, is_announced
+        self._local = local
+        self._used = UsedKeys()
         self._usual_master = local.wanted_master
         self._thread: threading.Thread | None = None
         self._is_ended = False
@@ -104,13 +101,13 @@ class Sharing(QObject):
         """What is typed on the other computer; with a port where it is an unusual one."""
         if self.opening is None:
             return ""
-        is_usual = self.opening.door_port == DOOR_PORT
-        return self.opening.host if is_usual else self.opening.door_place
+        has_usual_port = self.opening.door_port == DOOR_PORT
+        return self.opening.host if has_usual_port else self.opening.door_place
 
     @property
     def key_path(self) -> Path:
         """The key file of the network that this computer opens."""
-        return self._keys or key_file()
+        return self.keys or key_file()
 
     # What is asked
 
@@ -152,7 +149,7 @@ class Sharing(QObject):
         self._looking.stop()
         if self._thread is not None:
             self._thread.join()
-        self._shut_door()
+        self._leave()
         self._give_back()
 
     # How it is done
@@ -167,44 +164,48 @@ class Sharing(QObject):
                 do()
             except NepError as reason:
                 error = reason
-            except Exception as reason:
+            except Exception:
                 log.exception("the network could not be opened, closed or joined")
-                error = _unexpected(reason)
+                error = NetworkError(
+                    "The network could not be changed.",
+                    checklist=("Try it once more.", "Start NEP Studio again."),
+                )
             self._thread = None
-            if not self._is_ended:
-                self.changed.emit()
-                if error is not None:
-                    self.failed.emit(error)
+            if self._is_ended:
+                return
+            self.changed.emit()
+            if error is None:
+                self.settled.emit(self.state)
+            else:
+                self.failed.emit(error)
 
-        thread = threading.Thread(target=run, name="nep-studio-sharing", daemon=True)
-        self._thread = thread
+        self._thread = threading.Thread(target=run, name="nep-studio-sharing", daemon=True)
         self.changed.emit()
-        thread.start()
+        self._thread.start()
         self._looking.start()
 
     def _open(self, address: str) -> None:
         if not is_ours(address):
             raise NetworkError(
                 f"This computer is not at {address} any more.",
-                checklist=(
-                    "Is it still in the Wi-Fi, or at the cable, of the other computers?",
-                    "Choose its address of now, then open the network again.",
-                ),
+                checklist=("Is it still in that network?", "Choose its address of now."),
             )
-        self._leave()
-        master, door = (free_endpoint(endpoint_at(address, port)) for port in self._ports)
+        free = [free_endpoint(endpoint_at(address, port)) for port in self.ports]
+        master, door = (int(endpoint.rpartition(":")[2]) for endpoint in free)
         opening = Opening(
             self.key_path,
             title=TITLE,
             host=address,
-            port=_port_of(master),
-            door_port=_port_of(door),
-            is_announced=self._is_announced,
+            port=master,
+            door_port=door,
+            is_announced=self.is_announced,
             on_event=self.happened.emit,
         )
+        self._leave()
 
         def prepare() -> None:
-            self._take(self.key_path, address)
+            self._give_back()
+            self._used.take(self.key_path, address)
             self._local.wanted_master = opening.master
 
         self._restart_or_go_back(prepare, opening.start)
@@ -213,13 +214,12 @@ class Sharing(QObject):
         opening.new_code()
 
     def _join(self, address: str, code: str) -> None:
-        host, port = door_at(address)
-        path = self.key_path.with_name(f"joined {re.sub(r'[^A-Za-z0-9.]', '-', host)}.keys")
-        keys = pair(host, port, code, path)
+        path, keys = pair_with(address, code, self.key_path.parent)
         self._leave()
 
         def prepare() -> None:
-            self._take(path, os.environ.get(HOST_VARIABLE, ""))
+            self._give_back()
+            self._used.take(path)
             self._local.joined_master = keys.master
             self._local.name = f"{STUDIO} {socket.gethostname()}"
 
@@ -235,8 +235,9 @@ class Sharing(QObject):
 
     def _leave(self) -> None:
         """End what there is with other computers; the network itself is still as it was."""
-        self._shut_door()
-        self.joined = None
+        opening, self.opening, self.joined = self.opening, None, None
+        if opening is not None:
+            opening.close()
 
     def _restart_or_go_back(
         self, prepare: Callable[[], None], then: Callable[[], None] = lambda: None
@@ -247,7 +248,7 @@ class Sharing(QObject):
             self._restart(prepare)
             then()
         except BaseException:
-            self._shut_door()
+            self._leave()
             if was_open:
                 self._local.reopen(self._give_back, nodes)
             else:
@@ -263,26 +264,11 @@ class Sharing(QObject):
         else:
             prepare()
 
-    def _take(self, keys: Path, host: str) -> None:
-        """Let this program, and all that it starts, use these keys."""
-        self._give_back()
-        wanted = {KEYS_VARIABLE: str(keys.absolute()), HOST_VARIABLE: host}
-        self._before = {name: os.environ.get(name) for name in wanted}
-        for name, value in wanted.items():
-            _set_variable(name, value)
-
     def _give_back(self) -> None:
         """Be as before: programs of this computer only."""
-        before, self._before = self._before or {}, None
-        for name, value in before.items():
-            _set_variable(name, value)
+        self._used.give_back()
         self._local.wanted_master, self._local.joined_master = self._usual_master, ""
         self._local.name = STUDIO
-
-    def _shut_door(self) -> None:
-        opening, self.opening = self.opening, None
-        if opening is not None:
-            opening.close()
 
     # What happens
 
@@ -312,36 +298,3 @@ class Sharing(QObject):
         if self.refusals.add(refusal):
             self.refused.emit(refusal)
         self.changed.emit()
-
-
-def door_at(typed: str) -> tuple[str, int]:
-    """The address and port of a door, as the other computer shows them; raises PairingError."""
-    try:
-        place = urlsplit("//" + typed.strip().removeprefix("tcp://"))
-        if place.hostname:
-            return place.hostname, place.port or DOOR_PORT
-    except ValueError:
-        log.info("no address: %r", typed)
-    raise PairingError(
-        f"“{typed}” is no address.",
-        checklist=("Write it as the other computer shows it, such as 192.168.1.5.",),
-    )
-
-
-def _port_of(endpoint: str) -> int:
-    return int(endpoint.rpartition(":")[2])
-
-
-def _set_variable(name: str, value: str | None) -> None:
-    if value:
-        os.environ[name] = value
-    else:
-        os.environ.pop(name, None)
-
-
-def _unexpected(reason: Exception) -> NetworkError:
-    return NetworkError(
-        "The network could not be changed.",
-        checklist=("Try it once more.", "Start NEP Studio again."),
-        details=f"{type(reason).__name__}: {reason}",
-    )

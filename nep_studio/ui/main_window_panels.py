@@ -134,18 +134,18 @@ class Panels(QObject):
         }
         self.column = QSplitter(Qt.Orientation.Vertical)
         self.row = QSplitter(Qt.Orientation.Horizontal)
+        box = QVBoxLayout(parent)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addWidget(self.row)  # the outer ones first: a widget is dressed anew in each parent
+        for beside in (self.areas["left"], self.column, self.areas["right"]):
+            self.row.addWidget(beside)
         for widget in (middle, self.areas["bottom"]):
             self.column.addWidget(widget)
-        for widget in (self.areas["left"], self.column, self.areas["right"]):
-            self.row.addWidget(widget)
         for splitter, stretched in ((self.column, 0), (self.row, 1)):
             splitter.setChildrenCollapsible(False)
             splitter.setStretchFactor(stretched, 1)
         for area in self.areas.values():
             area.close_asked.connect(self._on_close_asked)
-        box = QVBoxLayout(parent)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.row)
         look.theme_changed.connect(self._on_theme_changed)
 
     def add(

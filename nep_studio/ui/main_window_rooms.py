@@ -19,6 +19,7 @@ from nep_studio.ui.panels.network.adding import add_network_panel
 from nep_studio.ui.panels.nodes.adding import add_nodes_panel
 from nep_studio.ui.panels.robots.panel import add_robots_panel
 from nep_studio.ui.panels.sensors.panel import add_sensors_panel, show_topic
+from nep_studio.ui.sharing.adding import add_sharing
 from nep_studio.ui.show.mode import add_show_mode
 from nep_studio.ui.study.adding import add_study
 from nep_studio.ui.tour.tour import add_tour
@@ -65,6 +66,7 @@ def add_rooms(window: MainWindow) -> Iterator[None]:
     yield
     add_connecting(window)
     add_watches(window)
+    add_sharing(window, network)
     add_motion(window)
     yield
     add_command_palette(window)

@@ -1,4 +1,4 @@
-"""The settings: look, folders, show mode, privacy; each is in force at once, Cancel undoes them."""
+"""The settings of the program: each is in force at once, and Cancel undoes them."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ from nep_studio.ui.settings_pages import (
     AboutPage,
     FoldersPage,
     LookPage,
+    NetworkPage,
     ShowPage,
 )
 from nep_studio.ui.words import tr
@@ -42,6 +43,7 @@ class _Kept:
     text_scale: float
     folders: dict[FolderName, Path | None]
     show: ShowOptions
+    lets_original_join: bool
 
 
 def _kept(settings: Settings) -> _Kept:
@@ -51,6 +53,7 @@ def _kept(settings: Settings) -> _Kept:
         settings.text_scale,
         {name: settings.chosen_folder(name) for name in FOLDERS},
         settings.show_options,
+        settings.lets_original_join,
     )
 
 
@@ -82,6 +85,7 @@ class SettingsDialog(QDialog):
         """Take back what was chosen since the dialog was opened."""
         before, studio, settings = self._before, self._studio, self._studio.settings
         settings.show_options = before.show
+        settings.lets_original_join = before.lets_original_join
         for name, folder in before.folders.items():
             settings.set_folder(name, folder)
         super().reject()
@@ -132,6 +136,8 @@ class SettingsDialog(QDialog):
         self.pages.addTab(look, tr("Look"))
         self.pages.addTab(self.folders, tr("Folders"))
         self.pages.addTab(self.show_page, tr("Show mode"))
+        self.network_page = NetworkPage(settings)
+        self.pages.addTab(self.network_page, tr("Network"))
         self.pages.addTab(AboutPage(), tr("Privacy"))
         for make in self._more:
             title, page = make(self)

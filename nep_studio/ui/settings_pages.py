@@ -1,4 +1,4 @@
-"""The pages of the settings: look, folders, show mode, and what the program never does."""
+"""The pages of the settings: look, folders, show mode, network, and what is never done."""
 
 from __future__ import annotations
 
@@ -217,6 +217,23 @@ class ShowPage(QWidget):
         self._settings.set_pin(self.pin.text())
         self.pin.clear()
         self._show_pin()
+
+
+class NetworkPage(QWidget):
+    """Who else may join the network of the studio."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__()
+        self.original = QCheckBox(tr("Programs of the original NEP may join"))
+        self.original.setChecked(settings.lets_original_join)
+        form = _form(self)
+        form.addRow(self.original)
+        words = tr(
+            "Programs of this computer only, by its ports 7000 and 50000. It counts when the"
+            " network is started the next time."
+        )
+        form.addRow(_hint(words))
+        self.original.toggled.connect(lambda on: setattr(settings, "lets_original_join", on))
 
 
 class AboutPage(QWidget):

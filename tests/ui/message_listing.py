@@ -11,8 +11,14 @@ from pathlib import Path
 from message_sources import ROOT, in_order, template
 
 ROOMS = ("nep_core", "nodes", "nep_studio")
-NOT_SHOWN = ("nep_core/cli/", "nep_studio/commands/", "nodes/perceptual/recognition/command.py")
-"""What is told in a terminal."""
+NOT_SHOWN = (
+    "nep_core/cli/",
+    "nep_core/gateway/",
+    "nep_core/security/zap.py",
+    "nep_studio/commands/",
+    "nodes/perceptual/recognition/command.py",
+)
+"""What is told in a terminal, or to programs."""
 
 PROBLEM_OF_BLOCKS = ("error", "warning", "info")
 """With what a problem that is drawn at a block begins."""

@@ -46,6 +46,13 @@ PARTS = {
         "one of the choices",
         "the name of a file",
         'The node {id} needs the setting "{name}": {help}',
+        "ready_s is {ready_s}, but 0 to {most_ready_s} s can be",
+        "its command has an empty word",
+        'the topic "{topic}" does not begin with /',
+        '"{name}" cannot name a setting: use letters, digits and _',
+        'the setting "{name}" has limits, but is no number',
+        'the setting "{name}" has a minimum above its maximum',
+        'the setting "{name}" has no choices',
     ],
     "nep_core/outcome.py": [
         "{node} was killed",

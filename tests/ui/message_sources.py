@@ -19,6 +19,7 @@ SOURCES = (
     "nep_studio/blocks/**/*.py",
     "nep_studio/ui/**/*.py",
     "nep_core/*.py",
+    "nep_core/security/*.py",
     "nodes/**/*.py",
 )
 """Where checks, refusals, errors and nodes say what they have to say."""

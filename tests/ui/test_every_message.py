@@ -22,6 +22,7 @@ from nodes.cognitive.failure_sentences import OTHER, SENTENCES
 NO_HAND = "an edit checks itself; no gesture of the window asks for what is refused here"
 PASSED_ON = "the reason of another message; that one tells what to try"
 OF_A_ROBOT = "told as “NAO could not ...” by nep_core/actions.py, which adds what to try"
+OF_A_PROGRAM = "told by the master to a program that somebody wrote with the page docs/wire.md"
 FOR_AUTHORS = "told to those who write descriptions of blocks; the sentence names the place"
 SAYS_WHY = "why a place refuses blocks that are dragged or typed; the program stays as it was"
 ALL_IS_WELL = "it tells that something is well again, or done as it was asked"
@@ -36,7 +37,14 @@ WITHOUT_IN = {
 """Where messages need no checklist, and why."""
 
 WITHOUT = {
-    '"{name}" cannot name a setting: use letters, digits and _.': PASSED_ON,
+    "ready_s is {ready_s}, but 0 to {most_ready_s} s can be": PASSED_ON,
+    "its command has an empty word": PASSED_ON,
+    'the topic "{topic}" does not begin with /': PASSED_ON,
+    '"{name}" cannot name a setting: use letters, digits and _': PASSED_ON,
+    'the setting "{name}" has limits, but is no number': PASSED_ON,
+    'the setting "{name}" has a minimum above its maximum': PASSED_ON,
+    'the setting "{name}" has no choices': PASSED_ON,
+    "A registration names its instance and its node.": OF_A_PROGRAM,
     "reason": SAYS_WHY,
     "There is no block for this.": NO_HAND,
     "This block is not there any more.": NO_HAND,

@@ -32,7 +32,7 @@ def _tell_nobody(what: object) -> None:
     """Nothing has begun yet."""
 
 
-class _Job(QObject):
+class Job(QObject):
     """One thing at a time in a thread; a new one, or ``stop``, lets the old one end unheard.
 
     The libraries are loaded in the thread: the window must not wait for them. The thread puts its
@@ -95,7 +95,7 @@ def _work(work: Work, cancelled: threading.Event, news: News) -> None:
     news.put(_Ended(problem))
 
 
-class RobotSearch(_Job):
+class RobotSearch(Job):
     """Robots that announce themselves in the network."""
 
     found = Signal(str, str)
@@ -116,7 +116,7 @@ class RobotSearch(_Job):
         self.found.emit(robot.name, robot.address)
 
 
-class RobotTest(_Job):
+class RobotTest(Job):
     """The steps on the way to a robot."""
 
     checked = Signal(object)

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.node_board import NodeStatus
+from nep_studio.ui.sharing.told import SharingTold
 from nep_studio.ui.theme import Look, icon
 from nep_studio.ui.words import count_words, tr
 
@@ -36,10 +37,12 @@ class NetworkPanel(QWidget):
     """Looks at the network while it is visible.
 
     ``run_asked`` asks to run the project, the first step where nothing is there to see;
-    ``node_chosen`` gives the name of a node, ``plot_requested`` a topic and a field.
+    ``sharing_asked`` to show which other computers come in; ``node_chosen`` gives the name of a
+    node, ``plot_requested`` a topic and a field.
     """
 
     run_asked = Signal()
+    sharing_asked = Signal()
     node_chosen = Signal(str)
     plot_requested = Signal(str, str)
     saving_failed = Signal(str, str)
@@ -61,6 +64,10 @@ class NetworkPanel(QWidget):
         self.empty = _Empty()
         self.summary = QLabel()
         self.summary.setProperty("role", "hint")
+        self.sharing_button = _tool("")
+        self.sharing_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.sharing_button.hide()
+        self._sharing_icon = ""
         self.list_button = _tool(tr("As a list"), is_checkable=True)
         self.whole_button = _tool(tr("Show everything"), is_checkable=True)
         self.whole_button.setToolTip(tr("Show the studio itself and /node_state too"))
@@ -74,6 +81,7 @@ class NetworkPanel(QWidget):
     def _lay_out(self) -> None:
         bar = QHBoxLayout()
         bar.addWidget(self.summary, 1)
+        bar.addWidget(self.sharing_button)
         tools = (self.whole_button, self.list_button, self.smaller_button, self.larger_button)
         for button in (*tools, self.fit_button):
             bar.addWidget(button)
@@ -98,6 +106,7 @@ class NetworkPanel(QWidget):
     def _connect(self) -> None:
         self._feed.changed.connect(self._on_changed)
         self.empty.run_button.clicked.connect(self.run_asked)
+        self.sharing_button.clicked.connect(self.sharing_asked)
         for view in (self.graph, self.list):
             view.topic_chosen.connect(self.open_topic)
             view.node_chosen.connect(self.node_chosen)
@@ -114,6 +123,16 @@ class NetworkPanel(QWidget):
     def set_folder(self, folder: Path) -> None:
         """Save messages there at first."""
         self.pane.folder = folder
+
+    def show_sharing(self, told: SharingTold) -> None:
+        """Say that the network is open to other computers; nothing when it is not."""
+        self.sharing_button.setVisible(bool(told.words))
+        self.sharing_button.setText(told.words)
+        self.sharing_button.setToolTip(told.more or told.words)
+        self.sharing_button.setAccessibleName(told.words)
+        self.sharing_button.setAccessibleDescription(told.more)
+        self._sharing_icon = told.icon_name
+        self._on_theme_changed()
 
     def open_topic(self, topic: str) -> None:
         """Show the messages of a topic."""
@@ -172,6 +191,8 @@ class NetworkPanel(QWidget):
             self.smaller_button: "zoom-out",
             self.fit_button: "maximize",
         }
+        if self._sharing_icon:
+            icons[self.sharing_button] = self._sharing_icon
         for button, name in icons.items():
             button.setIcon(icon(name, self._look.theme))
 
