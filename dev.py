@@ -41,7 +41,7 @@ Each makes .venv beside this file when it is not there or out of date."""
 ROOT = Path(__file__).resolve().parent
 OLDEST, NEWEST = (3, 11), (3, 13)
 STORY = ["run", str(ROOT / "resources" / "examples" / "karate_greeting.nep")]
-EVERY_TEST = ["--numprocesses", str(min((os.cpu_count() or 1) + 1, 4)), "--dist", "worksteal"]
+EVERY_TEST = ["--numprocesses", str(min((os.cpu_count() or 1) + 2, 4)), "--dist", "worksteal"]
 """All tests side by side: most of the stories' time is waiting for what robots and people do."""
 
 UNABLE = {

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import socket
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -39,6 +40,12 @@ def pytest_configure() -> None:
     settings.load_profile("busy")
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
+
+
+def pytest_collection_finish() -> None:
+    """Let the garbage collector pass by all that collecting the tests has made: it stays."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture
@@ -90,12 +97,24 @@ def network(join: Callable[[str], PeerNetwork]) -> Iterator[PeerNetwork]:
     set_default_network(None)
 
 
+def children() -> set[psutil.Process]:
+    """The child processes; where Linux tells them, not all processes are looked through."""
+    told = list(Path("/proc/self/task").glob("*/children"))
+    if not told:
+        return set(psutil.Process().children())
+    found = set()
+    for path in told:
+        with suppress(OSError, psutil.NoSuchProcess):  # a thread or a child that has ended by now
+            found |= {psutil.Process(int(pid)) for pid in path.read_text().split()}
+    return found
+
+
 @pytest.fixture(autouse=True)
 def leaves_no_child_processes() -> Iterator[None]:
     """A test that leaves a process running fails, and the process is ended."""
-    before = set(psutil.Process().children())
+    before = children()
     yield
-    left = [child for child in set(psutil.Process().children()) - before if child.is_running()]
+    left = [child for child in children() - before if child.is_running()]
     _, left = psutil.wait_procs(left, timeout=3)
     names = [" ".join(child.cmdline()) for child in left]
     for child in left:

@@ -126,15 +126,17 @@ def chains(project: Project, language: Language) -> Iterator[list[str]]:
 
 def _slots_of_kind(project: Project, language: Language, kind: str) -> Iterator[tuple[Block, str]]:
     """The blocks in rules that have slots of this kind, and the key of each."""
-    types = {
-        definition.id
-        for definition in language.definitions.values()
-        if any(slot.kind.name == kind for slot in definition.slots.values())
-    }
+    has_kind: dict[str, bool] = {}
     for chain in chains(project, language):
         for block in project.within(chain, enabled=True):
-            if block.type in types:
-                keys = language.definitions[block.type].keys(block.groups)
+            definition = language.definitions.get(block.type)
+            if definition is None:
+                continue
+            if block.type not in has_kind:
+                slots = definition.slots.values()
+                has_kind[block.type] = any(slot.kind.name == kind for slot in slots)
+            if has_kind[block.type]:
+                keys = definition.keys(block.groups)
                 yield from ((block, key) for key, slot in keys if slot.kind.name == kind)
 
 

@@ -112,7 +112,7 @@ def _neighbours(
         chain = project.blocks[place.block].bodies.get(place.slot, [])
     else:
         return None, None
-    left = [block for block in chain if block not in moved]
+    left = chain if moved.isdisjoint(chain) else [i for i in chain if i not in moved]
     above = project.blocks[left[place.index - 1]] if 0 < place.index <= len(left) else None
     below = project.blocks[left[place.index]] if 0 <= place.index < len(left) else None
     return above, below

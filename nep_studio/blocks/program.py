@@ -198,9 +198,8 @@ class Project:
 
     def page_of(self, stack_id: str) -> str:
         """The name of the page on which a stack is."""
-        return next(
-            page for page, stacks in self.pages.items() if any(s.id == stack_id for s in stacks)
-        )
+        stack = self.stacks[stack_id]
+        return next(page for page, stacks in self.pages.items() if stack in stacks)
 
     def chain_of(self, parent: Parent) -> list[str] | None:
         """The chain of blocks at a place (the list itself), or None when it is an input."""

@@ -180,9 +180,9 @@ class Later(QObject):
         from nep_studio.ui.main_window_workbench import Workbench
 
         window = self._window
-        window.studio.read_language()
+        _ = window.studio.language
         yield
-        workbench = self.made_workbench = Workbench(window.studio, window.messages, window)
+        workbench = self.made_workbench = Workbench(window.studio, window.messages, window.pages)
         window.pages.addWidget(workbench)
         yield
         self.running.attach()

@@ -65,7 +65,7 @@ def count_words(count: int, one: str, many: str, /, **values: object) -> str:
 def use_language(code: str) -> None:
     """Take the words from the table of this language; unknown ones leave the window English."""
     global _used
-    _used = _catalogue(code) if code in _known() else _Catalogue()
+    _used = _catalogue(code, paths.resources()) if code in _known() else _Catalogue()
     _message.cache_clear()
 
 
@@ -108,7 +108,9 @@ def _path(code: str) -> Path:
     return paths.resources() / "translations" / f"{code}.toml"
 
 
-def _catalogue(code: str) -> _Catalogue:
+@lru_cache(maxsize=8)
+def _catalogue(code: str, _resources: Path) -> _Catalogue:
+    """The words of a language, which take long to read, from the resources in use."""
     if code == ENGLISH:
         return _Catalogue()
     if code == PSEUDO:

@@ -35,6 +35,8 @@ class OutlineModel(QAbstractItemModel):
         self._numbers: dict[str, int] = {}
         self._ids: list[str] = []
         self._rows: dict[str, dict[str, int]] = {}
+        self._in_order: dict[str, list[str]] = {}
+        """The blocks under a row, each with its number, and the same as a list."""
         editor.history.listen(self._on_changes)
 
     def close(self) -> None:
@@ -64,10 +66,10 @@ class OutlineModel(QAbstractItemModel):
 
     def index(self, row: int, column: int, parent: Index | None = None) -> QModelIndex:
         """The index of a row."""
-        children = self._children(self._id(parent))
-        if column != 0 or not 0 <= row < len(children):
+        owner = self._id(parent)
+        if column != 0 or not 0 <= row < len(self._children(owner)):
             return QModelIndex()
-        return self.createIndex(row, 0, self._number(list(children)[row]))
+        return self.createIndex(row, 0, self._number(self._in_order[owner][row]))
 
     def parent(self, index: Index | None = None) -> QModelIndex:  # type: ignore[override]
         """The row that a row is under."""
@@ -123,7 +125,7 @@ class OutlineModel(QAbstractItemModel):
     def _children(self, owner: str) -> dict[str, int]:
         """The rows under a row, each with its number."""
         if owner not in self._rows:
-            ids = self._blocks_under(owner)
+            ids = self._in_order[owner] = self._blocks_under(owner)
             self._rows[owner] = {block_id: row for row, block_id in enumerate(ids)}
         return self._rows[owner]
 
@@ -163,4 +165,4 @@ class OutlineModel(QAbstractItemModel):
             yield PAGE
 
     def _is_up_to_date(self, owner: str) -> bool:
-        return owner not in self._rows or list(self._rows[owner]) == self._blocks_under(owner)
+        return owner not in self._rows or self._in_order[owner] == self._blocks_under(owner)

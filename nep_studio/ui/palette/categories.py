@@ -27,6 +27,7 @@ class CategoryColumn(QScrollArea):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.buttons: dict[str, QToolButton] = {}
+        self._shown: object = None
         self._is_narrow = False
         self._words_width = self.wide_width = 0
         self._to_come: QToolButton | None = None
@@ -39,6 +40,13 @@ class CategoryColumn(QScrollArea):
 
     def show_drawers(self, drawers: Sequence[Drawer], theme: Theme) -> None:
         """Show a button for each of these."""
+        shown = (drawers, theme, self.font(), self.devicePixelRatioF())
+        if shown != self._shown:
+            self._shown = shown
+            self._make(drawers, theme)
+        self._fit()
+
+    def _make(self, drawers: Sequence[Drawer], theme: Theme) -> None:
         self.setAccessibleName(tr("Categories of blocks"))
         inner = QWidget()
         column = QVBoxLayout(inner)
@@ -54,7 +62,6 @@ class CategoryColumn(QScrollArea):
             self._group.removeButton(self._to_come)
             self._to_come.hide()
         self.setWidget(inner)
-        self._fit()
 
     def set_narrow(self, is_narrow: bool) -> None:
         """Show the signs without the names."""

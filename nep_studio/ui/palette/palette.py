@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent, QShowEvent
+from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
+from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import CreateBlocks, Edit
 from nep_studio.blocks.history import History
 from nep_studio.blocks.program import Changes
@@ -69,7 +71,7 @@ class Palette(QWidget):
         self.is_narrow = False
         self._drawers: list[Drawer] = []
         self._history: History | None = None
-        self._is_behind = self._goes_to_top = False
+        self._goes_to_top = False
         self._later = QTimer(self, singleShot=True, interval=0)
         self._arrange()
         self._connect()
@@ -86,30 +88,21 @@ class Palette(QWidget):
         self._sign.setIcon(icon("search", self.canvas.theme))
         self._show_fold()
         self._listen()
-        self._drawers = []
         self.shelf.refresh()
         self.fill()
 
     def fill(self, *, to_top: bool = False) -> None:
-        """Show the blocks for the page, or those that are searched for.
-
-        While the palette is hidden nobody sees the blocks: they come when it is shown.
-        """
+        """Show the blocks for the page, or those that are searched for, when somebody looks."""
         editor = self.canvas.editor
         kind = editor.project.kind_of_page(self.canvas.page)
         recent = recent_types(self.settings, editor.language, kind)
-        drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
-        if drawers != self._drawers:
-            self._drawers = drawers
-            self.categories.show_drawers(drawers, self.canvas.theme)
-            self._fit()
+        self._drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
+        self.categories.show_drawers(self._drawers, self.canvas.theme)
+        self._fit()
         self._goes_to_top |= to_top
-        self._is_behind = not self.isVisible()
-        if not self._is_behind:
-            self._fill_shelf(recent)
+        self.shelf.fill_later(partial(self._fill_shelf, editor, recent))
 
-    def _fill_shelf(self, recent: Sequence[str]) -> None:
-        editor = self.canvas.editor
+    def _fill_shelf(self, editor: Editor, recent: Sequence[str]) -> None:
         stock = Stock(editor)
         typed = self.search.text().strip()
         if typed:
@@ -263,12 +256,6 @@ class Palette(QWidget):
 
     def _on_delete_area_entered(self, is_over: bool) -> None:
         self.shelf.set_delete(is_over and is_taking(self.canvas, self))
-
-    def showEvent(self, event: QShowEvent) -> None:
-        """Show the blocks that there are by now."""
-        super().showEvent(event)
-        if self._is_behind:
-            self.fill()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Show the names of the categories where there is room for them."""

@@ -31,8 +31,9 @@ class Shelf(ShelfView):
     @property
     def marked_type(self) -> str:
         """The type of the block under the mouse, or else at the keyboard; empty when none."""
+        entries = self.entries  # first: with them comes which one it is
         number = self._hovered if self._hovered >= 0 else self._current
-        sample = self._entries[number].sample if number >= 0 else ""
+        sample = entries[number].sample if number >= 0 else ""
         return self._stock.project.blocks[sample].type if sample else ""
 
     # Mouse
@@ -50,7 +51,7 @@ class Shelf(ShelfView):
             return
         self._go_to(number)
         self._pressed = event.position().toPoint()
-        clip = self.clip_of(self._entries[number])
+        clip = self.clip_of(self.entries[number])
         if clip is not None:
             self._canvas.begin_external_drag(
                 clip, event.globalPosition().toPoint(), self.viewport()
@@ -62,7 +63,7 @@ class Shelf(ShelfView):
         number = self._entry_at(event.position())
         is_left = event.button() == Qt.MouseButton.LeftButton
         if is_left and pressed is not None and number == self._current and number >= 0:
-            self.chosen.emit(self._entries[number])
+            self.chosen.emit(self.entries[number])
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Show what is under the mouse."""
@@ -76,16 +77,16 @@ class Shelf(ShelfView):
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         """Ask for the menu of an entry."""
         is_key = event.reason() == QContextMenuEvent.Reason.Keyboard
-        number = self._current if is_key else self._entry_at(QPointF(event.pos()))
+        number = self.current_item() if is_key else self._entry_at(QPointF(event.pos()))
         if number >= 0:
             place = self.rect_of(number).center() if is_key else event.pos()
-            self.menu_asked.emit(self._entries[number], self.viewport().mapToGlobal(place))
+            self.menu_asked.emit(self.entries[number], self.viewport().mapToGlobal(place))
 
     def viewportEvent(self, event: QEvent) -> bool:
         """Tell what a block does."""
         if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
             number = self._entry_at(QPointF(event.pos()))
-            entry = self._entries[number] if number >= 0 else None
+            entry = self.entries[number] if number >= 0 else None
             if entry is None or not entry.sample:
                 QToolTip.hideText()
                 return True
@@ -98,7 +99,7 @@ class Shelf(ShelfView):
         """The entry under a point of the viewport, or -1."""
         place = QPointF(point.x(), point.y() + self.verticalScrollBar().value())
         number = self._layout.at(place.y())
-        if number < 0 or not self._entries[number].is_choosable:
+        if number < 0 or not self.entries[number].is_choosable:
             return -1
         rect = self._layout.block_rect(self._layout.spots[number]).adjusted(-6, -2, 6, 2)
         return number if rect.contains(place) else -1
@@ -117,7 +118,7 @@ class Shelf(ShelfView):
         if key in steps:
             self.choose_next(steps[Qt.Key(key)])
         elif key in (Qt.Key.Key_Home, Qt.Key.Key_End):
-            self._current = -1 if key == Qt.Key.Key_Home else len(self._entries)
+            self._current = -1 if key == Qt.Key.Key_Home else len(self.entries)
             self.verticalScrollBar().setValue(0 if key == Qt.Key.Key_Home else 10**6)
             self.choose_next(1 if key == Qt.Key.Key_Home else -1)
         elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.current is not None:

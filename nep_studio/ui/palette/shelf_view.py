@@ -26,8 +26,8 @@ Anchor = Callable[[ShelfLayout], float]
 class ShelfView(QAbstractScrollArea):
     """Shows entries, and which one the keyboard and the mouse are at.
 
-    They get their places when somebody looks at them: a window that opens is resized, filled and
-    refreshed many times before.
+    They come, and get their places, when somebody looks at them: a window that opens is resized,
+    filled and refreshed many times before.
 
     ``drawer_shown`` brings the drawer at the top of the view; ``left_upwards`` says that the
     arrow keys go on to what is above.
@@ -39,8 +39,8 @@ class ShelfView(QAbstractScrollArea):
     def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._canvas = canvas
-        self._stock = Stock(canvas.editor)
-        self._entries: Sequence[Entry] = ()
+        self._filled: tuple[Stock, Sequence[Entry]] = (Stock(canvas.editor), ())
+        self._fill: Callable[[], None] | None = None
         self._hovered = self._current = -1
         self._is_delete = False
         self._made: ShelfLayout | None = None
@@ -57,11 +57,17 @@ class ShelfView(QAbstractScrollArea):
 
     # What is shown
 
+    def fill_later(self, fill: Callable[[], None]) -> None:
+        """Let ``fill`` show entries as soon as somebody looks."""
+        self._fill = fill
+        self._settle.start()
+        self.viewport().update()
+
     def show_entries(self, stock: Stock, entries: Sequence[Entry], *, to_top: bool = False) -> None:
         """Show these; the place in the list stays, unless it is to begin at the top."""
         anchor = self._anchor if self._made is None else _drawer_anchor(self._made, self._scrolled)
         current = self.current
-        self._stock, self._entries = stock, entries
+        self._filled = stock, entries
         self._hovered = -1
         self._current = list(entries).index(current) if current and current in entries else -1
         self._lay_out(_top if to_top else anchor)
@@ -74,7 +80,8 @@ class ShelfView(QAbstractScrollArea):
     @property
     def entries(self) -> Sequence[Entry]:
         """What is listed."""
-        return self._entries
+        self._catch_up()
+        return self._filled[1]
 
     def show_drawer(self, drawer: str) -> None:
         """Scroll to the beginning of a drawer."""
@@ -100,10 +107,10 @@ class ShelfView(QAbstractScrollArea):
 
     def choose_next(self, step: int) -> None:
         """Go to the next entry that can be chosen, or the one before."""
-        count, number = len(self._entries), self._current + step
+        count, number = len(self.entries), self._current + step
         if self._current < 0:
             number = self._first_in_view() if step > 0 else -1
-        while 0 <= number < count and not self._entries[number].is_choosable:
+        while 0 <= number < count and not self.entries[number].is_choosable:
             number += step
         if 0 <= number < count:
             self._go_to(number)
@@ -112,17 +119,25 @@ class ShelfView(QAbstractScrollArea):
 
     def choose_first(self) -> None:
         """Go to the first entry that can be chosen."""
-        choosable = (n for n, entry in enumerate(self._entries) if entry.is_choosable)
+        choosable = (n for n, entry in enumerate(self.entries) if entry.is_choosable)
         self._go_to(next(choosable, -1))
 
     @property
     def current(self) -> Entry | None:
         """The entry that the keyboard is at."""
-        return self._entries[self._current] if self._current >= 0 else None
+        entries = self.entries  # first: with them comes which one it is
+        return entries[self._current] if self._current >= 0 else None
+
+    @property
+    def _stock(self) -> Stock:
+        """What the samples of the entries are in."""
+        self._catch_up()
+        return self._filled[0]
 
     @property
     def _layout(self) -> ShelfLayout:
         """Where the entries are now."""
+        self._catch_up()
         return self._made if self._made is not None else self._make_layout()
 
     @property
@@ -133,6 +148,12 @@ class ShelfView(QAbstractScrollArea):
         """The entry at the top stays there, however high those above it will be."""
         return self._anchor if self._made is None else _spot_anchor(self._made, self._scrolled)
 
+    def _catch_up(self) -> None:
+        """Show the entries that are to be shown by now."""
+        fill, self._fill = self._fill, None
+        if fill is not None:
+            fill()
+
     def _lay_out(self, anchor: Anchor) -> None:
         """Give the entries new places as soon as somebody needs them."""
         self._made, self._is_settled, self._anchor = None, False, anchor
@@ -140,14 +161,14 @@ class ShelfView(QAbstractScrollArea):
         self.viewport().update()
 
     def _on_settle(self) -> None:
-        if self._made is None and self.isVisible():
-            self._make_layout()
+        if self.isVisible():
+            _ = self._layout
 
     def _make_layout(self) -> ShelfLayout:
         width = max(self.viewport().width(), 120)
         size = QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.block_font).pixelSize()
         self._made = layout = ShelfLayout(self._canvas, float(width), size)
-        layout.fill(self._stock, self._entries)
+        layout.fill(*self._filled)
         self._painter = ShelfPainter(self._canvas, layout)
         bar = self.verticalScrollBar()
         bar.setRange(0, layout.lowest_top(self.viewport().height()))
@@ -163,14 +184,13 @@ class ShelfView(QAbstractScrollArea):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the entries in view."""
-        if self._made is None:
-            self._make_layout()
+        layout = self._layout
         top = self._scrolled
         exposed = event.rect().translated(0, top)
         with QPainter(self.viewport()) as painter:
             painter.fillRect(event.rect(), self._canvas.theme.colour("panel"))
             painter.translate(0, -top)
-            for number, spot in self._near(exposed.top() - 8, exposed.bottom() + 8):
+            for number, spot in _near(layout, exposed.top() - 8, exposed.bottom() + 8):
                 is_current = number == self._current and self.hasFocus()
                 if is_current or (number == self._hovered and spot.entry.is_choosable):
                     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -179,13 +199,6 @@ class ShelfView(QAbstractScrollArea):
             painter.translate(0, top)
             if self._is_delete:
                 self._painter.paint_delete(painter, QRectF(self.viewport().rect()))
-
-    def _near(self, top: float, bottom: float) -> list[tuple[int, Spot]]:
-        spots = self._layout.between(top, bottom)
-        if not spots:
-            return []
-        first = self._layout.spots.index(spots[0])
-        return list(enumerate(spots, start=first))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Let the blocks be as narrow as the palette; the one at the top stays there."""
@@ -222,11 +235,11 @@ class ShelfView(QAbstractScrollArea):
 
     def item_count(self) -> int:
         """How many entries there are."""
-        return len(self._entries)
+        return len(self.entries)
 
     def item_text(self, number: int) -> str:
         """What an entry says."""
-        entry = self._entries[number]
+        entry = self.entries[number]
         if entry.kind == "heading":
             return tr("Category {title}", title=entry.text)
         if entry.kind == "snippet":
@@ -240,7 +253,13 @@ class ShelfView(QAbstractScrollArea):
 
     def current_item(self) -> int:
         """The entry that the keyboard is at, or -1."""
+        self._catch_up()
         return self._current
+
+
+def _near(layout: ShelfLayout, top: float, bottom: float) -> list[tuple[int, Spot]]:
+    spots = layout.between(top, bottom)
+    return list(enumerate(spots, start=layout.spots.index(spots[0]))) if spots else []
 
 
 def _top(_layout: ShelfLayout) -> float:

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sklearn.ensemble import ExtraTreesClassifier
 
 from nodes.perceptual.recognition.trees import Trees, flatten
 
 
 def grown(seed, *, samples=80, labels=4, classes=None):
+    from sklearn.ensemble import ExtraTreesClassifier  # takes seconds, in each worker
+
     chance = np.random.default_rng(seed)
     features = chance.normal(size=(samples, 6)).astype(np.float32).round(1)
     held = (

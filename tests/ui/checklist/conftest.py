@@ -2,42 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from PySide6.QtGui import QPointingDevice
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDialog
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.app import Studio
 from nep_studio.ui.main_window import MainWindow
 from tests.ui.checklist.person import CTRL, Fingers, Key, Person
 from tests.ui.window.conftest import home, studio
+from tests.ui.window.putting_away import put_away
 
 __all__ = ["home", "studio"]
 
 
 @pytest.fixture
-def window(studio: Studio, qtbot: QtBot) -> Iterator[MainWindow]:
+def window(studio: Studio, qtbot: QtBot) -> MainWindow:
     """The window as it is at the first start, large enough to work in."""
     made = MainWindow(studio)
-    qtbot.addWidget(made)
+    qtbot.addWidget(made, before_close_func=put_away)
     made.resize(1700, 950)
     with qtbot.waitActive(made):
         made.show()
         made.activateWindow()
     made.start(None)
-    yield made
-    for dialog in made.findChildren(QDialog):
-        dialog.blockSignals(True)
-        dialog.close()
-    made.workbench.canvas.fields.close()
-    made.running.close()
-    made.workbench.retire()
-    if made.files.document is not None:
-        made.files.document.close()
-        made.files.document = None
+    return made
 
 
 @pytest.fixture

@@ -19,6 +19,7 @@ from nep_studio.ui.help.desk import HelpDesk
 from nep_studio.ui.help.panel import HelpPanel
 from nep_studio.ui.main_window import MainWindow
 from tests.ui.window.conftest import home, studio
+from tests.ui.window.putting_away import put_away
 
 __all__ = ["home", "studio"]
 
@@ -31,19 +32,14 @@ def book() -> Book:
 
 
 @pytest.fixture
-def window(studio: Studio, qtbot: QtBot):
+def window(studio: Studio, qtbot: QtBot) -> MainWindow:
     """The window as it is at the first start."""
     made = MainWindow(studio)
-    qtbot.addWidget(made)
+    qtbot.addWidget(made, before_close_func=put_away)
     made.show()
     made.start(None)
     qtbot.waitExposed(made)
-    yield made
-    made.running.close()
-    made.workbench.retire()
-    if made.files.document is not None:
-        made.files.document.close()
-        made.files.document = None
+    return made
 
 
 @pytest.fixture

@@ -230,7 +230,7 @@ def test_a_damaged_picture_gives_the_program_or_nothing(data):
 HOSTILE = {
     "bomb": png_chunk.SIGNATURE
     + png_chunk._chunk(
-        b"iTXt", png_chunk.KEY + b"\0\x01\0\0\0" + zlib.compress(b"\0" * 80_000_000, 9)
+        b"iTXt", png_chunk.KEY + b"\0\x01\0\0\0" + zlib.compress(b"\0" * 65_000_000, 1)
     ),
     "long": png_chunk.SIGNATURE + struct.pack(">I", 0xFFFFFFFF) + b"iTXt" + b"x" * 50,
     "short": png_chunk.SIGNATURE + png_chunk._chunk(b"iTXt", png_chunk.KEY + b"\0"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -11,10 +12,13 @@ from PySide6.QtWidgets import QApplication, QDialog, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
+from nep_studio.blocks.language import Language
 from nep_studio.settings import FOLDER_VARIABLE, Settings
+from nep_studio.studio_language import studio_language
 from nep_studio.ui.app import Studio
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.words import use_language
+from tests.ui.window.putting_away import put_away
 
 
 class Chooser:
@@ -42,11 +46,18 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
+@cache
+def english() -> Language:
+    """The blocks in English: they do not change, so their files are read once."""
+    return studio_language()
+
+
 @pytest.fixture
 def studio(home: Path, qapp: QApplication) -> Iterator[Studio]:
     settings = Settings(home)
     settings.language, settings.theme = "en", "light"
     made = Studio(qapp, settings)
+    made.language = english()
     yield made
     use_language("en")
     made.look.deleteLater()
@@ -60,22 +71,14 @@ def chooser() -> Chooser:
 
 
 @pytest.fixture
-def window(studio: Studio, chooser: Chooser, qtbot: QtBot) -> Iterator[MainWindow]:
+def window(studio: Studio, chooser: Chooser, qtbot: QtBot) -> MainWindow:
     """The window as it is at the first start."""
     made = MainWindow(studio, chooser)
-    qtbot.addWidget(made)
+    qtbot.addWidget(made, before_close_func=put_away)
     made.show()
     made.start(None)
     qtbot.waitExposed(made)
-    yield made
-    for dialog in made.findChildren(QDialog):
-        dialog.blockSignals(True)
-        dialog.close()
-    made.running.close()
-    made.workbench.retire()
-    if made.files.document is not None:
-        made.files.document.close()
-        made.files.document = None
+    return made
 
 
 @pytest.fixture

@@ -18,15 +18,15 @@ class Columns(QWidget):
     Each column is a widget: a layout within a layout is not told that something has grown.
     """
 
-    def __init__(self, widgets: Sequence[QWidget]) -> None:
-        super().__init__()
+    def __init__(self, widgets: Sequence[QWidget], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self._widgets = list(widgets)
         self.count = 0
         line = self.fontMetrics().height()
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._row.setSpacing(line)
-        self._holders = [QWidget() for _ in range(MOST_COLUMNS)]
+        self._holders = [QWidget(self) for _ in range(MOST_COLUMNS)]
         self._columns = [QVBoxLayout(holder) for holder in self._holders]
         for holder, column in zip(self._holders, self._columns, strict=True):
             column.setContentsMargins(0, 0, 0, 0)

@@ -51,7 +51,10 @@ SHARE = 0.4
 
 
 class HumanPanel(QScrollArea):
-    """What the program waits for comes first; below it, all that can be done by hand."""
+    """What the program waits for comes first; below it, all that can be done by hand.
+
+    It is empty until it is shown for the first time.
+    """
 
     def __init__(self, window: MainWindow, floor: Floor) -> None:
         super().__init__()
@@ -61,6 +64,12 @@ class HumanPanel(QScrollArea):
         self._ear = ProjectEar(window.files, self)
         self.visitors = Visitors(floor, self)
         self.hands = Hands(self._runner, self.visitors, self.watch_gestures, self)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setAccessibleName(tr("Simulated human"))
+
+    def _make(self) -> None:
         self.robot = QComboBox()
         self.state, self.run_button = QLabel(), QPushButton(tr("Run"))
         self.told = QLabel()
@@ -112,10 +121,6 @@ class HumanPanel(QScrollArea):
         return said
 
     def _lay_out(self) -> None:
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setAccessibleName(tr("Simulated human"))
         self.robot.setAccessibleName(tr("Which robot notices it"))
         self.robot.setMinimumContentsLength(8)
         self.run_button.setProperty("kind", "run")
@@ -132,13 +137,13 @@ class HumanPanel(QScrollArea):
         which.setContentsMargins(0, 0, 0, 0)
         which.addWidget(QLabel(tr("Before")))
         which.addWidget(self.robot, 1)
-        inner, line = QWidget(), self.fontMetrics().height()
+        inner, line = QWidget(self.viewport()), self.fontMetrics().height()
         box = QVBoxLayout(inner)
         box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
         box.addLayout(top)
         box.addWidget(self.told)
         box.addWidget(self._which)
-        box.addWidget(Columns(self.sections))
+        box.addWidget(Columns(self.sections, inner))
         box.addWidget(self.reset_button, 0, Qt.AlignmentFlag.AlignLeading)
         box.addStretch(1)
         self.setWidget(inner)
@@ -252,8 +257,10 @@ class HumanPanel(QScrollArea):
         self.say_button.setIcon(icon("message-square", theme))
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Follow where the robots are."""
+        """Make what is in it, and follow where the robots are."""
         super().showEvent(event)
+        if self.widget() is None:
+            self._make()
         if self._tap is None:
             self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
             self._tap.arrived.connect(self._on_states)

@@ -1,7 +1,6 @@
 """What the plots are made of: rings, clocks, gaps, columns, fields, measures."""
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -281,14 +280,3 @@ def test_a_fitting_length_shows_all_in_few_steps(seconds: float) -> None:
 
     assert length_s >= min(seconds, 4000.0)
     assert length_s <= max(5.0, 2 * seconds)
-
-
-def test_a_thousand_samples_a_second_are_taken_quickly() -> None:
-    stream = ImuStream(KEY)
-    batches = [imu(at * 0.03 + np.arange(30) / 1000, 1000.0) for at in range(200)]
-
-    start_s = time.process_time()
-    for at, batch in enumerate(batches):
-        stream.hear(batch, 1000 + at * 0.03)
-
-    assert time.process_time() - start_s < 1.0  # six seconds of a sensor
