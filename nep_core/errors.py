@@ -38,6 +38,8 @@ class NepError(Exception):
         self.sentence = sentence
         self.checklist = checklist
         self.details = details
+        for step in checklist:
+            self.add_note(f"  [ ] {step}")  # what a traceback of somebody's script shows, too
 
 
 class NetworkError(NepError):
