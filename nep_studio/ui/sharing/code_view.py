@@ -44,7 +44,8 @@ class CodeView(QFrame):
         font.setPixelSize(round(self.fontMetrics().height() * TIMES_LARGER * 0.75))
         font.setBold(True)
         self.line.text.setFont(font)
-        self.line.text.setMinimumHeight(round(QFontMetrics(font).height() * 1.3))
+        high = round(QFontMetrics(font).height() * 1.15)
+        self.line.text.setStyleSheet(f"min-height: {high}px")  # else the theme wins
         line = self.fontMetrics().height()
         box = QVBoxLayout(self)
         box.setContentsMargins(line, line // 2, line, line // 2)
