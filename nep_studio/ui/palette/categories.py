@@ -28,6 +28,7 @@ class CategoryColumn(QScrollArea):
         super().__init__(parent)
         self.buttons: dict[str, QToolButton] = {}
         self._shown: object = None
+        self._sign_size = QSize()
         self._is_narrow = False
         self._words_width = self.wide_width = 0
         self._to_come: QToolButton | None = None
@@ -40,7 +41,9 @@ class CategoryColumn(QScrollArea):
 
     def show_drawers(self, drawers: Sequence[Drawer], theme: Theme) -> None:
         """Show a button for each of these."""
-        shown = (drawers, theme, self.font(), self.devicePixelRatioF())
+        self.ensurePolished()  # before that letters have another size
+        size = self.fontMetrics().height(), self.devicePixelRatioF()
+        shown = (drawers, theme, self.font(), size)
         if shown != self._shown:
             self._shown = shown
             self._make(drawers, theme)
@@ -92,7 +95,7 @@ class CategoryColumn(QScrollArea):
         side = round(self.fontMetrics().height() * SIGN_LINES)
         badge = _badge(drawer, theme, side, self.devicePixelRatioF())
         button.setIcon(badge)
-        button.setIconSize(badge.actualSize(QSize(2 * side, side)))
+        self._sign_size = badge.actualSize(QSize(2 * side, side))
         button.setToolButtonStyle(self._style())
         button.clicked.connect(lambda: self.opened.emit(drawer.id))
         self._group.addButton(button)
@@ -109,6 +112,7 @@ class CategoryColumn(QScrollArea):
     def _fit(self) -> None:
         for button in self._measured():
             button.ensurePolished()  # before that the style sheet does not count
+            button.setIconSize(self._sign_size)  # a change of the style makes it smaller
             button.setMinimumWidth(0)
         widest = max((b.sizeHint().width() for b in self._measured()), default=40)
         for button in self.buttons.values():
