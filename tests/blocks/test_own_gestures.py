@@ -201,10 +201,10 @@ def test_a_recording_with_very_many_deleted_takes_opens_at_once(language: Langua
     project.extra["recording_r1"] = value
     save(project, tmp_path / "many.nep")
 
-    began_s = time.monotonic()
+    began_s = time.process_time()
     load(tmp_path / "many.nep", language)
 
-    assert time.monotonic() - began_s < 3.0
+    assert time.process_time() - began_s < 3.0
 
 
 def test_the_training_data_are_digested_once_for_each_change(language: Language, monkeypatch):

@@ -169,7 +169,7 @@ def test_a_studio_joins_the_network_of_another_computer_and_leaves_it(
 
 
 def test_what_guards_tell_of_refused_programs_is_read() -> None:
-    refusals = Refusals("/home/ada/own.keys")
+    refusals = Refusals("own.keys")
     refusals.refuse("192.0.2.7")
     refusals.refuse("127.0.0.1")
     refusals.cannot_join("tcp://192.0.2.8:5000")

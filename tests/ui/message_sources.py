@@ -19,6 +19,7 @@ SOURCES = (
     "nep_studio/blocks/**/*.py",
     "nep_studio/ui/**/*.py",
     "nep_core/*.py",
+    "nep_core/over_zenoh/*.py",
     "nep_core/security/*.py",
     "nodes/**/*.py",
 )
@@ -42,6 +43,10 @@ NOT_SHOWN = (
     "nep_studio/__main__.py",
     "nep_studio/python_file.py",
     "nep_studio/ui/show/command.py",
+    "nep_core/over_zenoh/router.py",
+    "nep_core/recordings/file.py",
+    "nep_core/recordings/player.py",
+    "nep_core/recordings/recorder.py",
     "nodes/perceptual/recognition/command.py",
     "nodes/perceptual/recognition/report.py",
     # What the robot on the screen answers to programs of others, in the language of NAOqi.
@@ -57,7 +62,7 @@ STATES = {"ready": 0, "warn": 0, "state": 1, "Connection": 1}
 NO_SENTENCES = re.compile(
     r"Made with NEP Studio|^[^A-Za-z]*$|^(\{\w+\}[.:]? ?)+\.?$|^range\(|^  \[ \] |^ - |^# "
 )
-ENDINGS = re.compile(r"[.?]$|\{(reason|sentence|fault|description)\}$")
+ENDINGS = re.compile(r"[.?]$|\{(reason|sentence|fault|description|why)\}$")
 
 
 @cache
