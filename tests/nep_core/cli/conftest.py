@@ -68,7 +68,7 @@ def busy(join: Callable[[str], PeerNetwork]) -> Iterator[PeerNetwork]:
     started = threading.Event()
     talker = threading.Thread(target=talk)
     talker.start()
-    assert started.wait(10)
+    assert started.wait(30)
     yield network
     stopping.set()
     talker.join()

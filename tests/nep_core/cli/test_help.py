@@ -92,7 +92,7 @@ def test_the_examples_of_the_services_serve_until_they_are_stopped(
         assert service.stdout is not None
         first = service.stdout.readline()
         service.terminate()
-        code = service.wait(10)
+        code = service.wait(30)
 
     assert f"serves at tcp://127.0.0.1:{free_port}" in first
     assert code == 0

@@ -115,7 +115,7 @@ def test_a_recording_that_is_asked_to_stop_is_finished(
         assert "Recording to" in one.stderr.readline()
 
         answer = call(f"nep kill nep-record-{one.pid}")
-        out, _ = one.communicate(timeout=10)
+        out, _ = one.communicate(timeout=30)
 
     assert answer.code == 0, answer.err
     assert out.startswith("Recorded ")
