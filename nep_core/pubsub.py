@@ -32,6 +32,8 @@ log = logging.getLogger(__name__)
 
 T = TypeVar("T")
 
+CANNOT_READ = (msgspec.MsgspecError, UnicodeDecodeError)
+
 
 class Publisher:
     """Sends messages on one topic.
@@ -169,10 +171,16 @@ class Subscriber(Generic[T]):
             elif (decode := self._decoder_of(parts)) is None:
                 continue
             payload = parts[2]
+            try:  # a lone message, the commonest: no call more than it needs
+                message: T | None = decode(payload)
+            except CANNOT_READ:
+                message = None
+            if message is not None:
+                return message
             if decode is self._from_json and NUL in payload:
                 self._take_in(payload)
-            elif (message := self._read(decode, payload)) is not None:
-                return message
+            else:
+                self._read(decode, payload)  # tells why there is none
 
     def pending(self) -> list[T]:
         """All that has arrived, without waiting."""
@@ -218,7 +226,7 @@ class Subscriber(Generic[T]):
             payloads = payloads.rpartition(NUL)[2]
         try:
             messages = self._from_lines(payloads.replace(NUL, b"\n"))
-        except (msgspec.MsgspecError, UnicodeDecodeError):
+        except CANNOT_READ:
             messages = [None]
         there = [message for message in messages if message is not None]
         if len(there) < len(messages):
@@ -230,7 +238,7 @@ class Subscriber(Generic[T]):
         """One message; None, with a warning, when it cannot be read or is null."""
         try:
             message: T | None = decode(payload)
-        except (msgspec.MsgspecError, UnicodeDecodeError) as error:
+        except CANNOT_READ as error:
             log.warning("%s: a message of %s: %s", self.topic, self._sender(), error)
             return None
         if message is None:

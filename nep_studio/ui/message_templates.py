@@ -36,6 +36,7 @@ _WORDS_OF_OURS = {
     "wanted",
     "where",
     "word",
+    "why",
 }
 """Places for words of the program, which are translated too; the others have people's words."""
 _NOUNS = {"family", "noun", "page", "result"}
