@@ -12,11 +12,12 @@ from typing import Literal
 import msgspec
 
 from nep_core import messages as m
-from nep_core.errors import NodeStartError
+from nep_core.errors import NameTaken, NodeStartError
 from nep_core.launcher import LaunchedNode, Launcher
 from nep_core.master_probe import ask_master
 from nep_core.network import Network
 from nep_core.outcome import Outcome
+from nep_core.p2p import PeerNetwork
 from nep_core.places import log_folder
 from nep_core.pubsub import Subscriber
 from nep_core.transports import network_for, transport
@@ -119,7 +120,7 @@ class LocalNetwork:
         self._stack.callback(self._master_launcher.close)
         if transport() == "p2p":  # a broker or a router serves more than one session
             self.launcher.master = self.joined_master or self._find_master()
-        network = self._stack.enter_context(network_for(self.name, master=self.launcher.master))
+        network = self._stack.enter_context(self._join())
         self.voice = Voice(network)
         self._stack.callback(self.voice.fall_silent)
         self._stack.callback(self._master_launcher.leave)
@@ -131,6 +132,23 @@ class LocalNetwork:
         self.network = network
         self.has_master = True
         self.on_open()
+
+    def _join(self) -> Network:
+        network = network_for(self.name, master=self.launcher.master)
+        try:
+            if isinstance(network, PeerNetwork):
+                network.join()
+        except NameTaken:
+            network.close()
+            if not self.shared_master:
+                raise
+            self.shared_master = ""  # another session was quicker: this one keeps apart from it
+            self.launcher.master = self._start_master(self.wanted_master)
+            return self._join()
+        except BaseException:
+            network.close()
+            raise
+        return network
 
     def _find_master(self) -> str:
         self.shared_master = "" if self.wanted_master else shared_master(self.name)

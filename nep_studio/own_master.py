@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import socket
 import time
 from collections.abc import Iterable
 
 from nep_core.cli.arguments import OWN
-from nep_core.endpoints import MASTER_VARIABLE, master_endpoint
+from nep_core.endpoints import master_endpoint
 from nep_core.errors import NodeStartError
 from nep_core.launcher import LaunchedNode, Launcher
 from nep_core.master_probe import ask_master
@@ -58,7 +57,7 @@ def shared_master(studio: str) -> str:
     listing = ask_master(endpoint, timeout_s=LOOK_S)
     if listing is None or any(told.node == studio for told in listing.registrations):
         return ""
-    return endpoint if listing.shared or MASTER_VARIABLE in os.environ else ""
+    return endpoint if listing.shared else ""
 
 
 def is_up(launched: LaunchedNode, endpoint: str) -> bool:

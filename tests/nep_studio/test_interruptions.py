@@ -129,7 +129,8 @@ def test_three_runs_at_once_have_three_masters(
 def endpoints(session: int) -> list[str]:
     """Where the masters among a session's children serve."""
     commands = [child.cmdline() for child in psutil.Process(session).children()]
-    return [command[-1] for command in commands if "master" in command]
+    masters = [command for command in commands if "master" in command]
+    return [command[command.index("--endpoint") + 1] for command in masters]
 
 
 WRONG = [("--seconds", number) for number in ("nan", "inf", "1e12", "-1", "soon")] + [

@@ -9,6 +9,7 @@ import pytest
 
 from nep_core.master import Master
 from nep_core.master_probe import ask_master
+from nep_core.p2p import PeerNetwork
 from nep_studio.local_network import STUDIO, LocalNetwork
 
 
@@ -74,16 +75,22 @@ def test_a_second_session_keeps_from_a_shared_master_that_has_one(usual_place, l
     assert place != usual_place
 
 
-def test_a_master_that_is_named_is_joined_whoever_started_it(usual_place, local, monkeypatch):
-    named = Master(usual_place)
-    monkeypatch.setenv("NEP_MASTER", usual_place)
+def test_a_session_that_comes_second_by_a_moment_has_a_master_of_its_own(
+    usual_place, local, monkeypatch
+):
+    shared = Master(usual_place, is_shared=True)
+    first = PeerNetwork(STUDIO, master=usual_place)
+    first.join()
+    monkeypatch.setattr("nep_studio.local_network.shared_master", lambda studio: usual_place)
 
     local.open()
-    names = names_at(usual_place)
+    place = local.launcher.master
     local.close()
-    named.close()
+    first.close()
+    shared.close()
 
-    assert STUDIO in names
+    assert place != usual_place
+    assert not local.shared_master
 
 
 def test_when_the_shared_master_is_gone_the_next_run_starts_one_in_its_place(usual_place, local):

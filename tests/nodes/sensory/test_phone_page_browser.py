@@ -103,13 +103,18 @@ def test_nothing_is_sent_before_the_tap_and_all_that_is_felt_after_it(phones, se
     assert phone.value("document.querySelector('#graph').width") > 300
 
 
+def tap_left(phone):
+    phone.tap("input[value=left]")
+    return phone.value("document.querySelector('input[value=left]').checked")
+
+
 def test_the_hand_that_is_chosen_arrives_and_stopping_stops(phones, server):
     phone = phones()
     phone.feel(acc=(0.0, 0.0, 9.81))
     allow(phone)
 
-    phone.tap("input[value=left]")
-    readings(server, at_least=10)
+    wait_until(lambda: tap_left(phone), bool)  # the page moves while it begins to send
+    wait_until(lambda: server.take(time.monotonic() + 0.1) and server.hand, "left".__eq__)
     phone.tap("#allow")
     phone.until(STATE, "ready")
     server.take(time.monotonic() + 0.1)  # what was on its way

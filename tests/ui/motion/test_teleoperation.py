@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
+from shiboken6 import isValid
 
 from nep_core import messages as m
 from nep_studio.ui.main_window import MainWindow
@@ -48,7 +49,8 @@ def driving(
     made.pad.setFocus()
     qtbot.waitUntil(made.pad.hasFocus)
     yield made
-    made.close()
+    if isValid(made):  # not closed with its main window
+        made.close()
 
 
 def base(driving: TeleoperationWindow) -> tuple[float, float, float]:

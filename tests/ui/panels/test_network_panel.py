@@ -227,6 +227,7 @@ def test_5000_messages_a_second_do_not_stop_the_window(
     with PeerNetwork("fast", master=bench.runner.local.launcher.master) as network:
         publisher = Publisher("/fast", network=network)
         qtbot.waitUntil(lambda: "/fast" in bench.network._feed.seen.topics, timeout=WAIT_MS)
+        qtbot.waitUntil(lambda: publisher.subscribers() > 0, timeout=WAIT_MS)
         thread = threading.Thread(target=flood, args=[publisher])
         timer = QTimer(interval=5)
         timer.timeout.connect(beat)
