@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import socket
 import sys
 from collections.abc import Callable, Iterator
@@ -38,6 +39,8 @@ def pytest_configure() -> None:
         max_examples=50 if is_judged else 100,
     )
     settings.load_profile("busy")
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # a shell started us in the background
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # else all children ignore Ctrl-C
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
 
