@@ -36,7 +36,7 @@ def pytest_configure() -> None:
         deadline=None,  # another program may have the processor for seconds
         suppress_health_check=[HealthCheck.too_slow],
         derandomize=is_judged,  # elsewhere we explore
-        max_examples=50 if is_judged else 100,
+        max_examples=30 if is_judged else 100,
     )
     settings.load_profile("busy")
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # a shell started us in the background

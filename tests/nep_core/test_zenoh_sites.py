@@ -92,7 +92,8 @@ def test_sites_are_one_network_and_find_each_other_again(
     assert subscriber.receive(0) is None
     link.mend()
     assert publisher.wait_for_subscribers(2, 8)
-    assert subscriber.receive(5) == "within the site"  # it is latched
+    # the line is back before all routes are: what is sent meanwhile may be lost, and is counted
+    until(lambda: publisher.send("again") or subscriber.receive(0.5) == "again")
     publisher.send("across again")
     assert subscriber.receive(5) == "across again"
 

@@ -125,8 +125,8 @@ def test_the_watch_is_recorded_and_played_again(
     told.messages[-1].answers[0].do()
 
     sources = lambda: {key.sender for key in watch.feed.streams}  # noqa: E731 - said twice
+    qtbot.waitUntil(lambda: watch.replay_bar.is_playing, timeout=NODE_START_MS)
     qtbot.waitUntil(lambda: path.stem in sources(), timeout=NODE_START_MS)
-    assert watch.replay_bar.is_playing
     qtbot.waitUntil(lambda: not watch.replay_bar.is_playing, timeout=NODE_START_MS)
 
 
