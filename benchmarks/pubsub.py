@@ -151,8 +151,10 @@ def _hearing(job: str, size: int, count: int, sides: list[str]) -> Iterator[list
         pairs = list(zip(sides, ports, strict=True))
         hearers = [stack.enter_context(HEARERS[side](port, job == "burst")) for side, port in pairs]
         places = [f"{side}={port}" for side, port in pairs]
+        command = [sys.executable, "-m", "benchmarks._pubsub_talker"]
         talker = subprocess.Popen(
-            [sys.executable, "-m", "benchmarks._pubsub_talker", job, str(size), str(count), *places]
+            [*command, job, str(size), str(count), *places],
+            stdout=sys.stderr,  # the original prints, and figures alone belong into our output
         )
         try:
             yield hearers
