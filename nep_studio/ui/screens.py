@@ -17,6 +17,15 @@ def screen_around(widget: QWidget | None) -> QRect:
     return _screen_of(widget).geometry()
 
 
+def fit_on_screen(dialog: QWidget, lines_wide: float, lines_high: float) -> None:
+    """Give a dialog so many lines of text of room, and no more than most of the screen."""
+    line, room = dialog.fontMetrics().height(), room_around(dialog.parentWidget()).size()
+    dialog.resize(
+        min(round(line * lines_wide), round(room.width() * 0.95)),
+        min(round(line * lines_high), round(room.height() * 0.88)),
+    )
+
+
 def _screen_of(widget: QWidget | None) -> QScreen:
     """The screen of a widget.
 

@@ -23,7 +23,7 @@ from nep_studio.sharing import Sharing
 from nep_studio.ui.messages import Message, announce
 from nep_studio.ui.messages_card import MessageText
 from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.screens import room_around
+from nep_studio.ui.screens import fit_on_screen, room_around
 from nep_studio.ui.scrolling import scrolled
 from nep_studio.ui.theme import Look
 from nep_studio.ui.words import tr
@@ -110,11 +110,7 @@ class SharingDialog(QDialog):
         box.addWidget(self.problem)
         box.addWidget(self.pages, 1)
         box.addLayout(foot)
-        room = room_around(self.parentWidget()).size()
-        self.resize(
-            min(line * LINES_WIDE, round(room.width() * 0.95)),
-            min(line * LINES_HIGH, round(room.height() * 0.88)),
-        )
+        fit_on_screen(self, LINES_WIDE, LINES_HIGH)
 
     def minimumSizeHint(self) -> QSize:
         """What is of use; the pages scroll."""

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.plan import PlannedNode, Setting
 from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.screens import room_around
+from nep_studio.ui.screens import fit_on_screen, room_around
 from nep_studio.ui.scrolling import scrolled, show_top
 from nep_studio.ui.theme import Look, icon
 from nep_studio.ui.words import is_right_to_left, tr
@@ -110,11 +110,7 @@ class WatchDialog(QDialog):
         box.setSpacing(line // 2)
         box.addWidget(self.pages, 1)
         box.addLayout(foot)
-        room = room_around(self.parentWidget()).size()
-        self.resize(
-            min(line * LINES_WIDE, round(room.width() * 0.95)),
-            min(line * LINES_HIGH, round(room.height() * 0.88)),
-        )
+        fit_on_screen(self, LINES_WIDE, LINES_HIGH)
 
     def minimumSizeHint(self) -> QSize:
         """What is of use; the pages scroll."""
