@@ -100,7 +100,7 @@ class LaunchedNode:
             if self.ended.is_set() and self.outcome is not None:
                 if self.outcome.was_successful:
                     return
-                steps = self.outcome.checklist or ("Correct its settings.",)
+                steps = self.outcome.checklist or ("Look into its log.", "Correct its settings.")
                 raise NodeStartError(f"{self.outcome}.", checklist=steps)
             if time.monotonic() > deadline:
                 raise NodeStartError(

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from nep_core import discovery
 from nep_core.cli.services import serve
-from nep_core.errors import PairingError
+from nep_core.errors import PairingError, PortTaken
 from nep_core.master import Master
 from nep_core.places import key_file
 from nep_core.security import KEYS_VARIABLE, key_file_path
@@ -85,13 +85,27 @@ def _open(options: argparse.Namespace) -> int:
         on_event=_tell,
     )
     os.environ[KEYS_VARIABLE] = str(path)
-    master = Master(opening.master, is_shared=True)
+    master = _master(opening)
     try:
         opening.start()
         return serve(master, lambda: _begin(opening, path))
     finally:
         opening.close()
         master.close()
+
+
+def _master(opening: Opening) -> Master:
+    try:
+        return Master(opening.master, is_shared=True)
+    except PortTaken as error:
+        raise PortTaken(
+            f"The network cannot be opened at {opening.master}: {error.sentence}",
+            checklist=(
+                "Is that nep master? Stop it first: nep open is a master itself.",
+                "Is it NEP Studio? Choose there: Robots, Open to other computers.",
+                "Or choose another port: nep open --port 7200.",
+            ),
+        ) from error
 
 
 def _begin(opening: Opening, path: Path) -> None:

@@ -10,6 +10,7 @@ from nep_core.cli import main
 from nep_core.cli.pair import _address_and_code, _door_at
 from nep_core.discovery import Announcement, Found, announce, find
 from nep_core.errors import KeyFileError, NetworkError, PairingError
+from nep_core.master import Master
 from nep_core.security import addresses
 from nep_core.security.door import DoorEvent
 from nep_core.security.joining import pair
@@ -184,3 +185,19 @@ def test_the_way_to_the_master_tells_the_own_address(monkeypatch: pytest.MonkeyP
 
     assert addresses.own_address("tcp://192.168.1.5:7100") == "192.168.1.7"
     assert addresses.own_address("tcp://127.0.0.1:7100") == "10.1.1.1"
+
+
+def test_beside_a_master_that_runs_it_is_said_that_this_is_one_too(
+    free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.delenv("NEP_KEYS", raising=False)
+    plain = Master(f"tcp://127.0.0.1:{free_port}")
+    keys = str(tmp_path / "own.keys")
+    place = ["--host", "127.0.0.1", "--port", str(free_port), "--door", str(free_port + 1)]
+
+    code = main(["open", "--keys", keys, "--no-announce", *place])
+    plain.close()
+    monkeypatch.delenv("NEP_KEYS")
+
+    assert code == 1
+    assert "nep open is a master itself" in capsys.readouterr().err
