@@ -15,7 +15,9 @@ from dev_system import (
     BROWSER,
     CPP_HEADERS,
     DISPLAY_PROGRAMS,
+    FREEZING,
     NAMESPACES,
+    PACKAGING,
     QT_LIBRARIES,
     WINDOW_LIBRARIES,
     SetupError,
@@ -34,6 +36,8 @@ python3 dev.py test [ARGUMENTS]    run the tests; the arguments go to pytest
 python3 dev.py lint                check format, style and types
 python3 dev.py bench [NAME...] [--json] [--with-peers]
                                    measure against references; exit code 1 when a goal is missed
+python3 dev.py freeze              make the program that needs no Python: dist/nep-studio
+python3 dev.py package [--quick]   freeze it, try it, and pack the installers of this system
 python3 dev.py setup               make the environment only
 
 Each makes .venv beside this file when it is not there or out of date."""
@@ -121,13 +125,15 @@ def make_environment(root: Path) -> Path:
 def modules(arguments: list[str], *, is_shown: bool) -> dict[str, list[list[str]]]:
     """Return by command the modules, each with its arguments, to run one after the other.
 
-    ``is_shown`` says that there is a display.
+    What ends with ".py" is a file. ``is_shown`` says that there is a display.
     """
     return {
         "run": [["nep_studio", *(arguments or ([] if is_shown else STORY))]],
         "test": [["pytest", *(arguments or EVERY_TEST)]],
         "lint": [["ruff", "format", "--check", "."], ["ruff", "check", "."], ["mypy"]],
         "bench": [["benchmarks", *arguments]],
+        "freeze": [["packaging/freeze.py"]],
+        "package": [["packaging/package.py", *arguments]],
         "setup": [],
     }
 
@@ -148,6 +154,9 @@ def system_needs(
     if command == "test":
         can_build = which("g++") and which("cmake")  # nobody gets a compiler unasked
         programs = programs | BROWSER | NAMESPACES | (CPP_HEADERS if can_build else {})
+    if command in ("freeze", "package"):  # what the program takes along must be here
+        needed = QT_LIBRARIES | WINDOW_LIBRARIES | FREEZING
+        return needed, PACKAGING if command == "package" else {}
     if command in ("setup", "test", "bench"):
         return QT_LIBRARIES, wished | programs
     return {}, QT_LIBRARIES | wished
@@ -167,7 +176,12 @@ def work(command: str, arguments: list[str]) -> int:
         os.chdir(ROOT)
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     programs = modules(arguments, is_shown=is_shown)[command]
-    return max([call([str(python), "-m", *program]) for program in programs], default=0)
+    return max([call([str(python), *how_to_run(program)]) for program in programs], default=0)
+
+
+def how_to_run(program: list[str]) -> list[str]:
+    """Return what Python is told to run a file or a module."""
+    return program if program[0].endswith(".py") else ["-m", *program]
 
 
 def main(arguments: list[str]) -> int:
@@ -176,7 +190,9 @@ def main(arguments: list[str]) -> int:
     if command in ("help", "-h", "--help"):
         print(HELP)
         return 0
-    if command not in modules([], is_shown=False) or (rest and command in ("setup", "lint")):
+    if command not in modules([], is_shown=False) or (
+        rest and command in ("setup", "lint", "freeze")
+    ):
         say(f"dev.py cannot do this: {' '.join(arguments)}\n\n{HELP}")
         return 2
     try:

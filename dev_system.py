@@ -57,7 +57,21 @@ CPP_HEADERS = {
 }
 """What the examples in C++ are built with in tests, where there is a compiler."""
 
-EVERYTHING = QT_LIBRARIES | WINDOW_LIBRARIES | DISPLAY_PROGRAMS | BROWSER | NAMESPACES | CPP_HEADERS
+FREEZING = {"binutils": "objdump"}
+"""What finds the libraries that the frozen program takes along."""
+
+PACKAGING = {
+    "appstream": "appstreamcli",
+    "desktop-file-utils": "desktop-file-validate",
+    "dpkg": "dpkg-deb",
+    "nsis": "makensis",
+    "xz-utils": "xz",
+}
+"""What packs and checks the installers: the Debian package and the program in it."""
+
+EVERYTHING = (
+    QT_LIBRARIES | WINDOW_LIBRARIES | DISPLAY_PROGRAMS | BROWSER | NAMESPACES | CPP_HEADERS
+) | (FREEZING | PACKAGING)
 
 
 class SetupError(Exception):

@@ -61,7 +61,7 @@ def main() -> int:
 def _make(stage: object, options: argparse.Namespace) -> int:
     from image_files import difference, write_small
     from image_scenes import LARGE_SCENES
-    from image_scenes_rooms import SCENES
+    from image_scenes_guide import SCENES
 
     unknown = [name for name in options.names if name not in SCENES]
     if unknown:

@@ -15,6 +15,14 @@ NODES_VARIABLE = "NEP_NODES"
 """More folders with nodes, before the shipped one, separated as in PATH."""
 ROBOT_FILES_VARIABLE = "NEP_ROBOT_FILES"
 """Where the files of robots on the screen are, instead of in the folder of this user's data."""
+PORTABLE_VARIABLE = "NEP_PORTABLE"
+"""The folder that holds everything of this user, as on a stick, instead of the user's own ones."""
+
+
+def portable_folder() -> Path | None:
+    """The folder that holds everything, if there is to be one."""
+    told = os.environ.get(PORTABLE_VARIABLE)
+    return Path(told) if told else None
 
 
 def node_folders() -> tuple[Path, ...]:
@@ -27,6 +35,8 @@ def node_folders() -> tuple[Path, ...]:
 
 def log_folder() -> Path:
     """Where the nodes' log files are kept."""
+    if folder := portable_folder():
+        return folder / "logs"
     try:
         return Path(platformdirs.user_log_dir("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home
@@ -35,6 +45,8 @@ def log_folder() -> Path:
 
 def cache_folder() -> Path:
     """Where files are kept that can be made again."""
+    if folder := portable_folder():
+        return folder / "cache"
     try:
         return Path(platformdirs.user_cache_dir("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home
@@ -43,6 +55,8 @@ def cache_folder() -> Path:
 
 def key_file() -> Path:
     """Where this user's key file of an opened network is, when nobody says another."""
+    if folder := portable_folder():
+        return folder / "keys" / "network.keys"
     try:
         data = Path(platformdirs.user_data_dir("nep-studio", appauthor=False))
     except RuntimeError as error:  # a user without a home; other users could read the rest
@@ -57,6 +71,8 @@ def robot_folder(robot: str) -> Path:
     """Where a robot on the screen keeps its files; ``robot``: its name, as one of a folder."""
     if told := os.environ.get(ROBOT_FILES_VARIABLE):
         return Path(told) / robot
+    if folder := portable_folder():
+        return folder / "robots" / robot
     try:
         data = Path(platformdirs.user_data_dir("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home

@@ -100,10 +100,13 @@ class ChildProcess:
             return None
 
     def ask_to_stop(self) -> None:
-        """Send SIGTERM (Windows: Ctrl-Break)."""
+        """Send SIGTERM (Windows: Ctrl-Break), or else let go of its life line."""
         self._asked = True
         with contextlib.suppress(OSError):
-            self._popen.send_signal(STOP_SIGNAL)
+            if _can_send_signals():
+                self._popen.send_signal(STOP_SIGNAL)
+            elif self._popen.stdin is not None:
+                self._popen.stdin.close()
 
     def stop(self, grace_s: float = 2.0) -> None:
         """Ask it to stop, and end the whole process tree after ``grace_s``."""
@@ -176,6 +179,15 @@ def _job_of(popen: subprocess.Popen[bytes]) -> Job | None:
     except OSError as error:  # its life line and its mark are still there
         log.warning("A process is in no job: %s", error)
         return None
+
+
+def _can_send_signals() -> bool:
+    """A Windows program without a console, as the frozen one with its window, cannot."""
+    if sys.platform != "win32":
+        return True
+    import ctypes
+
+    return bool(ctypes.windll.kernel32.GetConsoleCP())
 
 
 def last_words(lines: list[str]) -> tuple[str, tuple[str, ...]]:

@@ -13,6 +13,8 @@ JOBS = {
     "show": "nep_studio.ui.show.command:main",
     "code": "nep_studio.commands.code:main",
     "check": "nep_studio.commands.check:main",
+    "doctor": "nep_studio.commands.doctor:main",
+    "doctor-screen": "nep_studio.ui.support.screen:main",
     "node": "nep_core.cli.node:main",
     "guard": "nep_core.guard:main",
     "naoqi": "nep_studio.commands.naoqi:main",
@@ -20,10 +22,12 @@ JOBS = {
     "train": "nodes.perceptual.recognition.command:main",
     "train-worker": "nodes.perceptual.recognition.worker:main",
     "master": "nep_core.cli.services:run_master",
+    "nep": "nep_core.cli:main",
+    "picture": "nep_studio.ui.window_picture:main",
 }
 
 WINDOW = "nep_studio.ui.app:main"
-ON_A_SCREEN = ("show",)
+ON_A_SCREEN = ("show", "picture")
 """The jobs that need a display, as the window does."""
 
 USAGE = """NEP Studio: give a social robot its behaviour with blocks.
@@ -37,6 +41,10 @@ USAGE = """NEP Studio: give a social robot its behaviour with blocks.
   nep-studio exec PROGRAM.py   run a Python program as a cognitive node
   nep-studio node TYPE/NAME    run one node in this terminal
   nep-studio train DIRECTORY   learn gestures from recordings
+  nep-studio doctor            what to look at when something is wrong, as a report to send
+
+  nep-studio --safe-mode       the window without your settings and own nodes
+  nep-studio --portable        keep everything in a folder beside the program, as on a stick
 
 Each of them explains itself with --help. For robot developers there is also: nep --help
 """
@@ -60,7 +68,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         _write_what_can_be_written()
         try:
-            return _do(words)
+            return _do(_begin(words))
         finally:
             _flush()  # here, and not at the very end, an error can be told
     except KeyboardInterrupt:
@@ -70,6 +78,23 @@ def main(arguments: list[str] | None = None) -> int:
             raise  # a fault of the node: its log shows where
         _give_up_output()
         return _tell(error)
+
+
+def _begin(words: list[str]) -> list[str]:
+    """Choose where things are kept, and what is left out; the words without the options of that."""
+    from nep_studio import portable, safe_mode
+
+    options = set()
+    while words and words[0] in (portable.OPTION, safe_mode.OPTION):
+        options.add(words[0])
+        words = words[1:]
+    if words and words[0].endswith(".nep"):  # of the window, where they may also come last
+        options |= {*words} & {portable.OPTION, safe_mode.OPTION}
+        words = [word for word in words if word not in options]
+    portable.begin(is_asked=portable.OPTION in options)
+    if safe_mode.OPTION in options:
+        safe_mode.begin()
+    return words
 
 
 def _do(words: list[str]) -> int:

@@ -13,7 +13,8 @@ from typing import Literal
 
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
 
-from nep_core.places import log_folder
+from nep_core.places import log_folder, portable_folder
+from nep_studio.portable import kept_name, path_of
 
 FOLDER_VARIABLE = "NEP_STUDIO_FOLDER"
 """Another place for settings, journals and logs than the user's folder."""
@@ -54,6 +55,8 @@ def usual_folder(what: FolderName) -> Path:
         return log_folder()
     documents = QStandardPaths.StandardLocation.DocumentsLocation
     folder = Path(QStandardPaths.writableLocation(documents) or tempfile.gettempdir())
+    if here := portable_folder():
+        folder = here / "projects"
     return folder if what == "projects" else folder / "NEP recordings"
 
 
@@ -128,7 +131,7 @@ class Settings:
         names = [stored] if isinstance(stored, str) else stored
         if not isinstance(names, list):
             return []
-        return [Path(name) for name in names if isinstance(name, str) and name][:MOST_RECENT]
+        return [path_of(name) for name in names if isinstance(name, str) and name][:MOST_RECENT]
 
     def add_recent(self, path: Path) -> None:
         """Put a project first in the list."""
@@ -139,7 +142,7 @@ class Settings:
         self._set_recent(one for one in self.recent_files if one != path)
 
     def _set_recent(self, paths: Iterable[Path]) -> None:
-        self._values.setValue("files/recent", [str(path) for path in paths][:MOST_RECENT])
+        self._values.setValue("files/recent", [kept_name(path) for path in paths][:MOST_RECENT])
 
     @property
     def recent_blocks(self) -> list[str]:
@@ -172,11 +175,11 @@ class Settings:
     def chosen_folder(self, what: FolderName) -> Path | None:
         """Where the person said that it is kept; None when they did not."""
         chosen = self._text(f"folders/{what}", "")
-        return Path(chosen) if chosen else None
+        return path_of(chosen) if chosen else None
 
     def set_folder(self, what: FolderName, folder: Path | None) -> None:
         """Keep projects, recordings or logs there; None: where they usually are."""
-        self._values.setValue(f"folders/{what}", str(folder or ""))
+        self._values.setValue(f"folders/{what}", kept_name(folder) if folder else "")
 
     @property
     def show_options(self) -> ShowOptions:

@@ -19,7 +19,7 @@ from nep_core.endpoints import BROKER_VARIABLE, MASTER_VARIABLE, fixed_endpoint,
 from nep_core.errors import NepError
 from nep_core.master_probe import ask_master
 from nep_core.messages import NODE_STATE, NodeState
-from nep_core.places import NODES_VARIABLE, ROBOT_FILES_VARIABLE
+from nep_core.places import NODES_VARIABLE, PORTABLE_VARIABLE, ROBOT_FILES_VARIABLE
 from nep_core.pubsub import Subscriber
 
 ORIGINAL_PORTS = (7000, 50000, 7777)
@@ -45,6 +45,8 @@ VARIABLES = {
     "NEP_NAOQI_LOGIN": "the name and password at the real robot",
     "NEP_RESOURCES": "where blocks, robots and examples are",
     "NEP_STUDIO_FOLDER": "where NEP Studio keeps its settings",
+    PORTABLE_VARIABLE: "the folder that holds everything, as on a stick",
+    "NEP_SAFE_MODE": "whether NEP Studio leaves settings and own nodes out",
 }
 SECRET = ("NEP_ROBOT_PASSWORD", "NEP_NAOQI_LOGIN")
 INSIDE = ("NEP_TREE", "NEP_LIFELINE")

@@ -53,6 +53,24 @@ def versions() -> list[Finding]:
     ]
 
 
+def computer() -> list[Finding]:
+    """The system by its name, memory and processors."""
+    memory = psutil.virtual_memory()
+    processors = f"{os.cpu_count() or 1}, {platform.machine()}"
+    return [
+        Finding("system", "ok", _system_name()),
+        Finding("processors", "ok", processors),
+        Finding("memory", "ok", f"{amount(memory.total)}, {amount(memory.available)} free"),
+    ]
+
+
+def _system_name() -> str:
+    try:
+        return platform.freedesktop_os_release()["PRETTY_NAME"]
+    except (OSError, KeyError):
+        return " ".join((platform.system(), platform.release(), platform.mac_ver()[0])).strip()
+
+
 def _zeromq() -> Finding:
     told = f"{zmq.zmq_version()} (pyzmq {zmq.__version__})"
     if zmq.has("curve"):
@@ -113,7 +131,13 @@ def _running() -> frozenset[str]:
 def _asked(about: str, command: list[str]) -> Finding:
     try:
         done = subprocess.run(
-            command, capture_output=True, text=True, timeout=COMMAND_S, check=True, errors="replace"
+            command,
+            capture_output=True,
+            text=True,
+            timeout=COMMAND_S,
+            check=True,
+            errors="replace",
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
     except (OSError, subprocess.SubprocessError):
         return Finding(about, "unknown", "could not be found out")

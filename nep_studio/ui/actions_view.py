@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMenu, QToolBar, QToolButton
 
 from nep_studio.settings import SYSTEM, Settings
 from nep_studio.ui.actions_icons import icon_room
-from nep_studio.ui.main_window_dialogs import show_about, show_shortcuts
+from nep_studio.ui.main_window_dialogs import show_about, show_report, show_shortcuts
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, dress_buttons, keep_width
 from nep_studio.ui.theme import icon, load_theme, themes
 from nep_studio.ui.words import available_languages, tr
@@ -140,6 +140,8 @@ def add_help_menu(window: MainWindow) -> QMenu:
             keys="Ctrl+F1",
         )
     )
+    report = tr("Report for support…")
+    menu.addAction(add("report", report, lambda: show_report(window), icon_name="file-text"))
     about = add("about", tr("About NEP Studio"), lambda: show_about(window), icon_name="info")
     about.setMenuRole(about.MenuRole.AboutRole)
     menu.addAction(about)
@@ -153,11 +155,18 @@ def _help_actions(window: MainWindow) -> list[QAction]:
     def desk() -> HelpDesk:
         return window.later.help_desk
 
+    def browse() -> None:
+        from nep_studio.ui.help.documentation import open_documentation
+
+        open_documentation(window.messages)
+
     contents, search = tr("Contents of the help"), tr("Search the help…")
+    pages = tr("Documentation in the browser")
     return [
         add("help", tr("Help"), lambda: desk().answer(), icon_name=sign, keys="F1"),
         add("help_contents", contents, lambda: desk().open(), icon_name="book-open"),
         add("help_search", search, lambda: desk().search(), icon_name="search"),
+        add("documentation", pages, browse, icon_name="external-link"),
     ]
 
 

@@ -8,18 +8,24 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QApplication
 
-from nep_studio import __version__, settings
+from nep_studio import __version__, safe_mode, settings
+from nep_studio.safe_mode import StartNote
 from nep_studio.settings import Settings
 from nep_studio.ui import words
+from nep_studio.ui.application import Application
 from nep_studio.ui.theme import Look, application_icon, load_fonts
 
 if TYPE_CHECKING:
     from nep_studio.blocks.language import Language
+    from nep_studio.ui.main_window import MainWindow
 
 log = logging.getLogger(__name__)
+
+SAFE_AFTER_MS = 5000
+"""A start has gone well when the whole window was there for so long."""
 
 
 class Studio(QObject):
@@ -84,9 +90,9 @@ class Studio(QObject):
         self.app.setLayoutDirection(direction)
 
 
-def make_application() -> QApplication:
+def make_application() -> Application:
     """The application with its name and icon."""
-    app = QApplication(sys.argv[:1])
+    app = Application(sys.argv[:1])
     app.setApplicationName("nep-studio")
     app.setApplicationDisplayName("NEP Studio")
     app.setApplicationVersion(__version__)
@@ -103,15 +109,39 @@ def main(arguments: list[str]) -> int:
 
     app = make_application()
     with LastResort(settings.log_file()) as last_resort:
-        window = MainWindow(Studio(app), is_gradual=True)
+        note = StartNote(settings.user_folder())
+        safe_mode.keep_crashes(settings.user_folder())
+        if note.last_failed and not safe_mode.is_on() and not _may_start():
+            note.succeeded()  # the person has closed it
+            return 0
+        chosen = safe_mode.passing_settings() if safe_mode.is_on() else None
+        window = MainWindow(Studio(app, chosen), is_gradual=True)
         last_resort.watch(window)
         once = Qt.ConnectionType.SingleShotConnection
         window.later.completed.connect(_collect_from_now_on, once)
+        window.later.completed.connect(lambda: _begin_later(window, note), once)
         window.show()
         window.start(Path(arguments[0]) if arguments else None)
+        app.file_asked_for.connect(lambda file: window.files.open(Path(file)))
         code = app.exec()
+        note.succeeded()
         window.deleteLater()
     return code
+
+
+def _may_start() -> bool:
+    """Ask what is to be done after a start that failed; False to end."""
+    from nep_studio.ui.support.after_a_crash import ask
+
+    return ask()
+
+
+def _begin_later(window: MainWindow, note: StartNote) -> None:
+    """What can wait until all of the window is there."""
+    from nep_studio.ui.support.adding import tell_how_it_runs
+
+    QTimer.singleShot(SAFE_AFTER_MS, window, note.succeeded)
+    tell_how_it_runs(window)
 
 
 def _collect_from_now_on() -> None:

@@ -22,7 +22,8 @@ from PySide6.QtCore import (
     qInstallMessageHandler,
 )
 
-from nep_studio.ui.messages import Message
+from nep_studio.ui.main_window_dialogs import show_report
+from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -64,7 +65,14 @@ class LastResort(QObject):
         self._restore.append(lambda: qInstallMessageHandler(None))
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if isinstance(error, Exception):
+            log.critical("This error ended the program:", exc_info=error)
         self._window = None
         while self._restore:
             self._restore.pop()()
@@ -107,12 +115,13 @@ class LastResort(QObject):
         self._told.add(place)
         try:
             window.flush()
-            window.messages.tell(_message(details, self._log_file))
+            window.messages.tell(_message(window, details, self._log_file))
         except Exception:  # an error while telling an error is only noted
             log.exception("This error could not be told.")
 
 
-def _message(details: str, log_file: Path) -> Message:
+def _message(window: MainWindow, details: str, log_file: Path) -> Message:
+    report = Answer(tr("Report for support…"), lambda: show_report(window))
     return Message(
         "error",
         tr("Something went wrong inside NEP Studio"),
@@ -122,6 +131,7 @@ def _message(details: str, log_file: Path) -> Message:
             tr("If it happens again, send the details to those who make NEP Studio."),
         ),
         f"{details}\n{log_file}",
+        (report,),
     )
 
 

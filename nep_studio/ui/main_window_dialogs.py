@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from nep_studio import settings
+from nep_studio import safe_mode, settings
 
 if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
@@ -44,9 +44,19 @@ def show_about(window: MainWindow) -> None:
     AboutDialog(window).open()
 
 
+def show_report(window: MainWindow) -> None:
+    """Show what can be sent to those who help."""
+    from nep_studio.ui.support.dialog import SupportDialog
+
+    window.settings.write()  # the report reads the file
+    SupportDialog(window, folder=window.settings.last_folder).open()
+
+
 def offer_recovery(window: MainWindow) -> None:
     """Offer work that was not saved when the program ended without warning."""
     folder = settings.journal_folder()
+    if safe_mode.is_on():
+        return  # reading it may be what ends the program; the next usual start offers it
     if not any(folder.glob("*-*")):
         return
     from nep_studio.journal import recover

@@ -22,13 +22,14 @@ from nep_studio.ui.app import Studio
 from nep_studio.ui.settings_pages import (
     FOLDERS,
     TEXT_STEP,
-    AboutPage,
     FoldersPage,
     LookPage,
     NetworkPage,
     ShowPage,
 )
+from nep_studio.ui.support.privacy_page import PrivacyPage
 from nep_studio.ui.words import tr
+from nep_studio.updates import UpdateChoice
 
 MorePage = Callable[[QWidget], tuple[str, QWidget]]
 """Makes one more page of the dialog: its title and its widget."""
@@ -44,9 +45,11 @@ class _Kept:
     folders: dict[FolderName, Path | None]
     show: ShowOptions
     lets_original_join: bool
+    updates: tuple[bool, str]
 
 
 def _kept(settings: Settings) -> _Kept:
+    updates = UpdateChoice(settings)
     return _Kept(
         settings.language,
         settings.theme,
@@ -54,6 +57,7 @@ def _kept(settings: Settings) -> _Kept:
         {name: settings.chosen_folder(name) for name in FOLDERS},
         settings.show_options,
         settings.lets_original_join,
+        (updates.is_wanted, updates.address),
     )
 
 
@@ -86,6 +90,8 @@ class SettingsDialog(QDialog):
         before, studio, settings = self._before, self._studio, self._studio.settings
         settings.show_options = before.show
         settings.lets_original_join = before.lets_original_join
+        updates = UpdateChoice(settings)
+        updates.is_wanted, updates.address = before.updates
         for name, folder in before.folders.items():
             settings.set_folder(name, folder)
         super().reject()
@@ -133,12 +139,13 @@ class SettingsDialog(QDialog):
         self.theme.activated.connect(self._on_theme_chosen)
         look.size_chosen.connect(self._on_size_chosen)
         self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
+        self.privacy = PrivacyPage(settings)
         self.pages.addTab(look, tr("Look"))
         self.pages.addTab(self.folders, tr("Folders"))
         self.pages.addTab(self.show_page, tr("Show mode"))
         self.network_page = NetworkPage(settings)
         self.pages.addTab(self.network_page, tr("Network"))
-        self.pages.addTab(AboutPage(), tr("Privacy"))
+        self.pages.addTab(self.privacy, tr("Privacy"))
         for make in self._more:
             title, page = make(self)
             self.pages.addTab(page, title)

@@ -1,4 +1,4 @@
-"""The pages of the settings: look, folders, show mode, network, and what is never done."""
+"""The pages of the settings: look, folders, show mode, network."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QSlider,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -234,25 +233,6 @@ class NetworkPage(QWidget):
         )
         form.addRow(_hint(words))
         self.original.toggled.connect(lambda on: setattr(settings, "lets_original_join", on))
-
-
-class AboutPage(QWidget):
-    """What the program never does by itself."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        box = QVBoxLayout(self)
-        line = self.fontMetrics().height()
-        box.setContentsMargins(line, line, line, line)
-        for words in (
-            tr("Updates: NEP Studio never looks for them by itself. You decide when to get one."),
-            tr("It sends nothing to anybody: programs, recordings and logs stay on this computer."),
-            tr("What it does on the network is talking to your robots, watches and nodes."),
-        ):
-            label = QLabel(words)
-            label.setWordWrap(True)
-            box.addWidget(label)
-        box.addStretch(1)
 
 
 def _form(page: QWidget) -> QFormLayout:

@@ -199,3 +199,19 @@ def test_many_crashes_do_not_fill_the_disk(tmp_path: Path, monkeypatch: pytest.M
             kept.write(b"x" * 900)
 
     assert sum(file.stat().st_size for file in tmp_path.iterdir()) < 5000
+
+
+def test_where_no_signal_can_be_sent_a_node_stops_because_its_life_line_is_let_go(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outcomes: Outcomes = queue.Queue()
+    code = (
+        "import threading\nfrom nep_core import lifeline\nstopped = threading.Event()\n"
+        "lifeline.on_parent_end(stopped.set)\nstopped.wait()"
+    )
+    child = start(code, tmp_path / "child.log", outcomes)
+    monkeypatch.setattr("nep_core.process._can_send_signals", lambda: False)
+
+    child.ask_to_stop()
+
+    assert outcomes.get(timeout=10).asked is True

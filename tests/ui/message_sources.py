@@ -42,6 +42,9 @@ NOT_SHOWN = (
     # What is written into files and terminals.
     "nep_studio/__main__.py",
     "nep_studio/python_file.py",
+    "nep_studio/support_logs.py",
+    "nep_studio/support_parts.py",
+    "nep_studio/support_report.py",
     "nep_studio/ui/show/command.py",
     "nep_core/over_zenoh/router.py",
     "nep_core/recordings/file.py",

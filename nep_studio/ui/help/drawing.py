@@ -55,23 +55,36 @@ def arrange(project: Project, language: Language, measures: Measures) -> None:
             y += layout.chain(stack.body).height + measures.hat + 2 * GAP * measures.unit
 
 
+class BlockPicture:
+    """All stacks of a project, one below the other, laid out to be painted anywhere."""
+
+    def __init__(self, project: Project, language: Language, look: PictureLook) -> None:
+        self._language, self._look, self._measures = language.of(project), look, look.measures
+        layout = Layout(project, self._language, self._measures)
+        stacks = [stack for page in project.pages.values() for stack in page]
+        self._chains = [layout.chain(stack.body) for stack in stacks]
+        self.size = _place(self._chains, self._measures)
+
+    def paint(self, painter: QPainter) -> None:
+        """Paint them with all their words, into ``size`` from the painter's origin on."""
+        look, measures = self._look, self._measures
+        painter.translate(_origin(self.size, measures))
+        blocks = BlockPainter(look.theme, self._language, measures, look.font)
+        for chain in self._chains:
+            blocks.paint(painter, boxes_of(chain, EVERYWHERE), 1.0)
+
+
 def picture_of(project: Project, language: Language, look: PictureLook) -> QPixmap:
     """All stacks of a project, one below the other, no wider than there is room."""
-    language, measures = language.of(project), look.measures
-    layout = Layout(project, language, measures)
-    stacks = [stack for page in project.pages.values() for stack in page]
-    chains = [layout.chain(stack.body) for stack in stacks]
-    size = _place(chains, measures)
+    picture = BlockPicture(project, language, look)
+    size = picture.size
     scale = min(look.scale, look.widest / size.width())
     pixmap = QPixmap((size * scale * look.ratio).toSize().expandedTo(_SMALLEST))
     pixmap.setDevicePixelRatio(look.ratio)
     pixmap.fill(Qt.GlobalColor.transparent)
     with QPainter(pixmap) as painter:
         painter.scale(scale, scale)
-        painter.translate(_origin(size, measures))
-        blocks = BlockPainter(look.theme, language, measures, look.font)
-        for chain in chains:
-            blocks.paint(painter, boxes_of(chain, EVERYWHERE), 1.0)  # with all words
+        picture.paint(painter)
     return pixmap
 
 

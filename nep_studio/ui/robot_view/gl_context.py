@@ -13,6 +13,8 @@ from PySide6.QtOpenGL import (
     QOpenGLShaderProgram,
 )
 
+from nep_studio import safe_mode
+
 from .drawing import NoContext
 
 VERSION = (3, 3)
@@ -42,6 +44,8 @@ class GlContext:
         """Make a context of OpenGL 3.3. Raises NoContext."""
         if QGuiApplication.platformName() in WITHOUT:
             raise NoContext(f"the platform {QGuiApplication.platformName()} has no OpenGL")
+        if safe_mode.is_on():
+            raise NoContext("safe mode leaves the graphics card alone")
         wanted = QSurfaceFormat()
         wanted.setRenderableType(QSurfaceFormat.RenderableType.OpenGL)
         wanted.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)

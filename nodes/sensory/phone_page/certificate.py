@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING
 
 import platformdirs
 
+from nep_core.places import portable_folder
+
 if TYPE_CHECKING:
     from cryptography import x509
 
@@ -58,6 +60,8 @@ class Certificate:
 
 def certificate_folder() -> Path:
     """Where the key is kept: among this user's settings."""
+    if folder := portable_folder():
+        return folder / "keys"
     try:
         return Path(platformdirs.user_config_dir("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home

@@ -127,10 +127,10 @@ def test_a_pin_is_set_and_taken_away(window: MainWindow, dialog: SettingsDialog)
     assert not window.settings.has_pin
 
 
-def test_it_says_that_the_program_never_looks_for_updates(dialog: SettingsDialog) -> None:
+def test_it_says_that_the_program_sends_nothing_by_itself(dialog: SettingsDialog) -> None:
     words = " ".join(label.text() for label in dialog.findChildren(QLabel))
 
-    assert "never looks for them by itself" in words
+    assert "sends nothing by itself" in words
 
 
 def test_others_can_add_a_page_which_follows_the_language(dialog: SettingsDialog) -> None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QStandardPaths, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
 
+from nep_studio.settings import usual_folder
 from nep_studio.ui.messages import Message, Messages
 from nep_studio.ui.words import tr
 
@@ -20,9 +21,7 @@ def save_text(
     then: Callable[[Path], object] | None = None,
 ) -> QFileDialog:
     """Ask for a file, first called ``name``, and ``save`` it; ``then`` follows when it is there."""
-    documents = QStandardPaths.StandardLocation.DocumentsLocation
-    folder = QStandardPaths.writableLocation(documents)
-    dialog = QFileDialog(window, tr("Save as"), folder)
+    dialog = QFileDialog(window, tr("Save as"), str(usual_folder("projects")))
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
     dialog.setDefaultSuffix(Path(name).suffix.removeprefix("."))

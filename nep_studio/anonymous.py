@@ -1,0 +1,146 @@
+"""Takes out of a text what tells who somebody is, or lets somebody in."""
+
+from __future__ import annotations
+
+import contextlib
+import getpass
+import ipaddress
+import os
+import re
+import socket
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+HIDDEN = "<hidden>"
+USER, COMPUTER = "<user>", "<computer>"
+SHORTEST_NAME, SHORTEST_SECRET = 3, 4
+OURS = frozenset(
+    (
+        "admin",
+        "administrator",
+        "computer",
+        "debian",
+        "guest",
+        "home",
+        "linux",
+        "localhost",
+        "nao",
+        "nep",
+        "node",
+        "nodes",
+        "pepper",
+        "python",
+        "root",
+        "runner",
+        "studio",
+        "system",
+        "ubuntu",
+        "user",
+        "users",
+        "windows",
+    )
+)
+"""Names that tell nothing of anybody; they are also words of other things in a report."""
+
+_ADDRESS = re.compile(
+    r"(?<![\w.:])(?:\d{1,3}(?:\.\d{1,3}){3}|[0-9a-fA-F]{0,4}(?::[0-9a-fA-F]{0,4}){2,7})(?![\w:])"
+)
+_PATTERNS: tuple[tuple[re.Pattern[str], str], ...] = (
+    (re.compile(r"-----BEGIN [\w ]+-----.*?(-----END [\w ]+-----|\Z)", re.DOTALL), HIDDEN),
+    (re.compile(r"(?<=://)[^/\s:@]+:[^/\s@]+@"), f"{HIDDEN}@"),
+    (re.compile(r"(?<=://)([^/\s]+/)[\w-]{12,}(?=/)"), rf"\g<1>{HIDDEN}"),
+    (re.compile(r"(?i)([?&#](?:key|token|code|secret|t|k)=)[^&\s]+"), rf"\g<1>{HIDDEN}"),
+    (
+        re.compile(
+            r"(?i)\b((?:\w*password|passwd|passphrase|pass|pin|token|login|pairing code|"
+            r"(?:secret|private|api)[ _-]?key|secret)[\"']?\s*(?:=|:|\bis\b)\s*)"
+            r"(?:\"[^\"\n]*\"|'[^'\n]*'|[^\s\"',;]+)"
+        ),
+        rf"\g<1>{HIDDEN}",
+    ),
+    (re.compile(r"[\w.+-]+@[\w-]+(?:\.[\w-]+)+"), "<address of a person>"),
+    (re.compile(r"\b[0-9A-Fa-f]{2}(?:([:-])[0-9A-Fa-f]{2})(?:\1[0-9A-Fa-f]{2}){4}\b"), HIDDEN),
+    (re.compile(r"(?i)((?:^|[\\/])(?:users|home)[\\/]+)(?!<)[^\\/\s:\"']+"), rf"\g<1>{USER}"),
+)
+"""Keys, logins and tokens in links, passwords, e-mail, hardware addresses, homes of others."""
+
+
+@dataclass(frozen=True)
+class Anonymous:
+    """What is known of the person and the computer, and is taken out."""
+
+    home: str = ""
+    names: tuple[str, ...] = ()
+    computer: str = ""
+    secrets: tuple[str, ...] = ()
+
+    @classmethod
+    def here(cls, secrets: Iterable[str] = ()) -> Anonymous:
+        """The person at this computer."""
+        home = _or_nothing(lambda: str(Path.home()))
+        names = (_or_nothing(getpass.getuser), Path(home).name, *_full_name())
+        told = dict.fromkeys(one for one in names if one)
+        return cls(home, tuple(told), socket.gethostname(), tuple(secrets))
+
+    def text(self, text: str) -> str:
+        """The text without them."""
+        for secret in sorted(self.secrets, key=len, reverse=True):
+            if len(secret) >= SHORTEST_SECRET:
+                text = text.replace(secret, HIDDEN)
+        text = self._without_home(text)
+        for pattern, instead in _PATTERNS:
+            text = pattern.sub(instead, text)
+        text = _ADDRESS.sub(_address, text)
+        for name in sorted(self.names, key=len, reverse=True):
+            text = _without_word(text, name, USER)
+        for name in (self.computer, self.computer.partition(".")[0]):
+            text = _without_word(text, name, COMPUTER)
+        return text
+
+    def _without_home(self, text: str) -> str:
+        parts = [re.escape(part) for part in re.split(r"[\\/]+", self.home) if part]
+        if not parts:
+            return text
+        is_from_root = self.home.startswith(("/", "\\"))
+        start = r"(?<![\w.])[\\/]+" if is_from_root else ""
+        pattern = start + r"[\\/]+".join(parts) + r"(?![\w.-])"
+        return re.sub(pattern, "~", text, flags=re.IGNORECASE)
+
+
+def _address(found: re.Match[str]) -> str:
+    """An address of the internet is the person's; those of a local network help, and are kept."""
+    try:
+        address = ipaddress.ip_address(found[0])
+    except ValueError:
+        return found[0]
+    if address.version == 6 and address.is_link_local:
+        return f"fe80::{HIDDEN}"  # most are made of the hardware's address
+    return HIDDEN if address.is_global else found[0]
+
+
+def _without_word(text: str, word: str, instead: str) -> str:
+    if len(word) < SHORTEST_NAME or word.casefold() in OURS:
+        return text
+    pattern = rf"(?<![^\W_]){re.escape(word)}(?![^\W_])"
+    return re.sub(pattern, instead, text, flags=re.IGNORECASE)
+
+
+def _full_name() -> tuple[str, ...]:
+    """What the system knows of the person's name, whole and in its parts."""
+    if os.name != "posix":
+        return ()
+    import pwd
+
+    with contextlib.suppress(KeyError):
+        name = pwd.getpwuid(os.getuid()).pw_gecos.partition(",")[0].strip()
+        return (name, *name.split())
+    return ()
+
+
+def _or_nothing(ask: Callable[[], str]) -> str:
+    """Not every process has a home, or a user whom the system knows."""
+    try:
+        return ask()
+    except (OSError, KeyError, RuntimeError, ImportError):
+        return ""

@@ -1,0 +1,69 @@
+"""A report tells nothing of who somebody is, and keeps what helps."""
+
+from __future__ import annotations
+
+import pytest
+
+from nep_studio.anonymous import Anonymous
+
+ANNA = Anonymous(
+    "/HOME/anna", ("anna", "Anna Schmidt", "Schmidt"), "annas-laptop.school.example", ("hunter22",)
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("/HOME/anna/Documents/dance.nep", "~/Documents/dance.nep"),
+        ("/HOME/anna", "~"),
+        ("/HOME/annabel/x", "/HOME/<user>/x"),
+        (r"C:\USERS\Bob\AppData", r"C:\USERS\<user>\AppData"),
+        (r"C:\\USERS\\BOBSMI~1\\x", r"C:\\USERS\\<user>\\x"),
+        ("file:///HOME/j%C3%B6rg/a.nep", "file:///HOME/<user>/a.nep"),
+        ("/run/media/ANNA/STICK", "/run/media/<user>/STICK"),
+        ("Anna_Schmidt's banana", "<user>_<user>'s banana"),
+        ("host annas-laptop: ANNAS-LAPTOP.school.example", "host <computer>: <computer>"),
+        ("he typed hunter22.", "he typed <hidden>."),
+        ('{"password": "x y", "user": 1}', '{"password": <hidden>, "user": 1}'),
+        ("NEP_ROBOT_PASSWORD=abc;next", "NEP_ROBOT_PASSWORD=<hidden>;next"),
+        ("tcp://nao:secret@192.168.1.10:9559", "tcp://<hidden>@192.168.1.10:9559"),
+        (
+            "https://192.168.1.5:8443/AbCdEf012345_-x/page",
+            "https://192.168.1.5:8443/<hidden>/page",
+        ),
+        ("GET /?key=abc&x=1", "GET /?key=<hidden>&x=1"),
+        ("write to anna@school.example now", "write to <address of a person> now"),
+        ("at 00:1b:44:11:3a:b7 and", "at <hidden> and"),
+        ("fe80::21b:44ff:fe11:3ab7", "fe80::<hidden>"),
+        ("from 8.8.8.8, 192.168.1.7 and 127.0.0.1", "from <hidden>, 192.168.1.7 and 127.0.0.1"),
+        ("-----BEGIN PRIVATE KEY-----\nMII\n-----END PRIVATE KEY-----\nend", "<hidden>\nend"),
+        ("-----BEGIN PRIVATE KEY-----\nMII", "<hidden>"),
+        ("OpenGL 4.6, Qt 6.11.3 at 12:30:45", "OpenGL 4.6, Qt 6.11.3 at 12:30:45"),
+    ],
+)
+def test_a_text_is_without_names_and_secrets(text: str, told: str) -> None:
+    assert ANNA.text(text) == told
+
+
+def test_a_home_of_windows_is_found_however_its_slashes_are_written() -> None:
+    person = Anonymous(r"C:\USERS\Anna Smith", ("Anna Smith",), "PC")
+
+    told = [
+        person.text(text)
+        for text in (r"c:\users\anna smith\x", "C:/Users/Anna Smith/x", r"C:\\USERS\\Anna Smith\\x")
+    ]
+
+    assert told == [r"~\x", "~/x", r"~\\x"]
+
+
+def test_a_person_called_like_a_part_of_the_program_changes_no_words() -> None:
+    person = Anonymous("/HOME/nao", ("nao",), "nao")
+
+    assert person.text("the node nao in /HOME/nao/logs") == "the node nao in ~/logs"
+
+
+def test_what_is_known_of_this_computer_can_be_taken_out() -> None:
+    here = Anonymous.here(["a secret"])
+
+    assert here.text("a secret") == "<hidden>"
+    assert here.home
