@@ -16,7 +16,7 @@ os.environ.setdefault("NEP_ORIGINAL", "0")  # masters of tests that run at once 
 
 import psutil
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 from benchmarks.virtual_display import NoDisplay, virtual_display
 from nep_core.default_network import set_default_network
@@ -37,6 +37,8 @@ def pytest_configure() -> None:
         suppress_health_check=[HealthCheck.too_slow],
         derandomize=is_judged,  # elsewhere we explore
         max_examples=30 if is_judged else 100,
+        # a case that takes all the time of its test would be tried again and again, without end
+        phases=[phase for phase in Phase if not (is_judged and phase is Phase.shrink)],
     )
     settings.load_profile("busy")
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # a shell started us in the background
@@ -123,6 +125,23 @@ def leaves_no_child_processes() -> Iterator[None]:
     for child in left:
         child.kill()
     assert not names, f"still running: {names}"
+
+
+def own_variables() -> dict[str, str]:
+    """What the environment says to NEP."""
+    return {name: value for name, value in os.environ.items() if name.startswith("NEP_")}
+
+
+@pytest.fixture(autouse=True)
+def leaves_the_environment(leaves_no_child_processes: None) -> Iterator[None]:
+    """A test that leaves a variable for the next ones fails, and the variable is taken back."""
+    before = own_variables()
+    yield
+    after = own_variables()
+    for name in after.keys() - before.keys():
+        del os.environ[name]
+    os.environ.update(before)
+    assert after == before
 
 
 @pytest.fixture

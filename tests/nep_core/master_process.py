@@ -55,6 +55,7 @@ class RawProgram:
         self._context = zmq.Context()
         self._socket = self._context.socket(zmq.DEALER)
         self._socket.rcvhwm = answers_kept
+        self._socket.sndtimeo = round(TIMEOUT_S * 1000)  # without a master: not for ever
         self._socket.connect(endpoint)
 
     def say(self, request: says.Request | bytes | list[bytes]) -> None:

@@ -197,6 +197,7 @@ def test_a_peer_that_sends_rubbish_ends_no_subscriber(free_port: int) -> None:
     ):
         subscriber = Subscriber[str]("/x", network=hearer)
         peer.linger = 0
+        peer.rcvtimeo = 10_000
         peer.connect(endpoint)
         private = [peer.recv(), peer.recv()][-1][1:]
 
