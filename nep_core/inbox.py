@@ -237,6 +237,9 @@ class Inbox:
                 frame = self._socket.recv()
             except zmq.Again:
                 return None
+            except zmq.ContextTerminated:  # whoever closes could not wait for us
+                self.closed = True
+                return None
             if not frame or frame[0] != PRIVATE_BYTE:
                 return frame
             self._hear_privately(frame)

@@ -88,7 +88,7 @@ def _begin(words: list[str]) -> list[str]:
     while words and words[0] in (portable.OPTION, safe_mode.OPTION):
         options.add(words[0])
         words = words[1:]
-    if words and words[0].endswith(".nep"):  # of the window, where they may also come last
+    if words and _is_project(words[0]):  # of the window, where they may also come last
         options |= {*words} & {portable.OPTION, safe_mode.OPTION}
         words = [word for word in words if word not in options]
     portable.begin(is_asked=portable.OPTION in options)
@@ -111,16 +111,20 @@ def _do(words: list[str]) -> int:
         return 0
     from nep_studio import paths
 
-    if words and not words[0].endswith(".nep") and words[0] not in ON_A_SCREEN:
+    if words and not _is_project(words[0]) and words[0] not in ON_A_SCREEN:
         print(f'"{words[0]}" is not something that nep-studio can do.\n', file=sys.stderr)
         print(USAGE, file=sys.stderr)
         return UNUSABLE
     if has_display:
         return _load(WINDOW)(words)
-    files = [word for word in words if word.endswith(".nep")]
+    files = [word for word in words if _is_project(word)]
     example = files[0] if files else _example(paths.examples())
     print(NO_WINDOW.format(example=example) + USAGE, file=sys.stderr)
     return UNUSABLE
+
+
+def _is_project(word: str) -> bool:
+    return word.lower().endswith(".nep")
 
 
 def _has_display(environment: Mapping[str, str], system: str) -> bool:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import contextlib
 import getpass
 import ipaddress
+import json
 import os
 import re
 import socket
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote
 
-HIDDEN = "<hidden>"
-USER, COMPUTER = "<user>", "<computer>"
+from nep_studio.anonymous_paths import COMPUTER, HIDDEN, USER, readable, without_folders
+
 SHORTEST_NAME, SHORTEST_SECRET = 3, 4
 OURS = frozenset(
     (
@@ -43,17 +45,20 @@ OURS = frozenset(
 )
 """Names that tell nothing of anybody; they are also words of other things in a report."""
 
-_ADDRESS = re.compile(
-    r"(?<![\w.:])(?:\d{1,3}(?:\.\d{1,3}){3}|[0-9a-fA-F]{0,4}(?::[0-9a-fA-F]{0,4}){2,7})(?![\w:])"
+_ADDRESSES = (
+    re.compile(r"(?<![\w.])\d{1,3}(?:\.\d{1,3}){3}(?![\w]|\.\d)"),
+    re.compile(r"(?<![\w.:])[0-9a-fA-F]{0,4}(?::[0-9a-fA-F]{0,4}){2,7}(?![\w:])"),
 )
 _PATTERNS: tuple[tuple[re.Pattern[str], str], ...] = (
     (re.compile(r"-----BEGIN [\w ]+-----.*?(-----END [\w ]+-----|\Z)", re.DOTALL), HIDDEN),
     (re.compile(r"(?<=://)[^/\s:@]+:[^/\s@]+@"), f"{HIDDEN}@"),
-    (re.compile(r"(?<=://)([^/\s]+/)[\w-]{12,}(?=/)"), rf"\g<1>{HIDDEN}"),
+    (re.compile(r"(?<=://)([^/\s]+/)[\w-]{12,}(?![\w.-])"), rf"\g<1>{HIDDEN}"),
     (re.compile(r"(?i)([?&#](?:key|token|code|secret|t|k)=)[^&\s]+"), rf"\g<1>{HIDDEN}"),
+    (re.compile(r"(?i)(\bcode\b[^\d\n]{0,12})\d{3}[ -]?\d{3}(?!\d)"), rf"\g<1>{HIDDEN}"),
+    (re.compile(r"(?i)(\bbearer\s+)\S+"), rf"\g<1>{HIDDEN}"),
     (
         re.compile(
-            r"(?i)\b((?:\w*password|passwd|passphrase|pass|pin|token|login|pairing code|"
+            r"(?i)\b((?:\w*password|passwd|passphrase|pass|pin|token|login|ssid|"
             r"(?:secret|private|api)[ _-]?key|secret)[\"']?\s*(?:=|:|\bis\b)\s*)"
             r"(?:\"[^\"\n]*\"|'[^'\n]*'|[^\s\"',;]+)"
         ),
@@ -61,9 +66,18 @@ _PATTERNS: tuple[tuple[re.Pattern[str], str], ...] = (
     ),
     (re.compile(r"[\w.+-]+@[\w-]+(?:\.[\w-]+)+"), "<address of a person>"),
     (re.compile(r"\b[0-9A-Fa-f]{2}(?:([:-])[0-9A-Fa-f]{2})(?:\1[0-9A-Fa-f]{2}){4}\b"), HIDDEN),
-    (re.compile(r"(?i)((?:^|[\\/])(?:users|home)[\\/]+)(?!<)[^\\/\s:\"']+"), rf"\g<1>{USER}"),
+    (re.compile(r"(?i)(?<![\w.-])[\w-]+\.local\b(?![\\/])"), f"{COMPUTER}.local"),
+    (re.compile(r"(?m)(^|[\s\"'=(])(\\\\(?:\\\\)?)[^\\/\s]+(?=\\)"), rf"\g<1>\g<2>{COMPUTER}"),
+    (
+        re.compile(
+            r"(?i)((?:^|[\\/])(?:users|home)[\\/]+)(?!<)"
+            r"(?:[^\\/:\"'\n]+(?=[\\/])|[^\\/\s:\"']+)"
+        ),
+        rf"\g<1>{USER}",
+    ),
 )
-"""Keys, logins and tokens in links, passwords, e-mail, hardware addresses, homes of others."""
+"""Keys, logins and tokens in links, pairing codes, passwords, e-mail, hardware addresses,
+computers of the network, homes of others."""
 
 
 @dataclass(frozen=True)
@@ -84,14 +98,17 @@ class Anonymous:
         return cls(home, tuple(told), socket.gethostname(), tuple(secrets))
 
     def text(self, text: str) -> str:
-        """The text without them."""
+        """The text without them, and without letters that no file or terminal takes."""
+        text = readable(text)
         for secret in sorted(self.secrets, key=len, reverse=True):
             if len(secret) >= SHORTEST_SECRET:
                 text = text.replace(secret, HIDDEN)
         text = self._without_home(text)
         for pattern, instead in _PATTERNS:
             text = pattern.sub(instead, text)
-        text = _ADDRESS.sub(_address, text)
+        for pattern in _ADDRESSES:
+            text = pattern.sub(_address, text)
+        text = without_folders(text)
         for name in sorted(self.names, key=len, reverse=True):
             text = _without_word(text, name, USER)
         for name in (self.computer, self.computer.partition(".")[0]):
@@ -120,10 +137,17 @@ def _address(found: re.Match[str]) -> str:
 
 
 def _without_word(text: str, word: str, instead: str) -> str:
-    if len(word) < SHORTEST_NAME or word.casefold() in OURS:
+    word = readable(word)
+    is_latin = word.lower() != word.upper()  # others write words without space between them
+    shortest = SHORTEST_NAME if word.isascii() else SHORTEST_NAME - 1
+    if len(word) < shortest or word.casefold() in OURS:
         return text
-    pattern = rf"(?<![^\W_]){re.escape(word)}(?![^\W_])"
-    return re.sub(pattern, instead, text, flags=re.IGNORECASE)
+    for written in {word, quote(word), json.dumps(word)[1:-1]}:
+        pattern = re.escape(written)
+        if is_latin:
+            pattern = rf"(?<![^\W_]){pattern}(?![^\W_])"
+        text = re.sub(pattern, instead, text, flags=re.IGNORECASE)
+    return text
 
 
 def _full_name() -> tuple[str, ...]:

@@ -103,5 +103,6 @@ def keep_crashes(folder: Path) -> None:
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
         if path.exists() and path.stat().st_size > MOST_CRASH_BYTES:
-            path.unlink()
+            with suppress(OSError):  # another window may have it open
+                path.unlink()
         faulthandler.enable(path.open("a", encoding="utf-8"))

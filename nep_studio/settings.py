@@ -14,7 +14,7 @@ from typing import Literal
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
 
 from nep_core.places import log_folder, portable_folder
-from nep_studio.portable import kept_name, path_of
+from nep_studio.portable import kept_name, not_kept, path_of
 
 FOLDER_VARIABLE = "NEP_STUDIO_FOLDER"
 """Another place for settings, journals and logs than the user's folder."""
@@ -55,7 +55,7 @@ def usual_folder(what: FolderName) -> Path:
         return log_folder()
     documents = QStandardPaths.StandardLocation.DocumentsLocation
     folder = Path(QStandardPaths.writableLocation(documents) or tempfile.gettempdir())
-    if here := portable_folder():
+    if (here := portable_folder()) and not_kept() is None:  # else they would go with the program
         folder = here / "projects"
     return folder if what == "projects" else folder / "NEP recordings"
 

@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -23,13 +24,15 @@ from nep_core.process import program_command
 from nep_core.security.addresses import own_addresses
 from nep_studio import __version__, portable, safe_mode
 from nep_studio.anonymous import Anonymous
-from nep_studio.support_logs import crash_part, log_part
+from nep_studio.support_logs import LAST_BYTES, LONGEST_LINE, crash_part, log_part
 from nep_studio.support_report import Part, Report
 
 SCREEN_S = 30.0
 SHOWN_SETTINGS = ("look", "show", "help", "robots", "panels", "folders", "network", "updates")
 """Groups of the settings whose values tell nothing of anybody; of others only the names."""
 SECRET_SETTINGS = ("pin",)
+MOST_SETTINGS = 400
+OF_ANOTHER = "clock of "
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 QT_VARIABLE = re.compile(r"(QT|QSG|XDG_SESSION|WAYLAND|DISPLAY|LANG|LC_|LIBGL|__GL|MESA)")
 ESCAPED = re.compile(r"\\x([0-9a-f]{1,4})")
@@ -44,7 +47,7 @@ def report(master: str | None = None) -> Report:
         Part("NEP Studio", tuple(_program())),
         Part("Computer", tuple(groups["computer"])),
         Part("Screen, graphics and sound", tuple(_screen())),
-        Part("Network", (*groups["network"], _addresses())),
+        Part("Network", (*map(_without_host, groups["network"]), *_addresses())),
         Part("Folders", (*groups["folders"], *_folders())),
         Part("Nodes", tuple(groups["nodes"])),
         Part("Settings", lines=tuple(setting_lines(_user_folder() / "settings.ini"))),
@@ -121,8 +124,16 @@ def _findings(output: bytes) -> Iterator[Finding]:
             yield msgspec.json.decode(line, type=Finding)
 
 
-def _addresses() -> Finding:
-    return Finding("addresses", "ok", ", ".join(own_addresses()) or "none but this computer's own")
+def _without_host(found: Finding) -> Finding:
+    """A finding that does not name another computer."""
+    is_named = found.about.startswith(OF_ANOTHER)
+    return replace(found, about=f"{OF_ANOTHER}another computer") if is_named else found
+
+
+def _addresses() -> Iterator[Finding]:
+    with suppress(Exception):  # psutil's own errors too
+        told = ", ".join(own_addresses()) or "none but this computer's own"
+        yield Finding("addresses", "ok", told)
 
 
 def _folders() -> Iterator[Finding]:
@@ -152,12 +163,14 @@ def _user_folder() -> Path:
 def setting_lines(file: Path) -> Iterator[str]:
     """The settings as they are written, without secrets and the names of projects."""
     try:
-        text = file.read_text(encoding="utf-8", errors="replace")
+        with file.open("rb") as opened:
+            text = opened.read(LAST_BYTES).decode("utf-8", "replace")
     except OSError as error:
         yield f"({(error.strerror or 'cannot be read').lower()})"
         return
     group = ""
-    for line in ESCAPED.sub(lambda found: chr(int(found[1], 16)), text).splitlines():
+    text = ESCAPED.sub(lambda found: chr(int(found[1], 16)), text)
+    for line in (long[:LONGEST_LINE] for long in text.splitlines()[:MOST_SETTINGS]):
         name, mark, value = line.partition("=")
         if line.startswith("["):
             group = line.strip("[]")

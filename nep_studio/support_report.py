@@ -18,12 +18,14 @@ from nep_core.cli.doctor import finding_lines
 from nep_core.cli.finding import Finding
 from nep_studio.anonymous import Anonymous
 
+FILE = "NEP Studio report.zip"
 FORMAT = "nep-studio-report"
 VERSION = 1
 START = (
     "Report of NEP Studio for support",
     "",
-    "Names of people, computers and folders, passwords and keys have been taken out.",
+    "Names of people, computers, folders and projects have been taken out,",
+    "and so have passwords, keys and addresses of the internet.",
     "Read it before you send it: what programs and nodes wrote into logs is in it too.",
 )
 

@@ -11,7 +11,8 @@ import logging
 import re
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from PySide6.QtCore import QSettings
@@ -19,6 +20,9 @@ from PySide6.QtCore import QSettings
 from nep_studio import __version__
 
 if TYPE_CHECKING:
+    import ssl
+    import urllib.request
+
     from nep_studio.settings import Settings
 
 log = logging.getLogger(__name__)
@@ -30,6 +34,13 @@ TIMEOUT_S = 4.0
 LARGEST_BYTES = 10_000
 DAY_S = 24 * 3600
 SCHEMES = ("http", "https")
+CERTIFICATES = (
+    "/etc/ssl/certs/ca-certificates.crt",
+    "/etc/pki/tls/certs/ca-bundle.crt",
+    "/etc/ssl/ca-bundle.pem",
+    "/etc/ssl/cert.pem",
+)
+"""Whom the systems trust; a frozen program knows only where that was when it was made."""
 _VERSION = re.compile(r"v?(\d{1,6}(?:\.\d{1,6}){0,3})")
 
 
@@ -127,12 +138,36 @@ def ask(address: str) -> Newest | None:
         return None
     request = urllib.request.Request(address, headers={"User-Agent": f"NEP-Studio/{__version__}"})
     try:
-        with urllib.request.urlopen(request, timeout=TIMEOUT_S) as answer:
-            is_as_safe = urlsplit(answer.url).scheme in (urlsplit(address).scheme, "https")
-            return newest_in(answer.read(LARGEST_BYTES + 1)) if is_as_safe else None
+        with _opener(urlsplit(address).scheme).open(request, timeout=TIMEOUT_S) as answer:
+            return newest_in(answer.read(LARGEST_BYTES + 1))
     except (OSError, ValueError, http.client.HTTPException) as error:
         log.info("The newest version is not known: %s", error)
         return None
+
+
+def _opener(scheme: str) -> urllib.request.OpenerDirector:
+    """Asks; where a page sends it on to, it asks only as safely."""
+    import urllib.request
+
+    class Redirects(urllib.request.HTTPRedirectHandler):
+        def redirect_request(self, *told: Any) -> urllib.request.Request | None:
+            if urlsplit(told[-1]).scheme not in (scheme, "https"):
+                raise ValueError("it is sent on to a page that is less safe")
+            return super().redirect_request(*told)
+
+    trusting = urllib.request.HTTPSHandler(context=_trust())
+    return urllib.request.build_opener(Redirects, trusting)
+
+
+def _trust() -> ssl.SSLContext:
+    import ssl
+
+    context, usual = ssl.create_default_context(), ssl.get_default_verify_paths()
+    if not (usual.cafile or usual.capath or context.get_ca_certs()):
+        file = next((one for one in CERTIFICATES if Path(one).is_file()), None)
+        if file is not None:
+            context.load_verify_locations(file)
+    return context
 
 
 def newest_in(answer: bytes) -> Newest | None:

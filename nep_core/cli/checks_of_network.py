@@ -48,7 +48,7 @@ VARIABLES = {
     PORTABLE_VARIABLE: "the folder that holds everything, as on a stick",
     "NEP_SAFE_MODE": "whether NEP Studio leaves settings and own nodes out",
 }
-SECRET = ("NEP_ROBOT_PASSWORD", "NEP_NAOQI_LOGIN")
+SECRET = ("NEP_ROBOT_USER", "NEP_ROBOT_PASSWORD", "NEP_NAOQI_LOGIN")
 INSIDE = ("NEP_TREE", "NEP_LIFELINE")
 """What NEP sets itself."""
 

@@ -186,7 +186,7 @@ def folders() -> list[Finding]:
 def folder(about: str, path: Path) -> Finding:
     """Whether files can be made in a folder, or the folder itself."""
     place = path
-    while not place.exists() and place != place.parent:
+    while not os.path.exists(place) and place != place.parent:  # Path asks what it may not see
         place = place.parent
     try:
         if not place.is_dir():
@@ -227,7 +227,7 @@ def disk_space(least: int = FREE_BYTES) -> list[Finding]:
     """Whether logs and recordings have room."""
     found = []
     for about, path in (("disk of logs", log_folder()), ("disk here", Path(os.curdir))):
-        while not path.exists() and path != path.parent:
+        while not os.path.exists(path) and path != path.parent:
             path = path.parent
         free = shutil.disk_usage(path).free
         steps = () if free >= least else ("Delete what is not needed, such as old recordings.",)

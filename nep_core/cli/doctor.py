@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+
+import psutil
 
 from nep_core.cli.arguments import add_json
 from nep_core.cli.finding import Finding
 from nep_core.cli.showing import say, say_json
+from nep_core.errors import NepError
 
 MARKS = {"ok": "ok       ", "look": "LOOK     ", "unknown": "unknown  ", "note": "-        "}
 
@@ -39,19 +42,36 @@ def examined(master: str | None = None, robot: str | None = None) -> dict[str, l
     from nep_core.cli import checks_of_system as system
 
     return {
-        "computer": [*system.versions(), *system.computer(), system.clock()],
-        "network": [
-            *network.variables(),
-            network.service(master),
-            *network.original_ports(),
-            network.naoqi_port(),
-            *([network.robot(robot)] if robot else []),
-            *network.clocks(master),
-            *system.firewalls(),
+        "computer": [
+            *_found("versions", system.versions),
+            *_found("computer", system.computer),
+            *_found("clock", system.clock),
         ],
-        "folders": [*system.folders(), system.key_file(), *system.disk_space()],
-        "nodes": [system.manifests()],
+        "network": [
+            *_found("variables", network.variables),
+            *_found("master", lambda: network.service(master)),
+            *_found("ports", network.original_ports),
+            *_found("ports", network.naoqi_port),
+            *(_found("robot", lambda: network.robot(robot)) if robot else []),
+            *_found("clocks", lambda: network.clocks(master)),
+            *_found("firewall", system.firewalls),
+        ],
+        "folders": [
+            *_found("folders", system.folders),
+            *_found("key file", system.key_file),
+            *_found("disk", system.disk_space),
+        ],
+        "nodes": _found("nodes", system.manifests),
     }
+
+
+def _found(about: str, look: Callable[[], Finding | list[Finding]]) -> list[Finding]:
+    """What a check finds out; one that fails on this computer does not hide the others."""
+    try:
+        found = look()
+    except (OSError, RuntimeError, ValueError, psutil.Error, NepError) as error:
+        return [Finding(about, "unknown", f"could not be found out: {error}")]
+    return found if isinstance(found, list) else [found]
 
 
 def report_lines(findings: list[Finding]) -> list[str]:

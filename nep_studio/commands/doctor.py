@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from nep_studio.support_report import FILE
+
 
 def main(arguments: list[str]) -> int:
     """Print or save the report; 1 when there is something to look at."""
@@ -13,12 +15,19 @@ def main(arguments: list[str]) -> int:
 
     made = report(options.master)
     if options.save is not None:
-        path = options.save if options.save.suffix else options.save.with_suffix(".zip")
+        path = _file(options.save)
         made.save(path)
         print(f"The report is in {path}. Read report.txt in it before you send it.")
     else:
         print(made.json() if options.json else made.text(), flush=True)
     return 0 if made.is_sound else 1
+
+
+def _file(told: Path) -> Path:
+    """Where the report goes: into a folder, or a file whose ending may be left out."""
+    if told.is_dir():
+        return told / FILE
+    return told if told.suffix else told.with_suffix(".zip")
 
 
 def parser() -> argparse.ArgumentParser:

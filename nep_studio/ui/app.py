@@ -36,7 +36,8 @@ class Studio(QObject):
     def __init__(self, app: QApplication, chosen: Settings | None = None) -> None:
         super().__init__(app)
         self.app = app
-        self.settings = chosen or Settings()
+        usual = safe_mode.passing_settings if safe_mode.is_on() else Settings
+        self.settings = chosen or usual()
         load_fonts()
         self._use_words()
         self.look = Look(app, self.settings.theme, self.settings.text_scale)
@@ -106,17 +107,19 @@ def main(arguments: list[str]) -> int:
     gc.disable()  # until the window is there: what is made before stays as long as it does
     from nep_studio.ui.last_resort import LastResort
     from nep_studio.ui.main_window import MainWindow
+    from nep_studio.ui.stop_signals import StopSignals
 
     app = make_application()
-    with LastResort(settings.log_file()) as last_resort:
+    with LastResort(settings.log_file()) as last_resort, StopSignals() as stop_signals:
         note = StartNote(settings.user_folder())
+        app.commitDataRequest.connect(note.succeeded)  # the session ends: that is no crash
         safe_mode.keep_crashes(settings.user_folder())
         if note.last_failed and not safe_mode.is_on() and not _may_start():
             note.succeeded()  # the person has closed it
             return 0
-        chosen = safe_mode.passing_settings() if safe_mode.is_on() else None
-        window = MainWindow(Studio(app, chosen), is_gradual=True)
+        window = MainWindow(Studio(app), is_gradual=True)
         last_resort.watch(window)
+        stop_signals.came.connect(lambda: _end_at_once(window))
         once = Qt.ConnectionType.SingleShotConnection
         window.later.completed.connect(_collect_from_now_on, once)
         window.later.completed.connect(lambda: _begin_later(window, note), once)
@@ -127,6 +130,13 @@ def main(arguments: list[str]) -> int:
         note.succeeded()
         window.deleteLater()
     return code
+
+
+def _end_at_once(window: MainWindow) -> None:
+    """End without a question; work that is not saved is offered at the next start."""
+    if (document := window.files.document) is not None:
+        document.close(keep=document.is_modified)
+    window.close_now()
 
 
 def _may_start() -> bool:

@@ -14,7 +14,6 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import (
-    QCoreApplication,
     QMessageLogContext,
     QObject,
     QtMsgType,
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 LARGEST_LOG = 1_000_000
-INTERRUPTED = 130
 _LEVELS = {
     QtMsgType.QtDebugMsg: logging.DEBUG,
     QtMsgType.QtInfoMsg: logging.INFO,
@@ -96,9 +94,6 @@ class LastResort(QObject):
     def _on_error(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
-        if issubclass(kind, KeyboardInterrupt):
-            QCoreApplication.exit(INTERRUPTED)  # Ctrl-C in the terminal; the journal has the work
-            return
         details = "".join(traceback.format_exception(kind, error, trace))
         log.error("Nobody expected this:\n%s", details)
         self._happened.emit(details)

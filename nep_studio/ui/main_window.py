@@ -263,12 +263,13 @@ class MainWindow(QMainWindow):
         document = self.files.document
         if not self._may_close and document is not None and document.is_modified:
             event.ignore()
-            self.files.guard(self._close_now)
+            self.files.guard(self.close_now)
             return
         self._remember()
         super().closeEvent(event)
 
-    def _close_now(self) -> None:
+    def close_now(self) -> None:
+        """Close without asking."""
         self._may_close = True
         self.close()
 

@@ -14,13 +14,13 @@ ANNA = Anonymous(
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("/HOME/anna/Documents/dance.nep", "~/Documents/dance.nep"),
+        ("/HOME/anna/Documents/dance.nep", "~/Documents/<file>.nep"),
         ("/HOME/anna", "~"),
         ("/HOME/annabel/x", "/HOME/<user>/x"),
         (r"C:\USERS\Bob\AppData", r"C:\USERS\<user>\AppData"),
         (r"C:\\USERS\\BOBSMI~1\\x", r"C:\\USERS\\<user>\\x"),
-        ("file:///HOME/j%C3%B6rg/a.nep", "file:///HOME/<user>/a.nep"),
-        ("/run/media/ANNA/STICK", "/run/media/<user>/STICK"),
+        ("file:///HOME/j%C3%B6rg/a.nep", "file:///HOME/<user>/<file>.nep"),
+        ("/run/media/ANNA/STICK", "/run/media/<folder>/STICK"),
         ("Anna_Schmidt's banana", "<user>_<user>'s banana"),
         ("host annas-laptop: ANNAS-LAPTOP.school.example", "host <computer>: <computer>"),
         ("he typed hunter22.", "he typed <hidden>."),
@@ -36,6 +36,24 @@ ANNA = Anonymous(
         ("at 00:1b:44:11:3a:b7 and", "at <hidden> and"),
         ("fe80::21b:44ff:fe11:3ab7", "fe80::<hidden>"),
         ("from 8.8.8.8, 192.168.1.7 and 127.0.0.1", "from <hidden>, 192.168.1.7 and 127.0.0.1"),
+        ("tcp://8.8.8.8:7000, IP:8.8.4.4", "tcp://<hidden>:7000, IP:<hidden>"),
+        ("::ffff:8.8.8.8 and [2003:e1::5]:80", "::ffff:<hidden> and [<hidden>]:80"),
+        ("the driver 31.0.15.3623", "the driver 31.0.15.3623"),
+        (
+            "https://10.1.1.5:8443/AbCdEf012345 is open",
+            "https://10.1.1.5:8443/<hidden> is open",
+        ),
+        ("pairing code: 482 915", "pairing code: <hidden>"),
+        ("ended with code 3221225477", "ended with code 3221225477"),
+        ("ssid=Schmidts, Bearer abc.def", "ssid=<hidden>, Bearer <hidden>"),
+        ("bobs-nao.local:9559", "<computer>.local:9559"),
+        (r"at \\SERVER4\class\x", r"at \\<computer>\class\x"),
+        (r"C:\USERS\Bob Smith\x", r"C:\USERS\<user>\x"),
+        ("/HOME/anna/Clinic/case 4/a b.csv", "~/<folder>/<folder>/<file>.csv"),
+        (r"E:\Class 4b\nep-studio\x.log", r"E:\<folder>\nep-studio\x.log"),
+        ('"/HOME/anna/src/nep_studio/ui/x.py", line 3', '"~/<folder>/nep_studio/ui/x.py", line 3'),
+        ("“Anna in hospital.nep” is damaged", "“<file>.nep” is damaged"),
+        ("\x1b[31mred \udcff", "?[31mred ?"),
         ("-----BEGIN PRIVATE KEY-----\nMII\n-----END PRIVATE KEY-----\nend", "<hidden>\nend"),
         ("-----BEGIN PRIVATE KEY-----\nMII", "<hidden>"),
         ("OpenGL 4.6, Qt 6.11.3 at 12:30:45", "OpenGL 4.6, Qt 6.11.3 at 12:30:45"),
@@ -54,6 +72,15 @@ def test_a_home_of_windows_is_found_however_its_slashes_are_written() -> None:
     ]
 
     assert told == [r"~\x", "~/x", r"~\\x"]
+
+
+@pytest.mark.parametrize("written", ["J\u00f6rg", "Jo\u0308rg", "J%C3%B6rg", "J\\u00f6rg"])
+def test_a_name_is_found_however_its_letters_are_written(written: str) -> None:
+    assert Anonymous(names=("Jo\u0308rg",)).text(f"by {written} now") == "by <user> now"
+
+
+def test_a_name_of_two_signs_is_found_where_words_have_no_space_between_them() -> None:
+    assert Anonymous(names=("健太", "Li")).text("健太さん likes Linux") == "<user>さん likes Linux"
 
 
 def test_a_person_called_like_a_part_of_the_program_changes_no_words() -> None:

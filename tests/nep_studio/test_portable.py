@@ -157,6 +157,7 @@ def test_a_write_protected_stick_is_used_with_its_settings_and_left_as_it_is(
     assert portable.not_kept() == folder
     assert Settings().theme == "dark"
     assert not (Settings().folder / "journals").exists()
+    assert not usual_folder("projects").is_relative_to(passing)  # what is saved must stay
     shutil.rmtree(passing)
 
 

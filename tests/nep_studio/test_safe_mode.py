@@ -54,6 +54,27 @@ app.make_application = make_and_look
 sys.exit(app.main([]))
 """
 
+LOG_OUT = """
+import os, signal, sys
+from PySide6.QtCore import QTimer
+from nep_studio.ui import app
+from nep_studio.ui.main_window import MainWindow
+
+class Window(MainWindow):
+    def start(self, path):
+        super().start(path)
+        self.later.completed.connect(lambda: QTimer.singleShot(0, self.work))
+
+    def work(self):
+        self.files.new()
+        self.files.document.editor.add_variable("kept")
+        QTimer.singleShot(0, self, lambda: os.kill(os.getpid(), signal.SIGTERM))
+
+import nep_studio.ui.main_window
+nep_studio.ui.main_window.MainWindow = Window
+sys.exit(app.main([]))
+"""
+
 
 def run(script: str, home: Path) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "NEP_STUDIO_FOLDER": str(home), "QT_QPA_PLATFORM": "offscreen"}
@@ -83,6 +104,16 @@ def test_after_a_crash_at_the_start_safe_mode_is_offered_and_leaves_the_settings
         part = crash_part(tmp_path)
         assert part.lines[0].startswith("Fatal Python error: Segmentation fault")
         assert part.findings[0].state == "note"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows ends sessions without signals")
+def test_logging_out_soon_after_the_start_is_no_crash_and_keeps_the_work(tmp_path: Path) -> None:
+    done = run(LOG_OUT, tmp_path)
+
+    assert done.returncode == 128 + signal.SIGTERM, done.stderr
+    assert not (tmp_path / NOTE).exists()
+    [edits] = (tmp_path / "journals").rglob("*.edits")
+    assert b"kept" in edits.read_bytes()
 
 
 def test_a_start_that_still_goes_on_is_no_failed_one(tmp_path: Path) -> None:

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import pytest
 
+from nep_core.cli.doctor import _found
 from nep_core.cli.finding import Finding
 from nep_studio.anonymous import Anonymous
 from nep_studio.support_logs import last_lines, log_part
 from nep_studio.support_parts import setting_lines
-from nep_studio.support_report import Part, Report, report_of
+from nep_studio.support_report import FILE, Part, Report, report_of
 
 SETTINGS = """[look]
 theme=dark
@@ -34,6 +35,7 @@ Traceback (most recent call last):
   File "{home}/nep/x.py", line 3, in <module>
 ValueError: the password: open-sesame
 2026-01-05 10:00:02,000 INFO nep_studio: went on, robot said Robot4Ever
+2026-01-05 10:00:03,000 INFO nep_studio: {home}/Clinic/Anna in hospital.nep from 8.8.8.8:7000
 """
 
 
@@ -61,12 +63,13 @@ def test_a_saved_report_has_all_parts_and_nothing_that_tells_who_sends_it(tmp_pa
     logins = {"192.168.1.10": {"user": "nao", "password": "Robot4Ever", "fingerprint": ""}}
     (kept / "robots.json").write_text(json.dumps(logins))
     told = {"NEP_STUDIO_FOLDER": str(kept), "NEP_ROBOT_PASSWORD": "hunter2hunter2"}
+    told |= {"NEP_ROBOT_USER": "klinikrobot", "LC_ODD": "\udcff"}  # bytes that are no UTF-8
 
-    done = doctor(home, "--save", str(tmp_path / "report"), **told)
+    done = doctor(home, "--save", str(tmp_path), **told)
 
     assert done.returncode in (0, 1), done.stderr
-    assert str(tmp_path / "report.zip") in done.stdout
-    with zipfile.ZipFile(tmp_path / "report.zip") as file:
+    assert str(tmp_path / FILE) in done.stdout
+    with zipfile.ZipFile(tmp_path / FILE) as file:
         assert sorted(file.namelist()) == ["report.json", "report.txt"]
         text, data = file.read("report.txt").decode(), file.read("report.json").decode()
     report = report_of(data)
@@ -74,9 +77,10 @@ def test_a_saved_report_has_all_parts_and_nothing_that_tells_who_sends_it(tmp_pa
         *("NEP Studio", "Computer", "Screen, graphics and sound", "Network", "Folders", "Nodes"),
         *("Settings", "Last crash"),
     ]
-    for secret in ("annaschmidt", "Robot4Ever", "hunter2", "open-sesame", "0123456789ab", "jörg"):
+    secrets = ("annaschmidt", "Robot4Ever", "hunter2", "open-sesame", "0123456789ab", "jörg")
+    for secret in (*secrets, "klinikrobot", "Clinic", "hospital", "8.8.8.8"):
         assert secret not in text + data
-    assert "~/nep/x.py" in text
+    assert "~/<folder>/x.py" in text
     assert "Fatal Python error: Aborted" in text
     assert "Atkinson Hyperlegible" in text
     assert report.text() == text
@@ -126,6 +130,26 @@ def test_settings_are_shown_without_secrets_and_names_of_projects(tmp_path: Path
     assert "recent=(38 letters, not shown)" in lines
     assert "logs=/HOME/jörg/logs" in lines
     assert list(setting_lines(tmp_path / "missing.ini")) == ["(no such file or directory)"]
+
+
+def test_of_damaged_settings_a_report_holds_no_more_than_it_can_show(tmp_path: Path) -> None:
+    file = tmp_path / "settings.ini"
+    file.write_bytes(b"[look]\nname=\\xd83d\n" + b"\x1b" * 5000 + b"\nx=1" * 100_000)
+
+    report = Report.of([Part("Settings", lines=tuple(setting_lines(file)))], Anonymous())
+
+    assert "name=?" in report.text()
+    assert "\x1b" not in report.text()
+    assert len(report.json().encode()) < 20_000
+
+
+def test_a_check_that_fails_hides_no_other() -> None:
+    def fail() -> Finding:
+        raise RuntimeError("Could not determine home directory.")
+
+    [found] = _found("home", fail)
+
+    assert (found.about, found.state) == ("home", "unknown")
 
 
 def test_of_a_long_log_the_last_whole_lines_are_kept(tmp_path: Path) -> None:

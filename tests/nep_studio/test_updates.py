@@ -23,6 +23,7 @@ class Site:
     address: str = ""
     answer: bytes = b'{"version": "99.1", "page": "https://example.org/get"}'
     status: int = 200
+    sent_on: str = ""
     asked: list[dict[str, str]] = field(default_factory=list)
 
 
@@ -36,6 +37,8 @@ def site(monkeypatch: pytest.MonkeyPatch) -> Iterator[Site]:
         def do_GET(self) -> None:
             told.asked.append({"path": self.path, **self.headers})
             self.send_response(told.status)
+            if told.sent_on:
+                self.send_header("Location", told.sent_on)
             self.end_headers()
             self.wfile.write(told.answer)
 
@@ -69,6 +72,22 @@ def test_the_newest_version_is_told_and_only_the_own_one_is_sent(site: Site) -> 
 @pytest.mark.parametrize("status", [404, 500])
 def test_a_site_that_fails_tells_nothing(site: Site, status: int) -> None:
     site.status = status
+
+    assert ask(site.address) is None
+
+
+def test_it_is_sent_on_only_to_a_page_that_is_as_safe(site: Site) -> None:
+    """Nothing may be asked there before that is known."""
+    import urllib.error
+
+    opener, usual = updates._opener("https"), updates._opener("http")
+    site.status, site.sent_on = 302, site.address
+
+    with pytest.raises(ValueError, match="less safe"):
+        opener.open(site.address, timeout=2)
+    with pytest.raises(urllib.error.HTTPError, match="infinite loop"):
+        usual.open(site.address, timeout=2)
+    site.sent_on = "ftp://127.0.0.1/newest"
 
     assert ask(site.address) is None
 

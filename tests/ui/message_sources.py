@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ast
+import gc
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -46,6 +47,7 @@ NOT_SHOWN = (
     "nep_studio/support_parts.py",
     "nep_studio/support_report.py",
     "nep_studio/ui/show/command.py",
+    "nep_studio/ui/window_picture.py",
     "nep_core/over_zenoh/router.py",
     "nep_core/recordings/file.py",
     "nep_core/recordings/player.py",
@@ -59,6 +61,10 @@ NOT_SHOWN = (
 STILL_SAID = {"This place takes {noun}, not a value that is typed."}
 """What of these a person can meet."""
 
+TELLING = (ast.Expr, ast.Constant, ast.JoinedStr, ast.ClassDef, ast.Call, ast.keyword)
+"""The parts of a source that can tell something."""
+
+FOR_PROGRAMMERS = ("ValueError", "TypeError")
 STATES = {"ready": 0, "warn": 0, "state": 1, "Connection": 1}
 """Where nodes tell how they are doing: which argument; these sentences need no full stop."""
 
@@ -66,6 +72,18 @@ NO_SENTENCES = re.compile(
     r"Made with NEP Studio|^[^A-Za-z]*$|^(\{\w+\}[.:]? ?)+\.?$|^range\(|^  \[ \] |^ - |^# "
 )
 ENDINGS = re.compile(r"[.?]$|\{(reason|sentence|fault|description|why)\}$")
+
+
+def parsed(paths: Iterable[Path]) -> Iterator[tuple[Path, list[ast.AST]]]:
+    """The parts of files, without order; the collector would look through millions of them."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        for path in paths:
+            yield path, list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 @cache
@@ -77,7 +95,7 @@ def templates() -> frozenset[str]:
 @cache
 def templates_in_order() -> tuple[str, ...]:
     """The same, in the order of the sources, so that what belongs together stays together."""
-    found = [words for path in files() for words in _of_file(path)]
+    found = [words for path, nodes in parsed(files()) for words in _of_file(path, nodes)]
     found += [words for told in PARTS.values() for words in told]
     return tuple(dict.fromkeys([*found, *_of_manifests(), *OF_THE_SYSTEM]))
 
@@ -99,22 +117,22 @@ def _of_manifests() -> Iterator[str]:
         yield from (one["help"] for one in parameters if one.get("help"))
 
 
-def _of_file(path: Path) -> Iterator[str]:
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    silent = {id(part) for node in ast.walk(tree) for part in _silent(node)}
-    for node in in_order(tree):
+def _of_file(path: Path, nodes: list[ast.AST]) -> Iterator[str]:
+    place = path.relative_to(ROOT).as_posix()
+    nodes = [node for node in nodes if isinstance(node, TELLING)]
+    silent = {id(part) for node in nodes for part in _silent(node)}
+    for node in in_order(nodes):
         yield from filter(None, map(template, _told(node)))
         words = "" if id(node) in silent else template(node)
-        is_said = path.relative_to(ROOT).as_posix() not in LEFT_OUT or words in STILL_SAID
+        is_said = place not in LEFT_OUT or words in STILL_SAID
         is_sentence = " " in words and ENDINGS.search(words) and not NO_SENTENCES.search(words)
         if is_said and is_sentence:
             yield words
 
 
-def in_order(tree: ast.AST) -> list[ast.AST]:
-    """The parts of a file from its beginning to its end."""
-    placed = (node for node in ast.walk(tree) if hasattr(node, "lineno"))
-    return sorted(placed, key=lambda node: (node.lineno, node.col_offset))
+def in_order(nodes: Iterable[ast.AST]) -> list[ast.AST]:
+    """Parts of a file from its beginning to its end."""
+    return sorted(nodes, key=lambda node: (node.lineno, node.col_offset))
 
 
 def _silent(node: ast.AST) -> Iterator[ast.AST]:
@@ -124,8 +142,7 @@ def _silent(node: ast.AST) -> Iterator[ast.AST]:
     elif isinstance(node, ast.JoinedStr):
         yield from (part for part in ast.walk(node) if part is not node)
     elif isinstance(node, ast.Call):
-        name = ast.unparse(node.func)
-        if name.startswith("log.") or name in ("tr", "count_words", "ValueError", "TypeError"):
+        if _is_log(node.func) or _name(node.func) in ("tr", "count_words", *FOR_PROGRAMMERS):
             yield from ast.walk(node)
     elif isinstance(node, ast.keyword) and node.arg == "details":
         yield from ast.walk(node)
@@ -138,7 +155,7 @@ def _told(node: ast.AST) -> Iterator[ast.AST]:
             if isinstance(line, ast.Assign) and ast.unparse(line.targets[0]) == "title":
                 yield line.value
     elif isinstance(node, ast.Call):
-        name = ast.unparse(node.func).rpartition(".")[2]
+        name = last_name(node.func)
         if name == "Fix":
             yield node.args[1]
         elif name == "Problem" and node.args and " " in template(node.args[0]):
@@ -147,6 +164,19 @@ def _told(node: ast.AST) -> Iterator[ast.AST]:
             yield from node.args[STATES[name] :][:1]
     elif isinstance(node, ast.keyword) and node.arg == "checklist":
         yield from node.value.elts if isinstance(node.value, ast.Tuple) else ()
+
+
+def _is_log(function: ast.expr) -> bool:
+    return isinstance(function, ast.Attribute) and _name(function.value) == "log"
+
+
+def _name(node: ast.expr) -> str:
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def last_name(node: ast.expr) -> str:
+    """What a function or a class is called, without where it is from."""
+    return node.attr if isinstance(node, ast.Attribute) else _name(node)
 
 
 def template(node: ast.AST) -> str:

@@ -15,12 +15,13 @@ def main(arguments: list[str]) -> int:
     from nep_studio.ui.app import Studio, make_application
     from nep_studio.ui.last_resort import LastResort
     from nep_studio.ui.main_window import MainWindow
+    from nep_studio.ui.stop_signals import StopSignals
 
     from .mode import ShowMode
 
     options = parser().parse_args(arguments)
     app = make_application()
-    with LastResort(settings.log_file()) as last_resort:
+    with LastResort(settings.log_file()) as last_resort, StopSignals():
         window = MainWindow(Studio(app))
         last_resort.watch(window)
         window.workbench.restore(window.fontMetrics().height())

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QMessageBox, QPushButton
 
 from nep_studio import safe_mode, settings
 from nep_studio.ui import words
+from nep_studio.ui.theme import load_fonts
 from nep_studio.ui.words import tr
 
 
@@ -40,6 +41,7 @@ class AfterACrash(QMessageBox):
 def ask() -> bool:
     """Let the person choose; whether to start, in safe mode when they want it."""
     words.use_language(settings.system_language(words.available_languages()))
+    load_fonts()  # some computers have no letters of the person's language
     while True:
         box = AfterACrash()
         box.exec()

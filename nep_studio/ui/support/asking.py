@@ -7,7 +7,7 @@ import time
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt, QUrl, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 
 from nep_studio import __version__
@@ -19,18 +19,43 @@ if TYPE_CHECKING:
     from nep_studio.ui.main_window import MainWindow
 
 
+LONGEST_MS = 15_000
+"""Longer nobody waits, however slowly somebody answers."""
+
+
 class Asking(QObject):
-    """One question; ``answered`` gives the Newest, or None, in the thread of the window."""
+    """One question at a time; ``answered`` gives the Newest, or None, in the window's thread."""
 
     answered = Signal(object)
+    _heard = Signal(int, object)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._number = 0
+        self._heard.connect(self._on_heard, Qt.ConnectionType.QueuedConnection)
+        self._patience = QTimer(self, interval=LONGEST_MS, singleShot=True)
+        self._patience.timeout.connect(lambda: self._on_heard(self._number, None))
 
     def begin(self, address: str) -> None:
         """Ask; at the end of the program nobody waits."""
-        threading.Thread(target=self._ask, args=(address,), name="updates", daemon=True).start()
+        self.cancel()
+        self._patience.start()
+        words = (address, self._number)
+        threading.Thread(target=self._ask, args=words, name="updates", daemon=True).start()
 
-    def _ask(self, address: str) -> None:
+    def cancel(self) -> None:
+        """Want no answer any more."""
+        self._number += 1
+        self._patience.stop()
+
+    def _ask(self, address: str, number: int) -> None:
         newest = ask(address)
         with suppress(RuntimeError):  # the window has gone meanwhile
+            self._heard.emit(number, newest)
+
+    def _on_heard(self, number: int, newest: Newest | None) -> None:
+        if number == self._number:
+            self.cancel()
             self.answered.emit(newest)
 
 
@@ -41,8 +66,7 @@ def ask_if_due(window: MainWindow) -> Asking | None:
         return None
     choice.note_asked()
     asking = Asking(window)
-    queued = Qt.ConnectionType.QueuedConnection
-    asking.answered.connect(lambda newest: _tell(window, choice, newest), queued)
+    asking.answered.connect(lambda newest: _tell(window, choice, newest))
     asking.begin(choice.address)
     return asking
 

@@ -20,11 +20,10 @@ from PySide6.QtWidgets import (
 
 from nep_core.process import program_command
 from nep_studio.settings import usual_folder
-from nep_studio.support_report import Report, report_of
+from nep_studio.support_report import FILE, Report, report_of
 from nep_studio.ui.theme import code_font
 from nep_studio.ui.words import count_words, tr
 
-FILE = "NEP Studio report.zip"
 COLUMNS, LINES = 88, 26
 """The size of the preview, in letters of code and lines."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -32,13 +31,22 @@ class PrivacyPage(QWidget):
         self.ask_button = QPushButton(tr("Ask now"))
         self.ask_button.setAutoDefault(False)
         self.state = self._words("")
+        hint = tr(
+            "NEP Studio tells its own version there, and nothing else. It never changes itself."
+        )
+        self.hint = self._words(hint, "hint")
+        self.unknown = self._words(
+            tr(
+                "New versions are where you got NEP Studio: it knows no address yet that tells of"
+                " them. If you were given one, write it here."
+            )
+        )
         self._asking = Asking(self)
         self._lay_out()
         self.address.textEdited.connect(self._on_address_edited)
         self.check.toggled.connect(self._on_toggled)
         self.ask_button.clicked.connect(self._on_ask)
-        queued = Qt.ConnectionType.QueuedConnection
-        self._asking.answered.connect(self._on_answered, queued)
+        self._asking.answered.connect(self._on_answered)
         self._show()
 
     def _lay_out(self) -> None:
@@ -52,6 +60,7 @@ class PrivacyPage(QWidget):
             box.addWidget(self._words(words))
         box.addSpacing(line // 2)
         box.addWidget(self.check)
+        box.addWidget(self.unknown)
         row = QHBoxLayout()
         label = QLabel(tr("Address"))
         label.setBuddy(self.address)
@@ -59,27 +68,24 @@ class PrivacyPage(QWidget):
         row.addWidget(self.address, 1)
         row.addWidget(self.ask_button)
         box.addLayout(row)
-        hint = tr(
-            "NEP Studio tells its own version there, and nothing else. It never changes itself."
-        )
-        box.addWidget(self._words(hint, "hint"))
+        box.addWidget(self.hint)
         box.addWidget(self.state)
         box.addStretch(1)
 
     def _show(self) -> None:
-        """Where no address is known, nothing can be wanted."""
+        """Where no address is known, there is nothing to choose, and it says so."""
         has_address = is_usable(self.address.text().strip())
         self.check.blockSignals(True)
         self.check.setChecked(has_address and self._choice.is_wanted)
         self.check.blockSignals(False)
-        self.check.setEnabled(has_address)
+        for part in (self.check, self.ask_button, self.hint):
+            part.setVisible(has_address)
+        self.unknown.setVisible(not has_address)
         self.ask_button.setEnabled(has_address)
-        if not has_address:
-            self.state.setText(tr("To be told of new versions, write the address that tells them."))
-        else:
-            self.state.clear()
+        self.state.clear()
 
     def _on_address_edited(self, words: str) -> None:
+        self._asking.cancel()
         self._choice.address = words
         self._show()
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import socket
 import threading
 from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QCoreApplication, QObject, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog, QPushButton
 from pytestqt.qtbot import QtBot
@@ -17,11 +18,12 @@ from nep_core.places import PORTABLE_VARIABLE
 from nep_studio import portable, safe_mode
 from nep_studio.ui.main_window import MainWindow
 from nep_studio.ui.settings_dialog import SettingsDialog
+from nep_studio.ui.support import asking
 from nep_studio.ui.support import dialog as dialogs
 from nep_studio.ui.support.adding import tell_how_it_runs
 from nep_studio.ui.support.after_a_crash import AfterACrash
 from nep_studio.ui.support.dialog import SupportDialog
-from nep_studio.updates import UpdateChoice
+from nep_studio.updates import Newest, UpdateChoice
 
 
 @pytest.fixture
@@ -165,7 +167,8 @@ def test_the_settings_ask_nobody_until_they_are_told_to_and_cancel_takes_it_back
     window.open_settings()
     [dialog] = window.findChildren(SettingsDialog)
     page = dialog.privacy
-    at_first = page.check.isChecked(), page.check.isEnabled(), page.ask_button.isEnabled()
+    at_first = page.check.isChecked(), page.check.isHidden(), page.ask_button.isHidden()
+    told_at_first = page.unknown.text()
 
     page.address.setText("")
     qtbot.keyClicks(page.address, site[0])
@@ -176,10 +179,33 @@ def test_the_settings_ask_nobody_until_they_are_told_to_and_cancel_takes_it_back
     qtbot.waitUntil(lambda: "99.0" in page.state.text())
     qtbot.mouseClick(dialog.cancel_button, Qt.MouseButton.LeftButton)
 
-    assert at_first == (False, False, False)
+    assert at_first == (False, True, True)
+    assert "no address yet" in told_at_first
+    assert page.unknown.isHidden()
     assert (wanted, nobody_asked, site[1]) == (True, [], ["/newest"])
     assert not UpdateChoice(window.settings).is_wanted
     assert UpdateChoice(window.settings).address == ""
+
+
+def test_whoever_answers_without_end_is_not_waited_for(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    parent, answers = QObject(), list[Newest | None]()
+    monkeypatch.setattr(asking, "LONGEST_MS", 50)
+    question = asking.Asking(parent)
+    question.answered.connect(answers.append)
+    with socket.socket() as silent:
+        silent.bind(("127.0.0.1", 0))
+        silent.listen()
+
+        question.begin(f"http://127.0.0.1:{silent.getsockname()[1]}/")
+        qtbot.waitUntil(lambda: answers == [None])
+
+    waiting = [one for one in threading.enumerate() if one.name == "updates"]
+    for one in waiting:
+        one.join(5)
+    QCoreApplication.processEvents()
+    assert answers == [None]
 
 
 def test_an_error_that_nobody_expected_offers_the_report(window: MainWindow) -> None:
