@@ -113,11 +113,12 @@ class Network(ABC):
 
     def remove_subscriber(self, subscriber: str) -> None:
         """End a subscriber."""
-        with self._lock:
-            inbox = self._inboxes.pop(subscriber, None)
+        inbox = self._inboxes.get(subscriber)
         if inbox is not None:
             inbox.close()
             self.io.forget(inbox.tend)
+            with self._lock:  # only now: what is interrupted before, close() still closes
+                self._inboxes.pop(subscriber, None)
 
     def open_inbox(self, topic: str, policy: Policy = "events") -> tuple[str, Receiving]:
         """A new subscriber's id and inbox; raises NetworkError when the network is closed."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 import shutil
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from html import escape
 from pathlib import Path
 
@@ -21,8 +23,8 @@ from nep_studio.ui.words import use_language
 from .benchmark_rows import benchmark_rows
 from .colours import colours_css
 from .command_pages import commands_page
-from .contents import DOCS, GROUPS, MADE_OF, ROOT, START, group_of, sources
-from .frame import ENGLISH, Site, folder, index_file
+from .contents import DOCS, GROUPS, HOW_TO, MADE_OF, ROOT, START, group_of, sources
+from .frame import ENGLISH, GUIDES_INDEX, Site, folder, index_files
 from .help_pages import HelpPages, how_to_path
 from .message_pages import messages_page
 from .page import FIRST, HERE, Page
@@ -38,6 +40,7 @@ FONTS = (
     "NotoSansJPNEP-Regular.ttf",
 )
 ICON = "nep-studio.svg"
+SCRIPTS = ("style.css", "search.js", "frame.js")
 _IMAGE = re.compile(rf'(?:src|srcset)="{HERE}images/([^"]+)"')
 ShortcutsOf = Callable[[str], Rows]
 """Gives what keys do in the window, in a language."""
@@ -59,15 +62,18 @@ def build(target: Path, languages: Iterable[str], shortcuts_of: ShortcutsOf) -> 
     """Make the site in a folder, which is emptied first; raises WrongLinks, WrongPage."""
     pictures = Pictures()
     pages: list[Page] = written_pages()
+    guides = [page for page in pages if page.group == START]
     groups: dict[str, dict[str, str]] = {}
     english = studio_language()
     for code in dict.fromkeys((ENGLISH, *languages)):
         use_language(code)
         rows = list(shortcuts_of(code))
-        book = Book(studio_language(code), lambda rows=rows: rows)
+        book = Book(studio_language(code), partial(list, rows))
         found = list(HelpPages(book, english, code, pictures).all())
         groups[code] = _groups(book, code)
-        pages += found if code == ENGLISH else [_first_page(code, found, groups[code]), *found]
+        if code != ENGLISH:
+            pages.append(_first_page(code, found, groups[code], guides))
+        pages += found
         if code == ENGLISH:
             pages += [_messages(book.language), commands_page()]
     use_language(ENGLISH)
@@ -119,20 +125,41 @@ def _messages(language: Language) -> Page:
     return messages_page(nodes, {name: node_title(each, titles) for name, each in nodes.items()})
 
 
-def _first_page(code: str, pages: Iterable[Page], groups: dict[str, str]) -> Page:
+def _first_page(
+    code: str, pages: Iterable[Page], groups: dict[str, str], english: Iterable[Page]
+) -> Page:
     """The page on which a language other than English begins."""
     title = word(code, "documentation")
     parts = [f'<h1 id="top">{escape(title)}</h1><p>{escape(word(code, "intro"))}</p>']
     listed: dict[str, list[Page]] = {}
     for page in pages:
-        listed.setdefault(page.group, []).append(page)
+        if posixpath.basename(page.path) != FIRST:
+            listed.setdefault(page.group, []).append(page)
+    problems = listed.pop("problems", [])
+    listed[HOW_TO] += problems
     for group, inside in listed.items():
-        items = "".join(
-            f'<li><a href="{HERE}{page.path}">{escape(page.title)}</a></li>' for page in inside
-        )
-        name = escape(groups[group] if group != "problems" else inside[0].title)
-        parts.append(f'<h2 id="{group}">{name}</h2><ul>{items}</ul>')
+        form = "" if group == HOW_TO else ' class="columns"'
+        items = "".join(_item(page, with_about=group == HOW_TO) for page in inside)
+        parts.append(f'<h2 id="{group}">{escape(groups[group])}</h2><ul{form}>{items}</ul>')
+    heading = escape(word(code, "only_english"))
+    items = "".join(_item(page, with_about=True) for page in english if page.path != FIRST)
+    parts.append(f'<h2 id="english">{heading}</h2><ul lang="{ENGLISH}">{items}</ul>')
     return Page(FIRST, title, "\n".join(parts), START, code, word(code, "intro"))
+
+
+def _item(page: Page, *, with_about: bool) -> str:
+    told = f": {escape(page.about)}" if with_about and page.about else ""
+    return f'<li><a href="{HERE}{page.path}">{escape(page.title)}</a>{told}</li>'
+
+
+def _searched(pages: list[Page], languages: Iterable[str]) -> dict[str, str]:
+    """The scripts with what can be found: of each language, and what is only there in English."""
+    other = {page.path for page in pages if page.language != ENGLISH}
+    scripts = {GUIDES_INDEX: script_of(page for page in pages if page.path not in other)}
+    for code in languages:
+        own = (page for page in pages if page.language == code and page.path in other)
+        scripts[index_files(code)[0]] = script_of(own)
+    return scripts
 
 
 def _write(
@@ -144,12 +171,10 @@ def _write(
     made = {folder(page.language) + page.path: site.framed(page) for page in pages}
     if site.wrong_links:
         raise WrongLinks("\n".join(sorted(set(site.wrong_links))))
-    for code in groups:
-        own = [page for page in pages if page.language == code]
-        made[index_file(code)] = script_of(own)
+    made |= _searched(pages, groups)
     here = Path(__file__).parent
     made["colours.css"] = colours_css() + pictures.style()
-    made |= {name: (here / name).read_text(encoding="utf-8") for name in ("style.css", "search.js")}
+    made |= {name: (here / name).read_text(encoding="utf-8") for name in SCRIPTS}
     if target.exists():
         shutil.rmtree(target)
     for name, text in made.items():

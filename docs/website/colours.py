@@ -23,8 +23,8 @@ NAMES = (
 )
 USED_WHEN = {
     "light": "",
-    "dark": "@media (prefers-color-scheme: dark)",
-    "high_contrast": "@media (prefers-contrast: more)",
+    "dark": "@media screen and (prefers-color-scheme: dark)",
+    "high_contrast": "@media screen and (prefers-contrast: more)",
 }
 """Which theme is used when; a later one wins."""
 

@@ -51,6 +51,7 @@ BESIDE = {
 """Files beside docs that are pages too."""
 
 MADE_OF = {
+    ROOT / "resources" / "help" / "en": "how-to/index.html",
     ROOT / "resources" / "blocks": "blocks/index.html",
     ROOT / "nodes": "nodes/index.html",
     ROOT / "nep_core" / "messages.py": "messages.html",

@@ -18,6 +18,10 @@ from .words import word
 
 TEMPLATE = Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8"))
 ENGLISH = "en"
+IMAGES = "images/"
+GUIDES_INDEX = "search-guides.js"
+"""What can be found in the pages that are only there in English."""
+
 FEWEST_PARTS = 3
 """A page with fewer parts needs no list of them."""
 
@@ -46,27 +50,28 @@ class Site:
         language, home = page.language, self._way(page, "")
         values = {
             "language": language,
-            "kind": "home" if (language, page.path) == (ENGLISH, FIRST) else "page",
+            "kind": "home" if page.path == FIRST else "page",
             "title": escape(_title(page)),
             "about": escape(page.about or page.title),
             "home": home,
-            "folder": self._way(page, folder(language)),
+            "folder": folder(language),
             "first": self._way(page, f"{folder(language)}{FIRST}"),
-            "index": index_file(language),
+            "index": " ".join(self._way(page, name) for name in index_files(language)),
             "navigation": self._navigation(page),
+            "where": self._where(page),
             "body": self._with_parts(page),
             "around": self._around(page),
             "languages": self._languages(page),
             "version": escape(word(language, "version", version=__version__)),
         }
-        named = ("skip", "contents", "search", "found", "none")
+        named = ("skip", "contents", "search", "found", "none", "english")
         values |= {name: escape(word(language, name)) for name in named}
         html = TEMPLATE.substitute(values)
         return _ADDRESS.sub(lambda found: self._resolved(page, found), html)
 
     def _resolved(self, page: Page, found: re.Match[str]) -> str:
         kind, path, anchor = found[1], found[2], found[3] or ""
-        if kind != "href":
+        if kind != "href" or path.startswith(IMAGES):
             if path not in self._files:
                 self.wrong_links.append(f"{page.language}/{page.path} shows {path}")
             return f'{kind}="{self._way(page, path)}"'
@@ -113,7 +118,32 @@ class Site:
         way = self._way(page, folder(to.language) + to.path)
         current = ' aria-current="page"' if to is page else ""
         tongue = f' lang="{to.language}" hreflang="{to.language}"' * (to.language != page.language)
-        return f'<a href="{way}"{current}{tongue}>{escape(to.title)}{mark}</a>'
+        return f'<a href="{way}"{current}{tongue}>{escape(self._called(to))}{mark}</a>'
+
+    def _called(self, page: Page) -> str:
+        """What a page is called in lists: the group says already what it is an overview of."""
+        is_list = posixpath.basename(page.path) == FIRST != page.path
+        return word(page.language, "overview") if is_list else page.title
+
+    def _where(self, page: Page) -> str:
+        """The way from the first page to this one: what cannot be seen where a screen is small."""
+        if page.path == FIRST:
+            return ""
+        first = self._way(page, folder(page.language) + FIRST)
+        steps = [f'<a href="{first}">NEP Studio</a>']
+        above = next(
+            (
+                f"{page.group}{end}"
+                for end in (f"/{FIRST}", ".html")
+                if (page.language, f"{page.group}{end}") in self.pages
+            ),
+            page.path,
+        )
+        if above != page.path:
+            way = self._way(page, folder(page.language) + above)
+            title = escape(self._groups[page.language][page.group])
+            steps.append(f'<a href="{way}">{title}</a>')
+        return f'<p class="where">{" / ".join(steps)}</p>'
 
     def _with_parts(self, page: Page) -> str:
         """The body, with a list of its parts below its beginning."""
@@ -141,17 +171,19 @@ class Site:
         return f'<div class="around">{"".join(links)}</div>' if links else ""
 
     def _languages(self, page: Page) -> str:
-        """The same page in the other languages."""
+        """The same page in the other languages; where one does not have it, its first page."""
         links = []
         for code, name in available_languages().items():
-            same = self.pages.get((code, page.path))
-            if same is not None and code != page.language:
-                way = self._way(page, folder(code) + page.path)
+            to = self.pages.get((code, page.path)) or self.pages.get((code, FIRST))
+            if to is not None and code != page.language:
+                way = self._way(page, folder(code) + to.path)
                 links.append(f'<li><a href="{way}" lang="{code}" hreflang="{code}">{name}</a></li>')
         if not links:
             return ""
         title = escape(word(page.language, "languages"))
-        return f'<nav class="languages" aria-label="{title}"><ul>{"".join(links)}</ul></nav>'
+        own = f"<summary>{available_languages()[page.language]}</summary>"
+        listed = f"<details>{own}<ul>{''.join(links)}</ul></details>"
+        return f'<nav class="languages" aria-label="{title}">{listed}</nav>'
 
 
 def folder(language: str) -> str:
@@ -159,9 +191,9 @@ def folder(language: str) -> str:
     return "" if language == ENGLISH else f"{language}/"
 
 
-def index_file(language: str) -> str:
-    """The file with what is searched in a language."""
-    return f"search-{language}.js"
+def index_files(language: str) -> tuple[str, str]:
+    """The files with what is searched in a language: its own, and what is only in English."""
+    return f"search-{language}.js", GUIDES_INDEX
 
 
 def _title(page: Page) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from html import escape
 
 from nep_core.messages import BY_TOPIC
@@ -11,7 +12,7 @@ from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.text import sentence
 from nep_studio.help.examples import examples
-from nep_studio.help.texts import category_texts
+from nep_studio.help.texts import category_texts, page_texts
 from nep_studio.ui.help.block_pages import DRAG, EXAMPLE, PICTURE, text_of
 from nep_studio.ui.help.book import Book
 from nep_studio.ui.help.page_names import BLOCK, CATEGORY, HOME, HOW_TO, NODE, split
@@ -29,6 +30,8 @@ PROBLEMS = "problems"
 
 _PICTURE = re.compile(rf'<img src="{PICTURE}([^"]+)">')
 _EXAMPLE = re.compile(rf'<a href="{DRAG}[^"]+"><img src="{EXAMPLE}([^"]+)"></a>')
+_WORDS = re.compile(r"<!--.*?\bwords: (.*?) -->")
+_QUOTED = re.compile(r"`([^`<>]+)`")
 _NAME = re.compile(r'<a name="([^"]+)"></a>')
 _TOPIC = re.compile(r"(?<=[ \u3001\uff1a])/(\w+)(?=[,\u3001<])")
 _FIRST_SENTENCE = re.compile(r"<p>(.*?[.。])(?:\s|</p>|<|(?<=。))", re.S)
@@ -40,10 +43,13 @@ class HelpPages:
     def __init__(self, book: Book, english: Language, code: str, pictures: Pictures) -> None:
         self._book, self._english, self._code, self._pictures = book, english, code, pictures
         self._language = book.language
+        self._examples: dict[str, str] = {}
 
     def all(self) -> Iterator[Page]:
         """Every page, in the order of the contents."""
         how_to, blocks, nodes = self._book.contents()
+        titles = [(content.page, content.title) for content in how_to.inside]
+        yield self._list("how-to/index.html", how_to.title, "all_how_tos", titles)
         for content in how_to.inside:
             yield self._how_to(content.page)
         titles = [(content.page, content.title) for content in blocks.inside]
@@ -79,11 +85,15 @@ class HelpPages:
         path = self._path(name)
         group = PROBLEMS if name == HOW_TO + PROBLEMS else "how-to"
         body = for_browsers(page.html, self.address)
-        return Page(path, page.title, body, group, self._code, _about(body))
+        made = Page(path, page.title, body, group, self._code, _about(body))
+        written = page_texts(self._code)[name.removeprefix(HOW_TO)]
+        words = _WORDS.search(written)
+        return replace(made, words={made.parts[0].anchor: words[1] if words else ""})
 
     def _node(self, name: str) -> Page:
         page = self._book.page(name)
         html = _TOPIC.sub(_topic_link, _titled(page.html, "top"))
+        html = _QUOTED.sub(r"<code>\1</code>", html)  # as texts of manifests have commands
         body = for_browsers(html, self.address)
         return Page(self._path(name), page.title, body, "nodes", self._code, _about(body))
 
@@ -116,6 +126,12 @@ class HelpPages:
         return _EXAMPLE.sub(lambda found: self._example(found[1]), html)
 
     def _example(self, name: str) -> str:
+        """The picture of an example; some blocks share one."""
+        if name not in self._examples:
+            self._examples[name] = self._drawn_example(name)
+        return self._examples[name]
+
+    def _drawn_example(self, name: str) -> str:
         clip = examples()[name].clip(self._language, self._code)
         project, language = clip.project, self._language.of(clip.project)
         chains = (stack.body for stacks in project.pages.values() for stack in stacks)

@@ -63,7 +63,7 @@ class Pictures:
         told += [(f".{name}{{stroke:", pair) for pair, name in self._lines.items()]
         light = "\n".join(f"{rule}{light}}}" for rule, (light, _) in told)
         dark = "\n".join(f"{rule}{dark}}}" for rule, (light, dark) in told if dark != light)
-        return f"{light}\n@media (prefers-color-scheme: dark) {{\n{dark}\n}}\n"
+        return f"{light}\n@media screen and (prefers-color-scheme: dark) {{\n{dark}\n}}\n"
 
     def _shapes(self, groups: Sequence[Element]) -> str:
         return "".join(self._shape(groups, each) for each in zip(*groups, strict=True))

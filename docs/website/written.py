@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -17,8 +18,12 @@ from .markup import box_to_tick, slug
 from .page import HERE, Page, plain
 
 ABOUT = re.compile(r"<!-- about: (.*?) -->")
+WORDS = re.compile(r"<!-- words: (.*?) -->", re.S)
+"""Other words by which a page is searched, also of other languages where it has no translation."""
 _COMMENT = re.compile(r"<!--.*?-->", re.S)
 _BOX = "[ ] "
+WIDE = 900
+"""A picture of so many pixels leads to itself: on its own it is seen as large as it is."""
 LinkOf = Callable[[str], str]
 """Gives the address for a link as a file has it; an empty one for what is not on the site."""
 
@@ -38,12 +43,14 @@ def page_of(
     for name, insert in inserts.items():
         text = text.replace(f"{{{{{name}}}}}", insert)
     parser = MarkdownIt("commonmark", {"xhtmlOut": True}, renderer_cls=_Renderer).enable("table")
-    body = parser.render(text, {"source": source, "link_of": link_of})
+    body = parser.render(text, {"source": source, "link_of": link_of, "links": []})
     title = re.search(r"<h1[^>]*>(.*?)</h1>", body)
     if title is None:
         raise WrongPage(f"{source} has no title.")
     about = ABOUT.search(text)
-    return Page(path, plain(title[1]), body, group, about=about[1] if about else "")
+    page = Page(path, plain(title[1]), body, group, about=about[1] if about else "")
+    words = WORDS.search(text)
+    return replace(page, words={page.parts[0].anchor: words[1] if words else ""})
 
 
 class _Renderer(RendererHTML):
@@ -64,10 +71,10 @@ class _Renderer(RendererHTML):
     def link_open(self, tokens: Sequence[Token], at: int, options: Any, env: Any) -> str:
         address = str(tokens[at].attrs["href"])
         if address.startswith(("https://", "http://")):
-            env.setdefault("links", []).append(True)
+            env["links"].append(True)
             return f'<a class="outside" href="{escape(address)}">'
         found = env["link_of"](address)
-        env.setdefault("links", []).append(bool(found))
+        env["links"].append(bool(found))
         return f'<a href="{escape(found)}">' if found else '<span class="file">'
 
     def link_close(self, tokens: Sequence[Token], at: int, options: Any, env: Any) -> str:
@@ -85,10 +92,12 @@ class _Renderer(RendererHTML):
         words = escape(plain(tokens[at].content))
         shown = f'<img src="{HERE}images/{path.name}" alt="{words}" {form}/>'
         dark = path.with_name(path.name.replace("-light.", "-dark."))
-        if dark == path or not dark.is_file():
+        if dark != path and dark.is_file():
+            source = f'srcset="{HERE}images/{dark.name}" media="(prefers-color-scheme: dark)"'
+            shown = f"<picture><source {source}/>{shown}</picture>"
+        if size.width() < WIDE or env["links"][-1:] == [True]:
             return shown
-        source = f'srcset="{HERE}images/{dark.name}" media="(prefers-color-scheme: dark)"'
-        return f"<picture><source {source}/>{shown}</picture>"
+        return f'<a class="picture" href="{HERE}images/{path.name}">{shown}</a>'
 
     def table_open(self, tokens: Sequence[Token], at: int, options: Any, env: Any) -> str:
         return '<div class="scroll" tabindex="0"><table>'

@@ -6,6 +6,7 @@ import argparse
 import io
 import logging
 import os
+import signal
 import sys
 import traceback
 from importlib import import_module
@@ -162,6 +163,7 @@ def run_command(options: argparse.Namespace) -> int:
     """Run a parsed command; errors become sentences."""
     logging.basicConfig(level=logging.WARNING, format="%(message)s")
     module = import_module(f"nep_core.cli.{COMMANDS[options.command][0]}")
+    on_ctrl_c = signal.getsignal(signal.SIGINT)
     try:
         return int(module.run(options))
     except NepError as error:
@@ -174,6 +176,9 @@ def run_command(options: argparse.Namespace) -> int:
     except Exception as error:  # the last resort: a mistake of ours is told, and kept for us
         print(_explain_mistake(error), file=sys.stderr)
         return 1
+    finally:
+        if signal.getsignal(signal.SIGINT) is not on_ctrl_c:
+            signal.signal(signal.SIGINT, on_ctrl_c)
 
 
 def explain(error: NepError) -> str:

@@ -8,7 +8,8 @@ import difflib
 import os
 import signal
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from nep_core import transports
 from nep_core.endpoints import master_endpoint
@@ -36,6 +37,19 @@ def _end_as_by_ctrl_c() -> None:
         signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
     else:
         _thread.interrupt_main()
+
+
+@contextmanager
+def end_undisturbed() -> Iterator[None]:
+    """Last in a ``with``: a second Ctrl-C does not interrupt how the others are closed.
+
+    The interrupt would leave a socket open for which ZeroMQ waits; run_command() takes it back.
+    """
+    try:
+        yield
+    finally:
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def registrations(options: argparse.Namespace) -> list[Registration]:

@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 
 from nep_core.cli.arguments import count, rate, seconds
-from nep_core.cli.joining import join
+from nep_core.cli.joining import end_undisturbed, join
 from nep_core.cli.node import settings
 from nep_core.cli.showing import many, remark, say
 from nep_core.errors import BadMessage, NodeNotFound, NodeStartError
@@ -174,6 +174,7 @@ def _launch(options: argparse.Namespace) -> int:
     with (
         join(options) as network,
         Launcher(master=options.master, on_end=told) as launcher,
+        end_undisturbed(),
     ):
         launcher.hear(network)
         manifest = _found(launcher, options)

@@ -31,6 +31,7 @@ class ZenohInbox:
 
         self.closed = False
         self._lock = threading.Lock()
+        self._closing, self._is_undeclared = threading.Lock(), False
         self._backlog = Backlog(topic, policy)
         self._private = handshake.private_subscription(topic, subscriber)
         self._publishers: set[str] = set()
@@ -86,7 +87,10 @@ class ZenohInbox:
     def close(self) -> None:
         """End, also for a thread that waits in take()."""
         self.interrupt()
-        self._subscription.undeclare()
+        with self._closing:
+            if not self._is_undeclared:
+                self._is_undeclared = True
+                self._subscription.undeclare()
         self._thread.join(1.0)
 
     def _wait(self, deadline: float | None) -> bool:

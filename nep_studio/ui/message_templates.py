@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 
 LONGEST = 2000
 """Longer texts are what people wrote, not sentences of the program."""
@@ -50,7 +51,7 @@ LookUp = Callable[[str], str]
 
 @dataclass(frozen=True, slots=True)
 class _Template:
-    pattern: re.Pattern[str]
+    pattern: str
     anchor: str
     translation: str
     ours: frozenset[str]
@@ -84,7 +85,7 @@ class MessageTemplates:
     def _filled(self, text: str, look_up: LookUp) -> str | None:
         kept = self._by_first_word
         for template in kept.get(_first_word(text), kept[""]):
-            if template.anchor in text and (found := template.pattern.fullmatch(text)):
+            if template.anchor in text and (found := _compiled(template.pattern).fullmatch(text)):
                 values = {
                     name: _part(value, look_up) if name in template.ours else value
                     for name, value in found.groupdict().items()
@@ -138,7 +139,7 @@ def _first_word(text: str) -> str:
 
 
 def _template(english: str, translation: str) -> _Template:
-    """Compile a sentence; quoted values are taken as they are, whatever they are called."""
+    """Prepare a sentence; quoted values are taken as they are, whatever they are called."""
     parts = _PLACE.split(english)
     literals, names = parts[::2], parts[1::2]
     pattern = re.escape(literals[0])
@@ -153,4 +154,10 @@ def _template(english: str, translation: str) -> _Template:
         if name in _WORDS_OF_OURS and not before.endswith(_QUOTE)
     }
     anchor = max(literals, key=len)
-    return _Template(re.compile(pattern, re.DOTALL), anchor, translation, frozenset(ours))
+    return _Template(pattern, anchor, translation, frozenset(ours))
+
+
+@cache
+def _compiled(pattern: str) -> re.Pattern[str]:
+    """Compiled when a text may be like it: most sentences are never told."""
+    return re.compile(pattern, re.DOTALL)

@@ -80,8 +80,9 @@ class MessageArea(QWidget):
         timer.start()
 
     def _pass_away(self, card: MessageCard, timer: QTimer) -> None:
-        if card.underMouse() or card.isAncestorOf(self.focusWidget() or self):
-            timer.start()  # somebody is reading it
+        is_read = card.underMouse() or card.isAncestorOf(self.focusWidget() or self)
+        if is_read or card.isHidden():
+            timer.start()
         else:
             self._remove(card)
 
@@ -100,9 +101,20 @@ class MessageArea(QWidget):
             return
         widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
         width = min(self._host.width(), widest)
+        self._hide_what_has_no_room(width)
         height = self._box.heightForWidth(width) if self._box.hasHeightForWidth() else -1
         height = min(max(height, self._box.sizeHint().height() if height < 0 else height), 10_000)
         left = (self._host.width() - width) // 2
         self.setGeometry(left, 0, width, min(height, self._host.height()))
         self.move(QPoint(left, 0))
         self.raise_()
+
+    def _hide_what_has_no_room(self, width: int) -> None:
+        """Older cards wait until newer ones are closed: squeezed together, none could be read."""
+        margins = self._box.contentsMargins()
+        inside = width - margins.left() - margins.right()
+        left = self._host.height() - margins.top() - margins.bottom()
+        for card in reversed(self.cards):
+            has_room = card is self.cards[-1] or left >= card.heightForWidth(inside)
+            card.setHidden(not has_room)
+            left = left - card.heightForWidth(inside) - self._box.spacing() if has_room else 0

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QPlainTextEdit,
     QProgressBar,
     QPushButton,
-    QSizePolicy,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -100,7 +99,6 @@ class MessageCard(QFrame):
         self.message = message
         self.setProperty("kind", message.kind)
         self.setAccessibleName(message.spoken)
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         self.close_button = _cross(theme)
         self.close_button.clicked.connect(self.closed)
         self.buttons = [self._button(answer) for answer in message.answers]

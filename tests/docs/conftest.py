@@ -1,4 +1,4 @@
-"""The site, made once as a person makes it, in English and in German."""
+"""The site, made once as a person makes it, in English and in Japanese."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 from tests.conftest import PROJECT
 from tests.docs.terminals import wait_until
 
-LANGUAGES = ("en", "de")
+LANGUAGES = ("en", "ja")
 
 sys.path.append(str(PROJECT / "docs"))  # where the room "website" is
 

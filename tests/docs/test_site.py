@@ -19,7 +19,7 @@ from nep_studio.help.texts import error_texts
 from nep_studio.studio_language import studio_language
 from nep_studio.ui.help.page_names import error_anchor
 from tests.conftest import PROJECT
-from tests.docs.conftest import MadeSite
+from tests.docs.conftest import LANGUAGES, MadeSite
 
 ADDRESSES = {"a": "href", "link": "href", "img": "src", "script": "src", "source": "srcset"}
 LARGEST_MB = 16.0
@@ -41,7 +41,7 @@ def headings(page: Element) -> list[int]:
 def test_every_page_has_what_readers_of_all_kinds_need(made_site: MadeSite) -> None:
     for name, page in made_site.pages.items():
         tags = Counter(element.tag for element in page.iter())
-        assert page.attrib["lang"] == ("de" if name.startswith("de/") else "en")
+        assert page.attrib["lang"] == ("ja" if name.startswith("ja/") else "en")
         assert (tags["main"], tags["header"], tags["footer"], tags["h1"]) == (1, 1, 1, 1), name
         assert (page.findtext("head/title") or "").strip(), name
         skip = page.find("body/a")
@@ -50,8 +50,28 @@ def test_every_page_has_what_readers_of_all_kinds_need(made_site: MadeSite) -> N
         assert main is not None
         steps = headings(main)
         assert all(b - a <= 1 for a, b in pairwise(steps)), name
+        menu = page.find(".//nav[@class='languages']")
+        assert menu is not None and len(list(menu.iter("a"))) == len(LANGUAGES) - 1, name
         labels = [{"aria-label", "aria-labelledby"} & set(nav.attrib) for nav in page.iter("nav")]
         assert all(labels), name
+
+
+def read_aloud(element: Element) -> Iterator[str]:
+    """The words of a part of a page, without code and drawings."""
+    if element.tag not in ("code", "pre", "svg"):
+        yield element.text or ""
+        for inner in element:
+            yield from read_aloud(inner)
+            yield inner.tail or ""
+
+
+def test_no_page_shows_how_it_is_written(made_site: MadeSite) -> None:
+    for name, page in made_site.pages.items():
+        main = page.find(".//main")
+        assert main is not None
+        words = "\n".join(read_aloud(main))
+        found = re.search(r"`|\*\*|\]\(|\{\{|\{#|&[a-z]+;|</?[a-z]+>", words)
+        assert found is None, (name, words[found.start() - 40 : found.end() + 40])
 
 
 def test_every_picture_has_words_and_no_place_is_there_twice(made_site: MadeSite) -> None:
@@ -82,10 +102,13 @@ def test_every_address_is_a_file_of_the_site_and_a_place_in_it(made_site: MadeSi
     styles = made_site.text("style.css") + made_site.text("colours.css")
     fonts = re.findall(r'url\("([^"]+)"\)', styles)
     assert fonts and all((made_site.folder / font).is_file() for font in fonts)
-    assert not re.search(r"https?:|@import|//[a-z]", styles + made_site.text("search.js"))
+    assert not re.search(
+        r"https?:|@import|//[a-z]",
+        styles + made_site.text("search.js") + made_site.text("frame.js"),
+    )
 
 
-@pytest.mark.parametrize("language", ["", "de/"])
+@pytest.mark.parametrize("language", ["", "ja/"])
 def test_the_reference_has_every_block_node_and_message(made_site: MadeSite, language: str) -> None:
     for definition in studio_language().definitions.values():
         page = f"{language}blocks/{definition.category.id}.html"
@@ -120,12 +143,14 @@ def test_messages_commands_and_guides_are_there(made_site: MadeSite) -> None:
 def test_every_picture_is_made_by_a_script(made_site: MadeSite) -> None:
     scripts = [*DOCS.glob("*.py"), PROJECT / "tests" / "stories" / "test_window_story.py"]
     text = "".join(script.read_text(encoding="utf-8") for script in scripts)
+    made = set(re.findall(r'(?:scene|step)\("([\w-]+)"|"([\w-]+?)(?:-\{\w+\})?(?:\.png)?"', text))
     shown = [path.stem for path in (made_site.folder / "images").glob("*.png")]
 
-    stems = [re.sub(r"^story-\d-|-(light|dark)$", "", name) for name in shown]
+    names = {re.sub(r"^story-\d-", "", name) for name in shown}
+    of_themes = {re.sub(r"-(light|dark)$", "", name) for name in names}
 
-    assert len(stems) > 10
-    assert [stem for stem in stems if f'"{stem}' not in text] == []
+    assert len(names) > 10
+    assert of_themes - {name for pair in made for name in pair} == set()
 
 
 def test_all_of_it_is_small_enough_to_ship(made_site: MadeSite) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QPointF, QRect, QRectF, QSize, QSizeF, Qt
-from PySide6.QtGui import QColor, QIcon, QIconEngine, QPainter, QPixmap
+from PySide6.QtGui import QColor, QIcon, QIconEngine, QPainter, QPixmap, QPixmapCache
 from PySide6.QtSvg import QSvgRenderer
 
 from nep_studio import paths
@@ -90,7 +90,7 @@ def paint_icon(painter: QPainter, rect: QRectF, name: str, colour: QColor) -> No
     square.moveCenter(rect.center())
     opacity = painter.opacity()
     painter.setOpacity(opacity * colour.alphaF())
-    QSvgRenderer(QByteArray(_drawing(name, colour.name()).encode())).render(painter, square)
+    _renderer(name, colour.name()).render(painter, square)
     painter.setOpacity(opacity)
 
 
@@ -116,14 +116,19 @@ def _drawing(name: str, colour: str) -> str:
     return _source(name).replace("currentColor", colour)
 
 
+@lru_cache(maxsize=256)
+def _renderer(name: str, colour: str) -> QSvgRenderer:
+    """What draws an icon: to read it takes longer than to draw it."""
+    return QSvgRenderer(QByteArray(_drawing(name, colour).encode()))
+
+
 class _DrawnIcon(QIconEngine):
-    """Draws an icon anew for each size and screen, in the colour of its state."""
+    """Draws an icon for each size and screen once, in the colour of its state."""
 
     def __init__(self, name: str, colour: QColor, disabled: QColor) -> None:
         super().__init__()
         _source(name)  # a name that does not exist is told where it is written
         self._name, self._colour, self._disabled = name, colour, disabled
-        self._pixmaps: dict[tuple[int, int, float, bool], QPixmap] = {}
 
     def _colour_in(self, mode: QIcon.Mode) -> QColor:
         return self._disabled if mode == QIcon.Mode.Disabled else self._colour
@@ -140,16 +145,18 @@ class _DrawnIcon(QIconEngine):
         pixels = size * scale
         if pixels.isEmpty():  # of a widget that has no room just now
             return QPixmap()
-        key = (pixels.width(), pixels.height(), scale, mode == QIcon.Mode.Disabled)
-        if key not in self._pixmaps:
+        colour = self._colour_in(mode).name(QColor.NameFormat.HexArgb)
+        key = f"{self._name} {colour} {pixels.width()} x {pixels.height()} at {scale}"
+        pixmap = QPixmap()
+        if not QPixmapCache.find(key, pixmap):  # many widgets show the same icon
             pixmap = QPixmap(pixels)
             pixmap.fill(Qt.GlobalColor.transparent)
             painter = QPainter(pixmap)
             self.paint(painter, pixmap.rect(), mode, state)
             painter.end()
             pixmap.setDevicePixelRatio(scale)
-            self._pixmaps[key] = pixmap
-        return self._pixmaps[key]
+            QPixmapCache.insert(key, pixmap)
+        return pixmap
 
     def clone(self) -> QIconEngine:
         return _DrawnIcon(self._name, self._colour, self._disabled)

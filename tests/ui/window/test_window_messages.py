@@ -72,6 +72,22 @@ def test_details_are_shown_and_copied_when_asked_for(karate: MainWindow, qtbot: 
     assert QGuiApplication.clipboard().text() == "line 7"
 
 
+def test_an_older_message_waits_where_there_is_no_room_for_both(
+    karate: MainWindow, qtbot: QtBot
+) -> None:
+    sentence = "It is far away. " * 80
+    for title in ("NAO does not answer", "Pepper does not answer"):
+        karate.messages.tell(Message("error", title, sentence))
+    shown = [card.isVisible() for card in cards(karate)]
+
+    qtbot.mouseClick(cards(karate)[1].close_button, LEFT)
+
+    assert shown == [False, True]
+    [older] = cards(karate)
+    assert older.isVisible()
+    qtbot.waitUntil(lambda: older.height() >= older.heightForWidth(older.width()))
+
+
 def test_a_message_takes_no_room_from_the_canvas(karate: MainWindow, qtbot: QtBot) -> None:
     before = karate.workbench.canvas.geometry()
 
