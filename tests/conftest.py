@@ -12,6 +12,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # threads cost each process 20 ms to start
 os.environ.setdefault("NEP_ORIGINAL", "0")  # masters of tests that run at once would want one port
 
 import psutil

@@ -6,7 +6,7 @@ import json
 
 import pytest
 from block_building import changed_karate, karate
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.errors import ProjectFileError
@@ -29,7 +29,6 @@ def test_a_file_cut_off_anywhere_is_refused(language):
         assert "karate.nep" in refusal(data[:length], language)
 
 
-@settings(max_examples=200, deadline=None)
 @given(st.data())
 def test_a_file_with_damaged_bytes_is_refused_or_is_a_program(language, data):
     content = bytearray(to_bytes(karate(language).project))

@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from block_building import B, build, karate
 from generated import assert_mapped, assert_tame, has_written_code, parse
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from random_programs import Dice
 
@@ -31,7 +31,6 @@ from nep_studio.blocks.text import sentence
 from nep_studio.blocks.writing import to_bytes
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.data())
 def test_random_edits_undone_and_redone_give_identical_bytes(language, data):
     editor = Editor(karate(language).project, language)
@@ -59,7 +58,6 @@ def test_random_edits_undone_and_redone_give_identical_bytes(language, data):
     assert not editor.history.redo()
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.data())
 def test_random_programs_load_as_they_were_saved_and_their_code_compiles(language, data):
     editor = Editor(karate(language).project, language)

@@ -86,8 +86,8 @@ def registration(node: str, instance: str = "", **more: object) -> says.Registra
     return says.Registration(node=node, instance=instance or f"instance of {node}", **told)
 
 
-def nodes_of(endpoint: str) -> set[str]:
-    listing = ask_master(endpoint, timeout_s=0.5)
+def nodes_of(endpoint: str, timeout_s: float = 0.5) -> set[str]:
+    listing = ask_master(endpoint, timeout_s=timeout_s)
     return {told.node for told in listing.registrations} if listing else set()
 
 

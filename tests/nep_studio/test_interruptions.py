@@ -19,6 +19,7 @@ from nep_studio import paths
 from tests.stories.playing import node_is, playing
 
 KARATE = paths.examples() / "karate_greeting.nep"
+DANCE = paths.examples() / "dance.nep"
 NOWHERE = Path("/dev/full")
 WRITING = [
     ("check", KARATE),
@@ -118,7 +119,7 @@ def test_three_runs_at_once_have_three_masters(
     monkeypatch.setenv(MASTER_VARIABLE, f"tcp://127.0.0.1:{free_port}")
 
     with ExitStack() as stack:
-        plays = [stack.enter_context(playing(KARATE)) for _ in range(3)]
+        plays = [stack.enter_context(playing(DANCE)) for _ in range(3)]
         for play in plays:
             play.wait_for(node_is("program", "ready"))
         masters = {word for play in plays for word in endpoints(play.process.pid)}

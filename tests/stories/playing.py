@@ -43,9 +43,8 @@ class Play:
                 return event
         raise AssertionError("\n".join([*map(str, self.events), self.errors()]))
 
-    def wait_for_result(self, request: Event, state: str) -> Event:
-        """The result of a request, which may have been heard before it: they come apart."""
-        is_it = result_of(request, state)
+    def find(self, is_it: Callable[[Event], bool]) -> Event:
+        """The first event of this kind, heard already or to come: some come apart."""
         heard = next((event for event in self.events if is_it(event)), None)
         return heard or self.wait_for(is_it)
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from nep_core.messages import RobotState, Thing
+from nep_core.words import plain
 from tests.stories.robot_theatre import B
 
 SOUND_S = 5
@@ -66,6 +67,11 @@ class Look:
     things: tuple[Thing, ...] = ()
     """What stands around, where it is before the robot."""
 
+    @property
+    def in_sight(self) -> frozenset[str]:
+        """What the robot says that it sees then."""
+        return frozenset(name for one in self.senses for name in _in_sight(one))
+
 
 def joint(name: str, degrees: float) -> Callable[[Seen], bool]:
     return lambda seen: abs(seen.after.joints[name] - math.radians(degrees)) < NEAR_RAD
@@ -113,6 +119,12 @@ def sound_file() -> str:
         sound.setframerate(8000)
         sound.writeframes(bytes(SOUND_S * 16000))
     return str(path)
+
+
+def _in_sight(one: Sense) -> list[str]:
+    kind, _, more = one
+    named = [f"{kind}_{plain(more['name'])}"] if "name" in more else []
+    return [kind, *named] if kind in ("face", "mark") else []
 
 
 def sense(what: str, value: float = 1.0, **more: Any) -> Sense:

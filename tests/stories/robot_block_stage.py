@@ -7,13 +7,17 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from typing import Any
 
 import pytest
 
 from nep_core import tasks
+from nep_core.default_network import set_default_network
+from nep_core.endpoints import MASTER_VARIABLE
 from nep_core.errors import NepError
 from nep_core.human import human_listener
+from nep_core.master import Master
 from nep_core.messages import (
     HUMAN_BEHAVIOR,
     ROBOT_STATE,
@@ -59,6 +63,8 @@ NOTHING: tuple[Sense, ...] = (
     ("head_middle", 0.0, {}),
     ("sonar_left", 2.5, {}),
 )
+NUDGE: Sense = ("sonar_right", 2.5, {})
+"""Changes nothing, but a robot that feels something tells at once how it is."""
 LANGUAGE = studio_language()
 
 
@@ -75,7 +81,7 @@ class BlockStage(NodeRunner):
     """A robot called NAO: on the screen, or behind NAOqi and driven by our driver."""
 
     def __init__(
-        self, network: PeerNetwork, outside: PeerNetwork, driver: str, free_port: int
+        self, network: PeerNetwork, outside: PeerNetwork, driver: str, naoqi_port: int
     ) -> None:
         super().__init__(network)
         tasks.PROGRAM.cancelled.clear()
@@ -92,10 +98,10 @@ class BlockStage(NodeRunner):
         if driver == "virtual":
             self.start_node("action/nao", "NAO", robot="NAO", speed=SPEED)
         else:
-            served = {"robot": "Served", "speed": SPEED, "naoqi_port": free_port}
+            served = {"robot": "Served", "speed": SPEED, "naoqi_port": naoqi_port}
             self.start_node("action/nao", "Served", **served)
             self.state("ready", node="Served")
-            address = f"127.0.0.1:{free_port}"
+            address = f"127.0.0.1:{naoqi_port}"
             self.start_node("action/nao", "NAO", robot="NAO", driver="naoqi", address=address)
         self.state("ready", node="NAO")
         assert self._senses.wait_for_subscribers(1 if driver == "virtual" else 2, 10)
@@ -104,17 +110,19 @@ class BlockStage(NodeRunner):
     def look(self, block: str) -> Seen:
         """Run a block and return what was seen; its look says whether that is right."""
         look, definition = LOOKS[block], LANGUAGE.definitions[block]
-        self._calm_down()
+        self._calm_down(look, is_hat=definition.shape == "hat")
         for one in look.senses if definition.shape != "hat" else ():
             self._sense(one)
         self._put(look.things)
         self._settle()
+        if definition.shape != "hat":
+            self._wait(lambda: look.in_sight <= self._sees())
         seen = Seen(self.states_of[self.body][-1], self.states_of[self.body])
         self._is_answering = block in ANSWERED
         if definition.shape == "hat":
             self._run_rule(B(block, look.fields), look, seen)
         elif definition.is_value:
-            self._run([STARTED, *look.first, self._keeping(block, look)], seen)
+            self._ask([STARTED, *look.first, self._keeping(block, look)], look, seen)
         else:
             self._run([STARTED, *look.first, B(block, look.fields), *look.then], seen)
         self._is_answering = False
@@ -131,6 +139,13 @@ class BlockStage(NodeRunner):
             seen.value = self._play([stack]).get("x")
         except NepError as problem:
             seen.refused = problem.sentence
+
+    def _ask(self, stack: list[B], look: Look, seen: Seen) -> None:
+        """Ask until the answer is right: some things a robot is asked for once a second only."""
+        end_s = time.monotonic() + PATIENCE_S
+        self._run(stack, seen)
+        while not look.holds(seen) and time.monotonic() < end_s:
+            self._run(stack, seen)
 
     def _run_rule(self, hat: B, look: Look, seen: Seen) -> None:
         """Run a rule beside this, let happen what it waits for until it has run."""
@@ -159,19 +174,25 @@ class BlockStage(NodeRunner):
         exec(compile(code, "program.py", "exec"), names)
         return names
 
-    def _calm_down(self) -> None:
+    def _calm_down(self, look: Look, *, is_hat: bool) -> None:
+        """Take away what was sensed; what a rule waits to see must be out of sight before."""
         for one in NOTHING:
             self._sense(one)
         self._play([[STARTED, *CALM]])
-        self._wait(lambda: not self.states_of["NAO"][-1].sees)
+        sees = self._sees
+        if look.in_sight:
+            self._wait(lambda: not sees() & look.in_sight if is_hat else sees() <= look.in_sight)
 
     def _settle(self) -> None:
         """Begin with states that were told from now on."""
-        for states in self.states_of.values():
-            states[:] = states[-1:]
-        body, robot = self.states_of[self.body], self.states_of["NAO"]
-        self._wait(lambda: len(body) > 1 and len(robot) > 1)
+        body = self.states_of[self.body]
         body[:] = body[-1:]
+        self._sense(NUDGE)
+        self._wait(lambda: len(body) > 1)
+        body[:] = body[-1:]
+
+    def _sees(self) -> frozenset[str]:
+        return frozenset(self.states_of["NAO"][-1].sees)
 
     def _sense(self, one: Sense) -> None:
         what, value, more = one
@@ -196,14 +217,20 @@ class BlockStage(NodeRunner):
 
 
 @contextlib.contextmanager
-def block_stage(
-    network: PeerNetwork, outside: PeerNetwork, driver: str, free_port: int
-) -> Iterator[BlockStage]:
-    """A stage that is closed at the end."""
-    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+def block_stage(driver: str, naoqi_port: int) -> Iterator[BlockStage]:
+    """A stage with a master and networks of its own, which is closed at the end."""
+    with ExitStack() as ending:
+        folder = ending.enter_context(tempfile.TemporaryDirectory())
+        patch = ending.enter_context(pytest.MonkeyPatch.context())
+        master = Master("tcp://127.0.0.1:*")
+        ending.callback(master.close)
         patch.setenv(ROBOT_FILES_VARIABLE, folder)
-        stage = BlockStage(network, outside, driver, free_port)
-        try:
-            yield stage
-        finally:
-            stage.close()
+        patch.setenv(MASTER_VARIABLE, master.endpoint)  # the nodes find it there
+        networks = [PeerNetwork(name, master=master.endpoint) for name in ("program", "outside")]
+        for network in networks:
+            ending.callback(network.close)
+        set_default_network(networks[0])
+        ending.callback(set_default_network, None)
+        stage = BlockStage(*networks, driver, naoqi_port)
+        ending.callback(stage.close)
+        yield stage

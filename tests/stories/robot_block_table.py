@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
-from nep_core.default_network import set_default_network
-from nep_core.endpoints import MASTER_VARIABLE
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
 from nep_studio.blocks.definitions import Definition
 from tests.stories.robot_block_looks import LOOKS
 from tests.stories.robot_block_stage import DRIVERS, block_stage, robot_blocks
@@ -44,20 +38,10 @@ def table(results: dict[str, dict[str, bool]]) -> str:
 
 def run_all(driver: str, free_port: int) -> dict[str, bool]:
     """Run every block on one robot; whether the robot then was as it should be."""
-    master = Master("tcp://127.0.0.1:*")
-    os.environ[MASTER_VARIABLE] = master.endpoint  # the nodes find it there
-    networks = [PeerNetwork(name, master=master.endpoint) for name in ("program", "outside")]
-    set_default_network(networks[0])
     results = {}
-    try:
-        with block_stage(*networks, driver, free_port) as stage:
-            for definition in robot_blocks():
-                seen = stage.look(definition.id)
-                results[definition.id] = bool(LOOKS[definition.id].holds(seen))
-                print(driver, definition.id, YES if results[definition.id] else seen, flush=True)
-    finally:
-        set_default_network(None)
-        for network in networks:
-            network.close()
-        master.close()
+    with block_stage(driver, free_port) as stage:
+        for definition in robot_blocks():
+            seen = stage.look(definition.id)
+            results[definition.id] = bool(LOOKS[definition.id].holds(seen))
+            print(driver, definition.id, YES if results[definition.id] else seen, flush=True)
     return results

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from nep_studio import paths
-from tests.stories.playing import SPEED, playing, says
+from tests.stories.playing import SPEED, playing, result_of, says
 
 REACTIONS = {
     "karate": "Impressive!",
@@ -22,7 +22,7 @@ REACTIONS = {
 def test_each_of_five_gestures_has_its_own_reaction() -> None:
     with playing(paths.examples() / "five_gestures.nep", "--speed", SPEED) as play:
         last = play.wait_for(says(REACTIONS["batting"]), 120)
-        play.wait_for_result(last, "done")
+        play.find(result_of(last, "done"))
         play.interrupt()
         assert play.finish() == 0, play.errors()
 

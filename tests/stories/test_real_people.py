@@ -34,6 +34,8 @@ GESTURES = [
     "shake_lr",
     "shake_ud",
 ]
+REPETITIONS = 7 if os.environ.get("CI") else 10
+"""So many of each gesture are used: five to learn from, and those that are played."""
 SPEED = 6.0
 EVERYDAY_SPEED = 25.0
 """Faster, for it is only counted what fires, and not when."""
@@ -86,15 +88,16 @@ def joined(parts: list[Recording]) -> Recording:
 
 
 def split(source: Path, person: str, folder: Path) -> list[Made]:
-    """Five repetitions as ``train/*.csv``, the others as ``rest.csv``; what is to come."""
+    """Five repetitions as ``train/*.csv``, later ones as ``rest.csv``; what is to come."""
     (folder / "train").mkdir()
     rest = []
     for gesture in GESTURES:
         recording = read_recording(source / f"{person}_{gesture}.csv")
         made = runs(recording)
         middle = (made[4][1] + made[5][0]) // 2
+        end = made[REPETITIONS][0] if len(made) > REPETITIONS else len(recording.t)
         write_recording(folder / "train" / f"{person}_{gesture}.csv", part(recording, 0, middle))
-        rest.append(part(recording, middle, len(recording.t)))
+        rest.append(part(recording, middle, end))
     session = joined(rest)
     write_recording(folder / "rest.csv", session)
     labels = session.labels or []

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+import socket
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 import dev
-from nep_core.p2p import PeerNetwork
 from tests.stories.robot_block_looks import LOOKS
-from tests.stories.robot_block_stage import DRIVERS, block_stage, robot_blocks
+from tests.stories.robot_block_stage import DRIVERS, BlockStage, block_stage, robot_blocks
 from tests.stories.robot_block_table import table
 
 TRIED = [one for one in DRIVERS if one != "virtual" or not os.environ.get("CI")]
@@ -29,23 +29,27 @@ def test_the_table_in_the_documentation_has_every_block_and_all_is_well() -> Non
     assert made == table({}), "run docs/make_robot_blocks.py"
 
 
+@pytest.fixture(scope="module", params=TRIED)
+def stage(request: pytest.FixtureRequest) -> Iterator[BlockStage]:
+    """One robot for all blocks: each begins by calming it down."""
+    with socket.socket() as chosen:
+        chosen.bind(("127.0.0.1", 0))
+        port = chosen.getsockname()[1]
+    with block_stage(request.param, port) as made:
+        yield made
+
+
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize("category", CATEGORIES)
-@pytest.mark.parametrize("driver", TRIED)
-def test_every_block_has_done_to_the_robot_what_it_says(
-    network: PeerNetwork,
-    join: Callable[[str], PeerNetwork],
-    free_port: int,
-    driver: str,
-    category: str,
-) -> None:
+def test_every_block_has_done_to_the_robot_what_it_says(stage: BlockStage, category: str) -> None:
     blocks = [one.id for one in robot_blocks() if one.category.id == category]
     wrong = {}
 
-    with block_stage(network, join("outside"), driver, free_port) as stage:
-        for block in blocks:
+    for block in sorted(blocks, key=lambda one: sorted(LOOKS[one].in_sight)):
+        seen = stage.look(block)
+        if seen.refused:  # a robot that was late on a busy computer is met again by now
             seen = stage.look(block)
-            if not LOOKS[block].holds(seen):
-                wrong[block] = (LOOKS[block].what, seen.value, seen.refused, seen.after)
+        if not LOOKS[block].holds(seen):
+            wrong[block] = (LOOKS[block].what, seen.value, seen.refused, seen.after)
 
     assert wrong == {}

@@ -12,7 +12,7 @@ from nodes.action.naobody.keyframes import Handle, Track
 MINIMUM_JERK_PEAK = 1.875
 """Peak speed of a minimum-jerk movement, as a multiple of its mean speed (15/8)."""
 
-BISECTIONS = 40
+BISECTIONS = 32
 SPEED_SAMPLES = 65
 """At so many points of each piece its speed is looked at."""
 LONGEST_HANDLE = 0.5
@@ -121,16 +121,25 @@ def _possible(handles: Angles, steps: Angles, fastest: float) -> Angles:
 
 def _parameter(x: Angles, t: Angles) -> Angles:
     """Return where on each Bezier piece (0 to 1) its time is ``t``, by bisection."""
-    low, high = np.zeros_like(t), np.ones_like(t)
+    powers = _powers(x)
+    u, step = np.full_like(t, 0.5), 0.25
     for _ in range(BISECTIONS):
-        middle = (low + high) / 2.0
-        early = _bezier(x, middle) < t
-        low, high = np.where(early, middle, low), np.where(early, high, middle)
-    return (low + high) / 2.0
+        u += np.where(_polynomial(powers, u) < t, step, -step)
+        step /= 2.0
+    return u
 
 
 def _bezier(points: Angles, u: Angles) -> Angles:
+    return _polynomial(_powers(points), u)
+
+
+def _powers(points: Angles) -> Angles:
+    """Return the factors of 1, u, u² and u³ in Bezier curves; (4, ...) as their points."""
     a, b, c, d = points
-    v = 1.0 - u
-    curve: Angles = v**3 * a + 3.0 * v**2 * u * b + 3.0 * v * u**2 * c + u**3 * d
+    return np.array([a, 3.0 * (b - a), 3.0 * (a - 2.0 * b + c), d - a + 3.0 * (b - c)])
+
+
+def _polynomial(powers: Angles, u: Angles) -> Angles:
+    a, b, c, d = powers
+    curve: Angles = ((d * u + c) * u + b) * u + a
     return curve

@@ -34,9 +34,9 @@ class Skeleton:
         self.index = {link: i for i, link in enumerate(self.links)}
         self._columns = np.array([i for i, _ in turning], dtype=int)
         self._place = np.array([_at_rest(joint) for _, joint in turning]).reshape(-1, 4, 4)
-        crosses = [_cross(joint.axis) for _, joint in turning]
-        self._cross = np.array(crosses).reshape(-1, 4, 4)
-        self._square = np.array([cross @ cross for cross in crosses]).reshape(-1, 4, 4)
+        cross = np.array([_cross(joint.axis) for _, joint in turning]).reshape(-1, 4, 4)
+        self._cross = self._place @ cross
+        self._square = self._cross @ cross
         self._levels = _levels([self.index[joint.parent] for _, joint in turning])
         self._load_shape()
 
@@ -48,7 +48,7 @@ class Skeleton:
         self._mass_part = masses / self.mass_kg if self.mass_kg else masses
         self._centres = np.array([[*link.centre_m, 1.0] for link in links])
         points = [point for link in links for point in _outline(link)]
-        self._points = np.array(points).reshape(-1, 3)
+        self._points = np.array([[*point, 1.0] for point in points]).reshape(-1, 4)
         self.point_links = np.array(
             [i for i, link in enumerate(links) for _ in _outline(link)], dtype=int
         )
@@ -62,9 +62,7 @@ class Skeleton:
         """Return the frame of every link in the torso's: (..., links, 4, 4)."""
         turn = np.asarray(angles, dtype=np.float64)[..., self._columns, None, None]
         # Rodrigues' formula, for all joints at once
-        local = self._place @ (
-            np.eye(4) + np.sin(turn) * self._cross + (1.0 - np.cos(turn)) * self._square
-        )
+        local = self._place + np.sin(turn) * self._cross + (1.0 - np.cos(turn)) * self._square
         frames = np.empty((*local.shape[:-3], len(self.links), 4, 4))
         frames[..., 0, :, :] = np.eye(4)
         for children, parents in self._levels:
@@ -95,9 +93,8 @@ class Skeleton:
 
     def outline(self, frames: Frames) -> Points:
         """Return the body's outermost points in the torso's frame: (..., points, 3)."""
-        parts = frames[..., self.point_links, :3, :]
-        turned = (parts[..., :3] @ self._points[:, :, None])[..., 0]
-        outline: Points = turned + parts[..., 3]
+        parts = frames.take(self.point_links, axis=-3)[..., :3, :]
+        outline: Points = np.einsum("...nij,nj->...ni", parts, self._points)
         return outline
 
     def sole(self, frames: Frames, link: str) -> Points:

@@ -247,7 +247,9 @@ def between(before: Points, after: Points, part: float) -> Points:
 
 
 def _angle(before: Points, after: Points) -> float:
-    return math.atan2(float(np.linalg.norm(np.cross(before, after))), float(before @ after))
+    (a, b, c), (x, y, z) = before.tolist(), after.tolist()
+    across = math.hypot(b * z - c * y, c * x - a * z, a * y - b * x)  # as numpy, but at each tick
+    return math.atan2(across, a * x + b * y + c * z)
 
 
 def _turn_between(new: Points, old: Points) -> float:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from nodes.perceptual.recognition.examples import Examples
@@ -34,7 +35,7 @@ _SHRINK = 0.3
 _FLOOR = 0.05
 _MOST_CURVES = 40  # to make an expected curve from
 _SLACK = 5  # points that a movement may be ahead of its curve, or behind
-_BATCH = 512  # windows at once: what is worked on stays small
+_BATCH = 64  # windows at once: what is worked on stays small
 _WORTH_A_LOOK = 0.3  # how likely any gesture must be for the curves to be asked
 _SHARPNESS = 4.0  # shared by the signals: these, and neighbouring points, tell nearly the same
 _TREES_SHARE = 0.3  # of the score of both together
@@ -110,26 +111,34 @@ class Curves:
         return np.concatenate(parts) if parts else np.empty((0, len(self.mean)))
 
     def _aligned(self, signals: Singles) -> Floats:
-        points = np.pad((signals / self.scale).astype(np.float32), _AT_BOTH_ENDS, mode="edge")
-        whiten = self.whiten.astype(np.float32)
-        middle = np.einsum("ctij,ctj->cti", whiten, self.mean).astype(np.float32)
-        flat = (len(signals) * _BAND, signals.shape[2])
-        way = np.empty(0, np.float32)
-        for at in range(POINTS):
-            near = points[:, at : at + _BAND].reshape(flat)
-            away = near @ whiten[:, at].transpose(0, 2, 1) - middle[:, at, None]
-            cost = np.einsum("cns,cns->cn", away, away).reshape(len(whiten), -1, _BAND)
-            if at == 0:
-                way = np.where(np.abs(_OFFSETS) <= 1, cost, _NO_WAY)
-            else:
-                before = np.pad(way, _AT_LAST, constant_values=_NO_WAY)
-                steps = [before[..., step : step + _BAND] for step in range(3)]
-                way = cost + np.minimum(np.minimum(steps[0], steps[1]), steps[2])
-            inside = (at + _OFFSETS >= 0) & (at + _OFFSETS < POINTS)
-            way[..., ~inside] = _NO_WAY
-        ends = np.abs(_OFFSETS) <= 1
-        squares: Floats = way[..., ends].min(axis=2).T / POINTS
+        costs = self._costs(signals)
+        way = np.full((_BAND + 2, *costs.shape[2:]), _NO_WAY)
+        now = way[1:-1]
+        now[_AT_AN_END] = costs[0, _AT_AN_END]
+        for cost in costs[1:]:
+            before = np.minimum(way[:-2], now)
+            np.minimum(before, way[2:], out=before)
+            np.add(cost, before, out=now)
+        squares: Floats = now[_AT_AN_END].min(axis=0) / POINTS
         return squares + self.log_det
+
+    def _costs(self, signals: Singles) -> Singles:
+        """How far each point of each curve is from the window's points around it.
+
+        (32, band, n, curves); where the window has no point, there is no way.
+        """
+        points = np.repeat((signals / self.scale).astype(np.float32), _WITH_ENDS, axis=1)
+        near = sliding_window_view(points, _BAND, axis=1).transpose(1, 3, 0, 2)
+        curves, _, size = self.mean.shape
+        whiten = self.whiten.astype(np.float32)
+        middle = np.einsum("ctij,ctj->tci", whiten, self.mean).astype(np.float32)
+        all_curves = whiten.transpose(1, 3, 0, 2).reshape(POINTS, size, -1)
+        away = near.reshape(POINTS, -1, size) @ all_curves
+        away -= middle.reshape(POINTS, 1, -1)
+        away = away.reshape(POINTS, _BAND, len(signals), curves, size)
+        costs: Singles = np.einsum("tbncs,tbncs->tbnc", away, away)
+        costs[~_INSIDE] = _NO_WAY
+        return costs
 
 
 @dataclass(frozen=True)
@@ -231,5 +240,8 @@ def _shares(logarithms: Floats) -> Floats:
 
 _BAND = 2 * _SLACK + 1
 _OFFSETS = np.arange(-_SLACK, _SLACK + 1)
-_AT_BOTH_ENDS = ((0, 0), (_SLACK, _SLACK), (0, 0))
-_AT_LAST = ((0, 0), (0, 0), (1, 1))
+_AT_AN_END = np.abs(_OFFSETS) <= 1
+_MET = np.arange(POINTS)[:, None] + _OFFSETS
+_INSIDE = (_MET >= 0) & (_MET < POINTS)
+_WITH_ENDS = np.array([_SLACK + 1, *[1] * (POINTS - 2), _SLACK + 1])
+"""How often each point of a window is taken, so that there are points beyond its ends."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from block_building import B
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from sound_programs import sound
 
@@ -187,7 +187,6 @@ def shape(project: Project, language) -> list:
     return [[told(i) for i in stack.body] for stack in project.pages["behaviour"]]
 
 
-@settings(max_examples=120, deadline=None)
 @given(rules=programs())
 def test_blocks_become_code_and_the_same_blocks_again(language, rules):
     project = sound(language, *rules).project
@@ -199,7 +198,6 @@ def test_blocks_become_code_and_the_same_blocks_again(language, rules):
     assert generate_program(read, language).text == text
 
 
-@settings(max_examples=60, deadline=None)
 @given(rules=programs(), others=programs())
 def test_any_program_can_be_edited_into_any_other(language, rules, others):
     editor = sound(language, *rules)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from block_building import B, build
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from operating import assert_sound, count_of_steps, say
 
@@ -102,7 +102,6 @@ def operate(draw, editor, language):
     return 0
 
 
-@settings(max_examples=200, deadline=None)
 @given(st.data())
 def test_any_operation_is_undone_to_identical_bytes_and_refused_without_a_trace(language, data):
     editor = program(language)

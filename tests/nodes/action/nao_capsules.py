@@ -65,15 +65,14 @@ def balance_m(angles: Angles) -> float:
     soles = np.concatenate([SKELETON.sole(frames, side) for side in ("L_ankle", "R_ankle")], axis=1)
     soles = _in_frame(foot, soles)
     centre = _in_frame(foot, SKELETON.mass_centre(frames)[:, None])[:, 0]
-    margins = [_inside(sole[:, :2], at[:2]) for sole, at in zip(soles, centre, strict=True)]
-    return float(min(margins))
+    return float(_inside(soles[:, :, :2], centre[:, :2]).min())
 
 
-def _inside(points: Points, place: Points) -> float:
-    """How far a place is inside of the convex outline of points: by all their supporting lines."""
+def _inside(points: Points, places: Points) -> Points:
+    """How far places are inside of the convex outlines of points: by all their supporting lines."""
     ways = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
     normals = np.stack([np.cos(ways), np.sin(ways)])
-    return float(((points @ normals).max(axis=0) - place @ normals).min())
+    return ((points @ normals).max(axis=1) - places @ normals).min(axis=1)
 
 
 def _in_frame(frame: Points, points: Points) -> Points:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import math
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -21,20 +21,32 @@ POINTS = {
 
 
 def frames(angles: Vector) -> dict[str, tuple[Vector, Vector]]:
-    """Rotation and place (m, torso's frame) of every link, for all joint angles in body order."""
-    table = json.loads((NAO / "body.json").read_text())["joints"]
-    angle = {joint["name"]: angles[i] for i, joint in enumerate(table)}
+    """Rotation and place (m, torso's frame) of every link, for all joint angles in body order.
+
+    Of one pose (joints,) or of many (poses, joints).
+    """
     found = {"torso": (np.eye(3), np.zeros(3))}
-    waiting = [joint for joint in table if "parent" in joint]
-    while waiting:
-        joint = waiting.pop(0)
-        if joint["parent"] not in found:
-            waiting.append(joint)
-            continue
-        turn, place = found[joint["parent"]]
-        own = turn @ rotation(joint["axis"], angle[joint["name"]])
-        found[joint["child"]] = (own, place + turn @ np.array(joint["origin_m"]))
+    for parent, child, column, axis, origin_m in joints():
+        turn, place = found[parent]
+        found[child] = (turn @ rotation(axis, angles[..., column]), place + turn @ origin_m)
     return found
+
+
+@cache
+def joints() -> list[tuple[str, str, int, list[float], Vector]]:
+    """Parent, child, place in the body's order, axis and origin; parents come first."""
+    table = json.loads((NAO / "body.json").read_text())["joints"]
+    known, ordered = {"torso"}, []
+    waiting = [(column, joint) for column, joint in enumerate(table) if "parent" in joint]
+    while waiting:
+        column, joint = waiting.pop(0)
+        if joint["parent"] not in known:
+            waiting.append((column, joint))
+            continue
+        known.add(joint["child"])
+        origin_m = np.array(joint["origin_m"])
+        ordered.append((joint["parent"], joint["child"], column, joint["axis"], origin_m))
+    return ordered
 
 
 def point(angles: Vector, name: str) -> Vector:
@@ -44,8 +56,14 @@ def point(angles: Vector, name: str) -> Vector:
     return place + turn @ np.array(offset)
 
 
-def rotation(axis: list[float], angle: float) -> Vector:
+def rotation(axis: list[float], angle: float | Vector) -> Vector:
     """Rodrigues' formula."""
-    x, y, z = axis
+    cross, square = crosses(*axis)
+    angle = np.asarray(angle)[..., None, None]
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * square
+
+
+@cache
+def crosses(x: float, y: float, z: float) -> tuple[Vector, Vector]:
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+    return cross, cross @ cross

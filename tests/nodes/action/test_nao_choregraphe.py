@@ -224,7 +224,6 @@ def test_what_choregraphe_exports_is_read_as_it_was(keyframes: Keyframes) -> Non
     assert read_choregraphe(exported(keyframes)) == keyframes
 
 
-@settings(deadline=None, max_examples=50)
 @given(
     movements,
     st.text(st.characters(codec="utf-8"), max_size=20),

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from nao_skeleton import frames
 from nao_stage import BODY, Stage
@@ -39,7 +39,6 @@ def test_a_joint_moves_to_an_angle_and_by_one() -> None:
     assert angle_deg(stage, "HeadYaw") == pytest.approx(20)
 
 
-@settings(max_examples=40, deadline=None)
 @given(joint=st.sampled_from(BODY.names), degrees=st.floats(-360, 360), relative=st.booleans())
 def test_no_joint_ever_leaves_its_limits_or_its_speed(
     joint: str, degrees: float, relative: bool

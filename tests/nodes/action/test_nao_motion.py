@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from nao_stage import BODY
 
@@ -44,7 +44,6 @@ def assert_possible(start: Angles, motion: Motion) -> None:
 
 
 @given(postures, keyframes)
-@settings(max_examples=100, deadline=None)
 def test_any_keyframes_from_any_posture_stay_within_limits_and_speeds(
     posture: str, wished: Keyframes
 ) -> None:
@@ -56,7 +55,6 @@ def test_any_keyframes_from_any_posture_stay_within_limits_and_speeds(
 
 
 @given(postures, postures, st.floats(0.05, 1.0))
-@settings(max_examples=60, deadline=None)
 def test_any_move_between_postures_stays_within_limits_and_speeds(
     start: str, goal: str, speed: float
 ) -> None:
@@ -67,7 +65,6 @@ def test_any_move_between_postures_stays_within_limits_and_speeds(
 
 
 @given(postures, st.lists(st.floats(-1, 1), min_size=26, max_size=26))
-@settings(max_examples=40, deadline=None)
 def test_braking_stays_within_limits_and_speeds_and_ends_at_rest(
     posture: str, speeds: list[float]
 ) -> None:
@@ -159,7 +156,6 @@ def test_mirrored_moves_the_other_side_the_other_way() -> None:
 
 
 @given(keyframes)
-@settings(deadline=None, max_examples=50)
 def test_twice_mirrored_and_twice_reversed_is_the_same_movement(wished: Keyframes) -> None:
     assert wished.mirrored().mirrored() == wished
     for name, track in wished.reversed().reversed().delayed(wished.first_key_s).tracks.items():

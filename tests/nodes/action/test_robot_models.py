@@ -33,15 +33,15 @@ ROBOTS = resource_folder() / "robots"
 PEPPER = ROBOTS / "pepper"
 BODY = load_body(PEPPER)
 ANIMATIONS = load_animations(PEPPER / "animations", BODY)
-TICK_S = 0.01
+LOOK_S = 0.04
 
 
 class PepperOnStage:
     """One virtual Pepper on a fake clock."""
 
     def __init__(self, body: Body = BODY, folder: Path = PEPPER) -> None:
-        animations = load_animations(folder / "animations", body)
-        self.robot = VirtualRobot("Pepper", body, animations)
+        shipped = ANIMATIONS if folder == PEPPER else load_animations(folder / "animations", body)
+        self.robot = VirtualRobot("Pepper", body, shipped)
         self.driver = VirtualDriver(self.robot)
         self.actor = Actor("Pepper", self.driver)
         self.now_s = 0.0
@@ -51,7 +51,7 @@ class PepperOnStage:
         asked = ActionRequest(id=f"{self.now_s}", robots=["Pepper"], action=action, args=args)
         results = list(self.actor.request(asked))
         while not any(result.state in FINAL for result in results):
-            self.now_s += TICK_S
+            self.now_s += LOOK_S
             results += self.actor.step(self.now_s)
             self.least_margin_m = min(self.least_margin_m, self.robot.stance.margin_m)
             assert self.now_s < 120.0, "it never ends"

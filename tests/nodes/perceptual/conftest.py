@@ -28,3 +28,9 @@ def model(sessions: list[Recording]) -> Model:
 def stranger() -> Recording:
     """Another simulated person, making the two gestures three times."""
     return simulate_session(150, GESTURES, 3)
+
+
+@pytest.fixture(scope="session")
+def brief() -> Recording:
+    """The same person, making them once."""
+    return simulate_session(150, GESTURES, 1)

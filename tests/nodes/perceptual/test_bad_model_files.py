@@ -13,10 +13,18 @@ from tests.nodes.perceptual.changed_models import rewritten
 SENSOR = {"device": "watch", "rate_hz": 50.0, "gravity": True, "gyroscope": True}
 
 
-@pytest.fixture
-def file(tmp_path, model):
-    path = tmp_path / "mine.gestures"
+@pytest.fixture(scope="module")
+def good(tmp_path_factory, model):
+    """The bytes of a file that is right."""
+    path = tmp_path_factory.mktemp("model") / "mine.gestures"
     write_model(path, model)
+    return path.read_bytes()
+
+
+@pytest.fixture
+def file(tmp_path, good):
+    path = tmp_path / "mine.gestures"
+    path.write_bytes(good)
     return path
 
 

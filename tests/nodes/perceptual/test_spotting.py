@@ -19,6 +19,12 @@ def spotted(model, recording, *, gyroscope=True, **wishes):
     return spotter.push(recording.t, recording.acc, gyr) + spotter.flush()
 
 
+@pytest.fixture(scope="module")
+def usual(model, stranger):
+    """What is spotted when nothing is unusual."""
+    return spotted(model, stranger)
+
+
 @pytest.mark.parametrize("method", ["trees", "gmr"])
 @pytest.mark.parametrize("gyroscope", [True, False], ids=["with gyroscope", "without"])
 def test_each_gesture_of_a_stranger_fires_once(model, stranger, method, gyroscope):
@@ -33,25 +39,18 @@ def test_everyday_movement_fires_nothing(model):
     assert spotted(model, simulate_everyday(151, 60.0)) == []
 
 
-def test_one_sample_at_a_time_gives_the_same_as_all_at_once(model, stranger):
-    spotter, found = Spotter(model), []
+def test_one_sample_at_a_time_gives_the_same_as_all_at_once_and_soon(model, stranger, usual):
+    spotter, found, delays_s = Spotter(model), [], []
 
     for t, acc, gyr in zip(stranger.t, stranger.acc, stranger.gyr, strict=True):
-        found += spotter.push(t, acc, gyr)
-
-    assert found + spotter.flush() == spotted(model, stranger)
-
-
-def test_a_trigger_comes_soon_after_the_gesture_and_tells_when_it_was(model, stranger):
-    spotter = Spotter(model)
-    delays_s = []
-    for t, acc, gyr in zip(stranger.t, stranger.acc, stranger.gyr, strict=True):
-        for found in spotter.push(t, acc, gyr):
-            take = min(takes_of(stranger), key=lambda take: abs(take.end_s - found.t_end))
-            assert found.t_start < take.end_s
-            assert found.t_end > take.start_s
+        for one in spotter.push(t, acc, gyr):
+            take = min(takes_of(stranger), key=lambda take: abs(take.end_s - one.t_end))
+            assert one.t_start < take.end_s
+            assert one.t_end > take.start_s
             delays_s.append(t - take.end_s)
+            found.append(one)
 
+    assert found + spotter.flush() == usual
     assert np.median(delays_s) < 0.4
 
 
@@ -64,8 +63,8 @@ def test_the_rate_of_the_sensor_does_not_matter(model, rate_hz):
     assert (tally.right, tally.made) == (4, 4)
 
 
-def test_a_spotter_of_one_gesture_tells_that_one_only(model, stranger):
-    every = Counter(one.gesture for one in spotted(model, stranger))
+def test_a_spotter_of_one_gesture_tells_that_one_only(model, stranger, usual):
+    every = Counter(one.gesture for one in usual)
 
     for name in model.names:
         own = Counter(one.gesture for one in spotted(model, stranger, gestures=[name]))

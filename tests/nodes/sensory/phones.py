@@ -65,8 +65,9 @@ class PhyphoxPhone:
         if path == "/control":
             self._began_s = time.monotonic() if query == [("cmd", "start")] else None
             return {"result": True}
+        passed_s = -1.0 if self._began_s is None else time.monotonic() - self._began_s
         buffers = {
-            name: {"size": 0, **self._buffer(name, wanted)}
+            name: {"size": 0, **self._buffer(name, wanted, passed_s)}
             for name, wanted in query
             if name in {one for names in self.names.values() for one in names}
         }
@@ -93,9 +94,9 @@ class PhyphoxPhone:
             ],
         }
 
-    def _buffer(self, name: str, wanted: str) -> dict[str, object]:
+    def _buffer(self, name: str, wanted: str, passed_s: float) -> dict[str, object]:
+        """What a buffer holds at a moment, which is the same for all buffers of one answer."""
         source = next(one for one, names in self.names.items() if name in names)
-        passed_s = -1.0 if self._began_s is None else time.monotonic() - self._began_s
         table = [
             (t, *(acc if source == "accelerometer" else gyr or (0.0, 0.0, 0.0)))
             for t, acc, gyr in self._rows

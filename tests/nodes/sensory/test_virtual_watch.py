@@ -55,7 +55,7 @@ def test_a_gesture_is_made_on_request_and_announced(listener):
 
 
 def test_another_person_may_be_asked_for(listener):
-    listener.start("virtual_watch", person=103)
+    listener.start("virtual_watch", person=103, speed=4)
     listener.state("ready")
 
     listener.publisher(GESTURE_REQUEST).send(GestureRequest(gesture="hand_up", person=105))
@@ -95,7 +95,7 @@ def test_recorded_gestures_are_made_too_and_are_still_called_simulated(listener,
     session = simulate_session(7, ("karate",), 2)
     labels = ["wave" if label else "" for label in session.labels]
     write_recording(tmp_path / "ann.csv", replace(session, labels=labels))
-    listener.start("virtual_watch", gestures="0 wave", takes=str(tmp_path), person=103)
+    listener.start("virtual_watch", gestures="0 wave", takes=str(tmp_path), person=103, speed=4)
 
     listener.state("running", "makes the gesture wave (simulated person 103)")
     listener.publisher(GESTURE_REQUEST).send(GestureRequest(gesture="wave"))

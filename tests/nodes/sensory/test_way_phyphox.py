@@ -6,7 +6,7 @@ import threading
 from contextlib import contextmanager
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_core.errors import ParameterError
@@ -163,7 +163,6 @@ values = st.recursive(
 )
 
 
-@settings(max_examples=60)
 @given(values, values)
 def test_no_answer_crashes_the_reader(config, answer):
     usual = {"buffers": [{"name": name} for names in NAMES.values() for name in names]}

@@ -7,7 +7,7 @@ import socket
 import time
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from nodes.sensory.ways.sensor_logger_format import read_message, readings_of
@@ -240,7 +240,6 @@ parts = st.dictionaries(
 )
 
 
-@settings(max_examples=60)
 @given(st.lists(parts, max_size=5), st.sampled_from(["guess", "apple", "standard"]))
 def test_no_payload_crashes_the_reader(payload, units):
     message = read_message(json.dumps({"payload": payload}).encode())

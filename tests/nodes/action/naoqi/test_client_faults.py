@@ -101,8 +101,9 @@ def freeze(pid: int) -> None:
     ids=["HTTP", "SSH", "zeros", "a gigabyte", "half a frame", "silence"],
 )
 def test_what_does_not_answer_as_a_robot_is_named(data: bytes, expected: type) -> None:
+    patience = {"timeout_s": 0.5} if expected is NoAnswer else {}
     with answering(lambda connected: connected.sendall(data)) as port:
-        assert type(failure(port)) is expected
+        assert type(failure(port, **patience)) is expected
 
 
 def test_what_hangs_up_is_not_a_robot() -> None:
@@ -178,10 +179,10 @@ def test_a_frozen_server_is_told_in_time_and_used_again_when_it_goes_on() -> Non
         session.connect()
         lamp = session.service("Lamp")
 
-        freeze(process.pid)
+        freeze(process.pid)  # the usual patience is waited for once, and again a short one
         with in_time(), pytest.raises(NoAnswer, match="NAO has not answered say"):
             lamp.call("say", "a")
-        assert isinstance(failure(port), NoAnswer)
+        assert isinstance(failure(port, timeout_s=0.5), NoAnswer)
         os.kill(process.pid, signal.SIGCONT)
 
         assert lamp.call("say", "a") == "s a"
