@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from message_sources import ROOT, in_order, template
+from message_sources import ROOT, in_order, last_name, parsed, template
 
 ROOMS = ("nep_core", "nodes", "nep_studio")
 NOT_SHOWN = (
@@ -48,11 +49,14 @@ class Said:
         return f"{self.place}:{self.line} {self.made_by}: {self.words}"
 
 
-@cache
-def trees() -> tuple[tuple[str, ast.Module], ...]:
+CLASS = re.compile(r"^[ \t]*class (\w+)\(([^)]*)\):", re.MULTILINE)
+MADE_BY = ("Message", "Problem", "BlockProblem", "refuse", "confirm", "Told")
+"""What makes messages besides errors."""
+
+
+def _files() -> list[Path]:
     """Every file of the program."""
-    found = [path for room in ROOMS for path in sorted((ROOT / room).rglob("*.py"))]
-    return tuple((_place(path), ast.parse(path.read_text(encoding="utf-8"))) for path in found)
+    return [path for room in ROOMS for path in sorted((ROOT / room).rglob("*.py"))]
 
 
 def _place(path: Path) -> str:
@@ -63,51 +67,48 @@ def _place(path: Path) -> str:
 def errors() -> frozenset[str]:
     """The names of all errors that a person can act on."""
     found = {"NepError", "BlocksError"}
-    classes = [node for _, tree in trees() for node in ast.walk(tree) if _is_class(node)]
-    while new := {one.name for one in classes if found & set(map(_last, one.bases))} - found:
+    told = (found for path in _files() for found in CLASS.findall(path.read_text("utf-8")))
+    classes = [(name, set(re.findall(r"\w+", parents))) for name, parents in told]
+    while new := {name for name, parents in classes if found & parents} - found:
         found |= new
     return frozenset(found)
-
-
-def _is_class(node: ast.AST) -> bool:
-    return isinstance(node, ast.ClassDef)
 
 
 @cache
 def messages() -> tuple[Said, ...]:
     """Every message, in the order of the sources."""
+    makes = re.compile(rf"\b({'|'.join((*MADE_BY, *errors()))})\(")
+    files = [path for path in _files() if makes.search(path.read_text("utf-8"))]
     return tuple(
         said
-        for place, tree in trees()
-        if not place.startswith(NOT_SHOWN)
-        for said in _of_file(place, tree)
+        for path, nodes in parsed(one for one in files if not _place(one).startswith(NOT_SHOWN))
+        for said in _of_file(_place(path), nodes)
     )
 
 
-def _of_file(place: str, tree: ast.Module) -> Iterator[Said]:
-    asked = {id(node.args[0]) for node in ast.walk(tree) if _asks(node)}
-    for node in in_order(tree):
-        if not isinstance(node, ast.Call):
-            continue
-        name = _last(node.func)
-        arguments = _arguments(node, name)
+def _of_file(place: str, nodes: list[ast.AST]) -> Iterator[Said]:
+    calls = [node for node in nodes if isinstance(node, ast.Call)]
+    asked = {id(call.args[0]) for call in calls if _asks(call)}
+    for call in in_order(calls):
+        name = last_name(call.func)
+        arguments = _arguments(call, name)
         if arguments is None:
             continue
         kind, words, checklist = arguments
         yield Said(
             place,
-            node.lineno,
+            call.lineno,
             name,
             " | ".join(filter(None, map(_words, words))),
             tuple(filter(None, map(_text, [*words, *_steps(checklist)]))),
             has_checklist=_is_there(checklist),
-            is_question=id(node) in asked,
+            is_question=id(call) in asked,
             is_calm=kind in CALM,
         )
 
 
-def _asks(node: ast.AST) -> bool:
-    return isinstance(node, ast.Call) and _last(node.func) == "ask" and bool(node.args)
+def _asks(call: ast.Call) -> bool:
+    return last_name(call.func) == "ask" and bool(call.args)
 
 
 def _arguments(
@@ -158,10 +159,6 @@ def _words(node: ast.expr | None) -> str:
 
 def _text(node: ast.expr | None) -> str:
     """A text, or the text of ``tr(...)``; nothing for what is only known when it runs."""
-    if isinstance(node, ast.Call) and _last(node.func) in ("tr", "count_words"):
+    if isinstance(node, ast.Call) and last_name(node.func) in ("tr", "count_words"):
         return _text(node.args[0])
     return "" if node is None else template(node)
-
-
-def _last(node: ast.expr) -> str:
-    return ast.unparse(node).rpartition(".")[2]

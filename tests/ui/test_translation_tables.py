@@ -6,11 +6,12 @@ import ast
 import re
 import tomllib
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
 import pytest
-from message_sources import OF_THE_SYSTEM, PARTS, ROOT, templates
+from message_sources import OF_THE_SYSTEM, PARTS, ROOT, last_name, parsed, templates
 
 from nep_studio import paths
 from nep_studio.blocks.slots import KINDS
@@ -44,20 +45,6 @@ NAMED = {
 """Data whose words are given to tr() one by one."""
 
 
-def trees() -> Iterator[tuple[Path, ast.Module]]:
-    for path in SOURCES:
-        yield path, ast.parse(path.read_text(encoding="utf-8"))
-
-
-def called(node: ast.AST) -> str:
-    if not isinstance(node, ast.Call):
-        return ""
-    function = node.func
-    if isinstance(function, ast.Name):
-        return function.id
-    return function.attr if isinstance(function, ast.Attribute) else ""
-
-
 def literals(node: ast.expr) -> Iterator[str]:
     """The texts that an argument can be: one, or one of two."""
     if isinstance(node, ast.IfExp):
@@ -79,20 +66,43 @@ def words_in(data: object) -> Iterator[str]:
             yield from words_in(value)
 
 
-def words_of_calls() -> Iterator[str]:
-    for _, tree in trees():
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Call) and (which := SHOWN.get(called(node))):
-                for argument in node.args[which]:
-                    yield from literals(argument)
+@dataclass
+class Found:
+    """What the sources of the program give to the functions that show words."""
+
+    shown: set[str] = field(default_factory=set)
+    of_edits: set[str] = field(default_factory=set)
+    of_blocks: set[str] = field(default_factory=set)
+    filled: list[str] = field(default_factory=list)
+    """Where words have their values already when they are to be translated."""
 
 
-def words_of_edits() -> Iterator[str]:
-    for path, tree in trees():
-        for node in ast.walk(tree):
-            is_label = isinstance(node, ast.AnnAssign) and ast.unparse(node.target) == "label"
-            if path.parent.name == "edits" and is_label and node.value is not None:
-                yield from literals(node.value)
+@cache
+def found_in_sources() -> Found:
+    found = Found()
+    for path, nodes in parsed(SOURCES):
+        for node in nodes:
+            if isinstance(node, ast.Call):
+                of_call(found, path, node)
+            elif path.parent.name == "edits" and is_label(node):
+                found.of_edits.update(literals(node.value))
+    return found
+
+
+def is_label(node: ast.AST) -> bool:
+    is_given = isinstance(node, ast.AnnAssign) and node.value is not None
+    return is_given and ast.unparse(node.target) == "label"
+
+
+def of_call(found: Found, path: Path, node: ast.Call) -> None:
+    name = last_name(node.func)
+    for argument in node.args[SHOWN[name]] if name in SHOWN else ():
+        found.shown.update(literals(argument))
+        if name in ("tr", "count_words") and isinstance(argument, ast.JoinedStr):
+            found.filled.append(f"{path.relative_to(STUDIO)}:{node.lineno}")
+    is_asked = name == "word" or (name == "get" and ast.unparse(node.func) == "words.get")
+    if is_asked and node.args and "blocks" in path.relative_to(STUDIO).parts:
+        found.of_blocks.update(literals(node.args[0]))
 
 
 def words_of_data() -> Iterator[str]:
@@ -120,32 +130,29 @@ def words_of_examples() -> Iterator[str]:
 @cache
 def window_words() -> set[str]:
     titles = {load_theme(name).title for name in themes()}
-    found = {*words_of_calls(), *words_of_edits(), *words_of_data(), *words_of_slots(), *titles}
+    sources = found_in_sources()
+    found = {*sources.shown, *sources.of_edits, *words_of_data(), *words_of_slots(), *titles}
     found.update(words_of_examples())
     return {words for words in found if words.strip()}
 
 
 def block_words() -> set[str]:
     """What the sentences of blocks take from ``Language.words``."""
-    found: set[str] = set()
-    for path, tree in trees():
-        if "blocks" in path.relative_to(STUDIO).parts:
-            for node in ast.walk(tree):
-                is_asked = isinstance(node, ast.Call) and (
-                    called(node) == "word" or ast.unparse(node.func) == "words.get"
-                )
-                if is_asked and node.args:
-                    found.update(literals(node.args[0]))
-    return found
+    return found_in_sources().of_blocks
 
 
 def places(words: str) -> list[str]:
     return sorted(re.findall(r"\{[^{}]*\}", words))
 
 
+@cache
+def read_table(path: Path) -> dict:
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
 @pytest.fixture(params=TABLES, ids=lambda path: path.stem)
 def table(request: pytest.FixtureRequest) -> dict:
-    return tomllib.loads(request.param.read_text(encoding="utf-8"))
+    return read_table(request.param)
 
 
 def test_the_words_of_the_window_are_found() -> None:
@@ -158,16 +165,7 @@ def test_the_words_of_the_window_are_found() -> None:
 
 
 def test_no_words_are_filled_in_before_they_are_translated() -> None:
-    filled = [
-        f"{path.relative_to(STUDIO)}:{node.lineno}"
-        for path, tree in trees()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and called(node) in ("tr", "count_words")
-        for argument in node.args[SHOWN[called(node)]]
-        if isinstance(argument, ast.JoinedStr)
-    ]
-
-    assert filled == []
+    assert found_in_sources().filled == []
 
 
 def test_a_table_has_all_words_of_the_window(table) -> None:

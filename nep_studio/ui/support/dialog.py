@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 from nep_core.process import program_command
 from nep_studio.settings import usual_folder
 from nep_studio.support_report import FILE, Report, report_of
+from nep_studio.ui.screens import room_around
 from nep_studio.ui.theme import code_font
 from nep_studio.ui.words import count_words, tr
 
@@ -101,8 +102,9 @@ class SupportDialog(QDialog):
         box.addWidget(self.preview, 1)
         box.addLayout(buttons)
         letter = self.preview.fontMetrics()
-        width = min(letter.averageCharWidth() * COLUMNS, self.screen().availableSize().width())
-        height = min(letter.lineSpacing() * LINES, self.screen().availableSize().height() * 3 // 4)
+        room = room_around(self.parentWidget())
+        width = min(letter.averageCharWidth() * COLUMNS, room.width())
+        height = min(letter.lineSpacing() * LINES, room.height() * 3 // 4)
         self.resize(width + 2 * line, height + 6 * line)
 
     def _begin(self) -> None:

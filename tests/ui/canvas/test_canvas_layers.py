@@ -48,8 +48,11 @@ def painted_anew(view: ScrollingView) -> QImage:
 
 def is_same(one: QImage, other: QImage) -> bool:
     """Whether they differ by no more than how smooth edges are rounded in parts of a picture."""
-    pixels = [np.frombuffer(i.constBits(), np.uint8).astype(int) for i in (one, other)]
-    return one.size() == other.size() and int((np.abs(pixels[0] - pixels[1]) > 64).sum()) < 30
+    if one.size() != other.size():
+        return False
+    first, second = (np.frombuffer(image.constBits(), np.uint8) for image in (one, other))
+    apart = np.maximum(first, second) - np.minimum(first, second)
+    return int(np.count_nonzero(apart > 64)) < 30
 
 
 def random_step(view: ScrollingView, chance: random.Random) -> None:

@@ -15,6 +15,11 @@ from PySide6.QtPrintSupport import QPrinter
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.files import load
+from nep_studio.blocks.program import Project
+from nep_studio.ui.app import Studio
+from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.exporting.actions import add_exporting
 from nep_studio.ui.exporting.cutting import cut
 from nep_studio.ui.exporting.paper import (
@@ -83,13 +88,18 @@ def pages_in(pdf: Path) -> int:
     return len(re.findall(rb"/Type\s*/Page\b(?!s)", pdf.read_bytes()))
 
 
+@pytest.fixture
+def canvas(studio: Studio, qtbot: QtBot) -> Canvas:
+    made = Canvas(Editor(Project(), studio.language), studio.look.theme)
+    qtbot.addWidget(made)
+    return made
+
+
 @pytest.mark.parametrize("path", sorted(paths.examples().glob("*.nep")), ids=lambda p: p.stem)
 def test_every_block_of_an_example_is_on_a_sheet(
-    window: MainWindow, path: Path, qtbot: QtBot
+    studio: Studio, canvas: Canvas, path: Path
 ) -> None:
-    window.files.open_example(path)
-    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
-    canvas = window.workbench.canvas
+    canvas.set_editor(Editor(load(path, studio.language), studio.language))
 
     sheets = [one for one in block_sheets(canvas, "pages", A4) if isinstance(one, BlocksSheet)]
 

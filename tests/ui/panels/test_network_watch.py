@@ -77,17 +77,17 @@ def test_5000_messages_a_second_are_all_counted(
 
     def flood() -> None:
         begin_s = time.monotonic()
-        for number in range(10_000):
+        for number in range(5_000):
             publisher.send({"number": number})
             while number > 5000 * (time.monotonic() - begin_s):
                 time.sleep(0.001)
 
     thread = threading.Thread(target=flood)
     thread.start()
-    seen = wait_for(watch, lambda seen: seen.topics["/fast"].count >= 10_000, qtbot)
+    seen = wait_for(watch, lambda seen: seen.topics["/fast"].count >= 5_000, qtbot)
     thread.join()
 
-    assert seen.topics["/fast"].count + seen.topics["/fast"].lost == 10_000
+    assert seen.topics["/fast"].count + seen.topics["/fast"].lost == 5_000
     assert seen.topics["/fast"].lost == 0
 
 

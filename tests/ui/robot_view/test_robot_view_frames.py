@@ -126,6 +126,7 @@ def test_the_room_can_be_a_page_of_a_pdf(
     view.show_robot("nao", state(saying="Hello"))
     path = tmp_path / "room.pdf"
     page = QPdfWriter(str(path))
+    page.setResolution(150)
     painter = QPainter(page)
 
     view.paint_picture(painter, QSize(page.width(), page.height()))

@@ -15,8 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
 from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.show import performance as performance_module
-from nep_studio.ui.show.leaving import HOLD_MS
+from nep_studio.ui.show import leaving, performance
 from nep_studio.ui.show.window import ShowWindow
 from tests.blocks.block_building import B
 
@@ -30,7 +29,13 @@ FAILS = [B("event.started"), B("code.lines", {"code": "1 / 0"})]
 @pytest.fixture
 def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Seconds of a pause go by quickly."""
-    monkeypatch.setattr(performance_module, "TICK_MS", 20)
+    monkeypatch.setattr(performance, "TICK_MS", 20)
+
+
+@pytest.fixture
+def hold_less_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Six steps of the bar are enough to leave."""
+    monkeypatch.setattr(leaving, "HOLD_MS", 6 * leaving.STEP_MS)
 
 
 def state_is(show: ShowWindow, qtbot: QtBot, state: str) -> None:
@@ -49,11 +54,9 @@ def test_it_covers_the_screen_and_the_window_waits_behind(
 
     shown = show()
 
-    assert shown.isFullScreen()
+    assert shown.isFullScreen() and not window.isVisible()
     assert shown.title.text() == "The play"
-    assert not window.isVisible()
-    assert shown.run_button.isVisible()
-    assert not shown.stop_button.isVisible()
+    assert shown.run_button.isVisible() and not shown.stop_button.isVisible()
 
 
 def test_run_plays_and_tells_in_large_words_what_the_robot_says(
@@ -183,7 +186,7 @@ def test_closing_the_window_by_keys_does_not_end_the_show(open_program, show: Be
 
 
 def test_a_short_esc_does_nothing_and_a_long_one_leaves(
-    window: MainWindow, open_program, show: Begin, qtbot: QtBot
+    hold_less_long: None, window: MainWindow, open_program, show: Begin, qtbot: QtBot
 ) -> None:
     open_program(SAY)
     shown = show()
@@ -192,7 +195,7 @@ def test_a_short_esc_does_nothing_and_a_long_one_leaves(
     was_visible = shown.isVisible()
     qtbot.keyPress(shown.run_button, Qt.Key.Key_Escape)
     qtbot.waitUntil(lambda: shown.hold_bar.isVisible())
-    qtbot.waitUntil(lambda: window.isVisible(), timeout=HOLD_MS + 5000)
+    qtbot.waitUntil(window.isVisible)
 
     assert was_visible
     window.messages.confirm("Back")
@@ -200,14 +203,14 @@ def test_a_short_esc_does_nothing_and_a_long_one_leaves(
 
 
 def test_holding_the_title_leaves_where_there_is_no_keyboard(
-    window: MainWindow, open_program, show: Begin, qtbot: QtBot
+    hold_less_long: None, window: MainWindow, open_program, show: Begin, qtbot: QtBot
 ) -> None:
     open_program(SAY)
     shown = show()
 
     qtbot.mousePress(shown.title, Qt.MouseButton.LeftButton)
 
-    qtbot.waitUntil(lambda: window.isVisible(), timeout=HOLD_MS + 5000)
+    qtbot.waitUntil(window.isVisible)
 
 
 def test_with_a_pin_only_the_pin_leaves(

@@ -35,23 +35,6 @@ def spoken(request: pytest.FixtureRequest, studio: Studio) -> Iterator[str]:
     use_language("en")
 
 
-@pytest.fixture
-def start(spoken: str, window: MainWindow) -> MainWindow:
-    """The window with the start page."""
-    window.resize(*SIZE)
-    return window
-
-
-@pytest.fixture
-def work(spoken: str, karate: MainWindow, qtbot: QtBot) -> MainWindow:
-    """The window with the karate example and all panels."""
-    karate.resize(*SIZE)
-    karate.workbench.panels.restore(karate.fontMetrics().height())
-    karate.show_problems()
-    qtbot.waitUntil(lambda: karate.workbench.problems.isVisible())
-    return karate
-
-
 def shown(window: QWidget, kind: type) -> list:
     return [widget for widget in window.findChildren(kind) if widget.isVisible()]
 
@@ -110,17 +93,31 @@ def hidden_tools(window: MainWindow) -> bool:
     return extension is not None and extension.isVisible()
 
 
-def test_the_start_page_shows_all_its_words(start) -> None:
-    assert cut_buttons(start) == []
-    assert cut_labels(start) == []
-    assert not hidden_tools(start)
+def test_the_start_page_and_the_workbench_show_all_their_words(
+    spoken: str, window: MainWindow, qtbot: QtBot
+) -> None:
+    window.resize(*SIZE)
+
+    assert cut_buttons(window) == []
+    assert cut_labels(window) == []
+    assert not hidden_tools(window)
+
+    open_karate_with_problems(window, qtbot)
+
+    assert cut_buttons(window) == []
+    assert cut_labels(window) == []
+    assert cut_tabs(window) == []
+    assert not hidden_tools(window)
 
 
-def test_the_workbench_shows_all_its_words(work) -> None:
-    assert cut_buttons(work) == []
-    assert cut_labels(work) == []
-    assert cut_tabs(work) == []
-    assert not hidden_tools(work)
+def open_karate_with_problems(window: MainWindow, qtbot: QtBot) -> None:
+    workbench = window.workbench
+    window.files.open_example(paths.examples() / "karate_greeting.nep")
+    qtbot.waitUntil(workbench.canvas.isVisible)
+    qtbot.waitUntil(lambda: "Impressive" in workbench.code.text.toPlainText())
+    workbench.panels.restore(window.fontMetrics().height())
+    window.show_problems()
+    qtbot.waitUntil(workbench.problems.isVisible)
 
 
 def test_the_canvas_has_the_most_room_of_all(karate) -> None:
