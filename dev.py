@@ -149,6 +149,8 @@ def system_needs(
     is_window = not arguments or arguments[0].endswith(".nep")
     if command == "run" and is_window and is_shown:
         return QT_LIBRARIES | WINDOW_LIBRARIES, {}
+    if command == "test" and "freeze" in arguments:  # it is tried without a screen
+        return QT_LIBRARIES | FREEZING, WINDOW_LIBRARIES
     wished = WINDOW_LIBRARIES if is_shown or command in ("test", "bench") else {}
     programs = DISPLAY_PROGRAMS if command in ("test", "bench") else {}
     if command == "test":

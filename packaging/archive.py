@@ -8,6 +8,7 @@ import tarfile
 from pathlib import Path
 from typing import Literal
 
+import linux_files
 import parts
 from freeze import DIST
 
@@ -28,6 +29,8 @@ def build(program: Path, goal: Path, preset: Preset = 9) -> Path:
 def _of_root(file: tarfile.TarInfo) -> tarfile.TarInfo:
     file.uid = file.gid = 0
     file.uname = file.gname = "root"
+    if file.isfile() or file.isdir():
+        file.mode = linux_files.allowed(file.name, file.mode, is_folder=file.isdir())
     return file
 
 

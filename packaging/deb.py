@@ -27,7 +27,8 @@ WISHES = (
 HOW = {"small": ["-Zxz", "-z9"], "quick": ["-Zzstd"], "plain": ["-Znone"]}
 """How a package is compressed: as small as can be for a release, quickly while developing."""
 GLIBC = re.compile(rb"GLIBC_2\.(\d+)\0")
-MAINTAINER = "The NEP Studio authors <nep-studio@localhost>"
+MAINTAINER = "The NEP Studio authors <authors@nep-studio.invalid>"
+"""Debian asks for an address; mail to one that ends in .invalid reaches nobody (RFC 2606)."""
 
 CONTROL = """\
 Package: {name}
@@ -53,9 +54,10 @@ def build(program: Path, goal: Path, compression: str) -> Path:
     with tempfile.TemporaryDirectory(prefix="nep-deb-") as made:
         root = Path(made) / "root"
         linux_files.lay_out(program, root)
-        (root / "DEBIAN").mkdir(mode=0o755)
+        (root / "DEBIAN").mkdir()
         (root / "DEBIAN" / "control").write_text(control(root), encoding="utf-8")
         (root / "DEBIAN" / "md5sums").write_text(checksums(root), encoding="utf-8")
+        linux_files.allow_reading(root / "DEBIAN")
         path = goal / f"{parts.NAME}_{__version__}_{architecture()}.deb"
         pack = ["dpkg-deb", "--root-owner-group", *HOW[compression], "--build"]
         subprocess.run([*pack, str(root), str(path)], check=True, stdout=subprocess.DEVNULL)

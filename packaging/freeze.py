@@ -17,11 +17,10 @@ WORK = parts.ROOT / "build" / "frozen"
 
 
 def freeze(dist: Path = DIST) -> Path:
-    """Make the documentation, run PyInstaller, strip what it leaves; the folder of the program."""
-    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", **STORED}
+    """Run PyInstaller, strip what it leaves; the folder of the program."""
+    nothing_elsewhere = {"PYINSTALLER_CONFIG_DIR": str(WORK), "QT_QPA_PLATFORM": "offscreen"}
+    environment = {**os.environ, **nothing_elsewhere, **STORED}
     command = [sys.executable, "-m", "PyInstaller", "--noconfirm", "--log-level", "WARN"]
-    make_pages = [sys.executable, "docs/build_site.py", "--folder", str(parts.SITE)]
-    subprocess.run(make_pages, cwd=parts.ROOT, env=environment, check=True)
     folders = ["--distpath", str(dist), "--workpath", str(WORK)]
     subprocess.run([*command, *folders, "build.spec"], cwd=parts.ROOT, env=environment, check=True)
     folder = dist / parts.NAME

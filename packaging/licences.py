@@ -12,7 +12,8 @@ from pathlib import Path
 
 import parts
 
-HERE = Path(__file__).resolve().parent / "licences"
+OURS = Path(__file__).resolve().parent / "licences"
+"""Texts, in a folder for each part, of those that come without the text of their licence."""
 LICENCE_NAMES = ("licen", "copying", "notice", "authors")
 DEBIAN_TEXTS = Path("/usr/share/common-licenses")
 
@@ -32,6 +33,12 @@ qt/GPL-3.0.txt). Their libraries lie unchanged in the folder PySide6 of this pro
 replace them by others of the same version that you have changed. Their sources are offered by The
 Qt Company at https://download.qt.io/official_releases/QtForPython/ and
 https://download.qt.io/official_releases/qt/.
+
+zeroconf
+--------
+Used under the GNU Lesser General Public License, version 2.1 or later (folder zeroconf). Its
+sources are at https://pypi.org/project/zeroconf/. With the sources of NEP Studio, which hold the
+recipe of this program, you may make it again with a zeroconf that you have changed.
 """
 
 
@@ -66,14 +73,17 @@ def licence_files(name: str) -> list[Path]:
 def licence_name(name: str) -> str:
     """What an installed package calls its licence."""
     about = metadata.metadata(name)
-    said = "".join(about[key] for key in ("License-Expression", "License") if key in about)
+    said = "".join(about[key] for key in ("License-Expression", "License") if key in about).strip()
     kinds = [kind.split(" :: ")[-1] for kind in about.get_all("Classifier") or () if "Lic" in kind]
-    return said.strip().splitlines()[0] if said.strip() else ", ".join(kinds) or "see its page"
+    is_name = said and "\n" not in said  # some write the whole text there
+    return said if is_name else ", ".join(kinds) or "see its page"
 
 
 def _distribution(folder: Path, name: str) -> str:
     goal = folder / name.lower()
     goal.mkdir(exist_ok=True)
+    if (OURS / name.lower()).is_dir():
+        shutil.copytree(OURS / name.lower(), goal, dirs_exist_ok=True)
     line = f"{name} {metadata.version(name)}: {licence_name(name)}"
     for file in licence_files(name):
         shutil.copy(file, goal / f"{file.stem}{file.suffix or '.txt'}")
@@ -92,7 +102,7 @@ def _python(folder: Path) -> str:
 
 
 def _qt(folder: Path) -> str:
-    shutil.copytree(HERE, folder / "qt", dirs_exist_ok=True)
+    shutil.copytree(OURS / "qt", folder / "qt")
     return f"Qt and PySide6 {metadata.version('PySide6-Essentials')}: LGPL-3.0"
 
 
@@ -111,7 +121,7 @@ def _system_packages(folder: Path, libraries: Iterable[str]) -> list[str]:
     if shutil.which("dpkg") is None:
         return []
     told = []
-    for package in sorted({_package_of(library) for library in libraries} - {""}):
+    for package in _packages_of(libraries):
         goal = folder / "system" / package
         goal.mkdir(parents=True)
         shutil.copy(f"/usr/share/doc/{package}/copyright", goal / "copyright.txt")
@@ -121,11 +131,11 @@ def _system_packages(folder: Path, libraries: Iterable[str]) -> list[str]:
     return told
 
 
-def _package_of(library: str) -> str:
-    """The Debian package of a library; "" when it has none that tells its licence."""
-    for path in (library, str(Path(library).resolve()), library.replace("/usr/lib", "/lib", 1)):
-        found = subprocess.run(["dpkg", "-S", path], capture_output=True, text=True)
-        package = found.stdout.partition(":")[0]
-        if found.returncode == 0 and Path(f"/usr/share/doc/{package}/copyright").is_file():
-            return package
-    return ""
+def _packages_of(libraries: Iterable[str]) -> list[str]:
+    """The Debian packages of these libraries, but for those that do not tell their licence."""
+    paths = set(libraries)
+    paths |= {str(Path(path).resolve()) for path in paths}
+    paths |= {path.replace("/usr/lib", "/lib", 1) for path in paths}
+    found = subprocess.run(["dpkg", "-S", *sorted(paths)], capture_output=True, text=True)
+    names = {line.partition(":")[0] for line in found.stdout.splitlines()}
+    return sorted(name for name in names if Path(f"/usr/share/doc/{name}/copyright").is_file())

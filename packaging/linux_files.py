@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import re
 import shutil
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import icons
 import parts
 
 LINUX = Path(__file__).resolve().parent / "linux"
+LIBRARY = re.compile(r"\.so(\.|$)")
 MIME_TYPE = "application/x-nep-studio-project"
 PLACE = f"usr/lib/{parts.NAME}"
 """Where the program itself is."""
@@ -51,19 +53,23 @@ def lay_out_icons(folder: Path) -> None:
 
 
 def lay_out_papers(folder: Path) -> None:
-    """The licence and what changed, where Debian wants them."""
+    """The licence, where Debian wants it, and what changed, under a name without rules."""
     folder.mkdir(parents=True)
     licence = (parts.ROOT / "LICENSE").read_text(encoding="utf-8")
     others = f"The licences of all parts are in /{PLACE}/_internal/licences.\n"
     (folder / "copyright").write_text(f"{licence}\n{others}", encoding="utf-8")
     changes = (parts.ROOT / "CHANGELOG.md").read_bytes()
-    (folder / "changelog.gz").write_bytes(gzip.compress(changes, mtime=0))
+    (folder / "CHANGELOG.md.gz").write_bytes(gzip.compress(changes, mtime=0))
 
 
 def allow_reading(root: Path) -> None:
     """Everybody may read everything, and run what is to be run; only the owner may write."""
     for path in [root, *root.rglob("*")]:
-        if path.is_symlink():
-            continue
-        runs = path.is_dir() or path.stat().st_mode & 0o100
-        path.chmod(0o755 if runs else 0o644)
+        if not path.is_symlink():
+            path.chmod(allowed(path.name, path.stat().st_mode, is_folder=path.is_dir()))
+
+
+def allowed(name: str, mode: int, *, is_folder: bool) -> int:
+    """Return the mode that a file gets, however careful the umask was when it was made."""
+    is_library = LIBRARY.search(name) is not None
+    return 0o755 if is_folder or (mode & 0o100 and not is_library) else 0o644

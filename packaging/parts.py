@@ -13,10 +13,12 @@ ID = "org.nep.studio"
 FOLDERS = ("resources", "examples")
 """Shipped as they are, beside the program's code."""
 
-SITE, DOCUMENTATION = ROOT / "build" / "site", Path("documentation")
-"""Where docs/build_site.py makes the pages for a browser, and where the program has them."""
+DOCUMENTATION = "documentation"
+"""The folder of the program with the pages for a browser, which docs/build_site.py makes."""
 
-NOT_SHIPPED = ("__pycache__", "node_modules", ".ruff_cache", "build", "make_fonts.py")
+NOT_SHIPPED = (
+    *("__pycache__", "node_modules", ".ruff_cache", "build", "make_fonts.py", ".gitignore"),
+)
 """What a checkout's folders hold that nobody needs: parts of paths."""
 
 OURS = ("nep_core", "nodes", "nep_studio")
@@ -50,12 +52,15 @@ UNWANTED_FILES = (
     *("libatk-1", "libatk-bridge", "libatspi", "libcairo", "libepoxy", "libgdk_pixbuf", "libpango"),
     *("libpixman", "libharfbuzz", "libgraphite2", "libfribidi", "libthai", "libdatrie", "libgio-2"),
     *("libXcomposite", "libXcursor", "libXdamage", "libXi.", "libXinerama", "libXrandr"),
+    *("libXext.", "libXfixes.", "libXrender.", "libgobject-2", "libgmodule-2", "libmount."),
+    *("libblkid.", "libselinux.", "/libjpeg.", "libXau.", "libXdmcp.", "/libbsd.", "/libmd."),
     # whoever prints has CUPS; without it pages still become a PDF
     *("/libcups.", "/libavahi-", "/libgnutls", "/libp11-kit", "/libidn2", "/libunistring"),
     *("/libtasn1", "/libnettle", "/libhogweed", "/libgmp."),
     # a driver of the screen may need a newer one than that of the oldest system
     *("/libstdc++.so.6", "/libgcc_s.so.1"),
     *("sklearn/datasets", "sklearn/tests", "/tests/", "zstandard/_cffi"),
+    "/direct_url.json",  # names a folder of the computer on which it was frozen
 )
 """Parts of the paths of libraries and data that the recipes of others bring."""
 
@@ -104,15 +109,17 @@ def data_files() -> list[tuple[str, str]]:
     found = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*")]
     # a node's code is shown to developers, and its manifest names it
     found += [path for path in (ROOT / "nodes").rglob("*") if path.suffix in (".py", ".toml")]
-    ours = [
+    return [
         (str(path), str(path.parent.relative_to(ROOT)))
         for path in sorted(found)
         if path.is_file() and is_shipped(path.relative_to(ROOT))
     ]
-    pages = [path for path in sorted(SITE.rglob("*")) if path.is_file()]
-    return ours + [
-        (str(path), str(DOCUMENTATION / path.parent.relative_to(SITE))) for path in pages
-    ]
+
+
+def made_files(folder: Path, goal: str) -> list[tuple[str, str, str]]:
+    """What was made for the program: where it goes, where it is, and what PyInstaller calls it."""
+    paths = sorted(path for path in folder.rglob("*") if path.is_file())
+    return [(str(Path(goal, path.relative_to(folder))), str(path), "DATA") for path in paths]
 
 
 def is_shipped(path: Path) -> bool:

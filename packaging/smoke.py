@@ -15,6 +15,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -26,19 +27,26 @@ import smoke_nodes
 import smoke_stories
 from smoke_program import Figures, Program, clean_environment
 
-CHECKS: dict[str, Callable[[Program, Program, Path], Figures]] = {
-    "version": smoke_stories.version,
-    "command_line": smoke_stories.command_line,
-    "code": smoke_stories.code,
+Check = Callable[[Program, Program, Path], Figures]
+"""It is given the frozen program, the program from source, and a folder of its own."""
+
+TIMED: dict[str, Check] = {
     "window": smoke_stories.window,
     "nodes": smoke_nodes.nodes,
     "own_nodes": smoke_nodes.own_nodes,
-    "own_program": smoke_nodes.own_program,
-    "training": smoke_nodes.training,
     "trainer": smoke_nodes.trainer,
-    "karate": smoke_stories.karate,
 }
-"""Each is given the frozen program, the program from source, and a folder of its own."""
+"""Run one after the other: how long something takes is part of what they tell."""
+UNTIMED: dict[str, Check] = {
+    "karate": smoke_stories.karate,
+    "training": smoke_nodes.training,
+    "version": smoke_stories.version,
+    "command_line": smoke_stories.command_line,
+    "code": smoke_stories.code,
+    "own_program": smoke_nodes.own_program,
+}
+"""Run side by side, the longest first."""
+CHECKS = TIMED | UNTIMED
 
 
 def default_program() -> Path:
@@ -52,20 +60,29 @@ def default_program() -> Path:
 
 def run(frozen: Program, source: Program, names: list[str], folder: Path) -> dict[str, Any]:
     """Run these checks; by name the figures, or why it failed."""
-    report: dict[str, Any] = {}
-    for name in names:
-        place = folder / name
-        place.mkdir()
-        started_s = time.monotonic()
-        try:
-            found = {"ok": True, **CHECKS[name](frozen, source, place)}
-        except Exception as error:  # the other checks tell more about it
-            traceback.print_exc()
-            found = {"ok": False, "why": f"{type(error).__name__}: {error}"}
-        found["took_s"] = round(time.monotonic() - started_s, 2)
-        report[name] = found
-        print(f"{name:14}{'ok' if found['ok'] else 'FAILED':8}{json.dumps(found)}", flush=True)
+
+    def try_one(name: str) -> tuple[str, dict[str, Any]]:
+        return name, check(CHECKS[name], name, frozen, source, folder)
+
+    report = dict(map(try_one, (name for name in TIMED if name in names)))
+    with ThreadPoolExecutor(max_workers=2) as side_by_side:
+        report |= dict(side_by_side.map(try_one, (name for name in UNTIMED if name in names)))
     return report
+
+
+def check(what: Check, name: str, frozen: Program, source: Program, folder: Path) -> dict[str, Any]:
+    """Run one check in a new folder of its name, and print what it told, or why it failed."""
+    place = folder / name
+    place.mkdir()
+    started_s = time.monotonic()
+    try:
+        found = {"ok": True, **what(frozen, source, place)}
+    except Exception as error:  # the other checks tell more about it
+        traceback.print_exc()
+        found = {"ok": False, "why": f"{type(error).__name__}: {error}"}
+    found["took_s"] = round(time.monotonic() - started_s, 2)
+    print(f"{name:14}{'ok' if found['ok'] else 'FAILED':8}{json.dumps(found)}", flush=True)
+    return found
 
 
 def main() -> int:

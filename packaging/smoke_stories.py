@@ -32,6 +32,8 @@ def version(frozen: Program, source: Program, folder: Path) -> Figures:
     """It knows its version, and is one program under all its names."""
     told = frozen.run("--version").strip()
     expect(told == f"NEP Studio {__version__}", f"its version is {told}")
+    told = frozen.run("nep", "--version").strip()
+    expect(told.split()[-1] == __version__, f"the version of nep is {told}")
     return {"version": __version__}
 
 
@@ -64,9 +66,12 @@ def window(frozen: Program, source: Program, folder: Path) -> Figures:
     """The window opens, soon, and looks as it does from source."""
     karate = parts.ROOT / "resources" / "examples" / "karate_greeting.nep"
     first = [_picture(frozen, folder / "start.png") for _ in range(WINDOWS)]
-    pictures = {"frozen": frozen, "source": source}
-    for name, program in pictures.items():
-        _picture(program, folder / f"{name}.png", karate)
+    both = {"frozen": frozen, "source": source}
+    drawing = [
+        program.start("picture", folder / f"{name}.png", karate) for name, program in both.items()
+    ]
+    for one in drawing:
+        finished(one)
     share = _difference(folder / "frozen.png", folder / "source.png")
     expect(share <= MOST_DIFFERENT, f"{share:.1%} of the window looks different")
     seconds = [one["window_s"] for one in first]
@@ -107,9 +112,9 @@ def _story(events: list[dict[str, Any]]) -> dict[str, Any]:
     }
 
 
-def _picture(program: Program, path: Path, *project: Path) -> dict[str, Any]:
+def _picture(program: Program, path: Path) -> dict[str, Any]:
     started_at = time.time()
-    report: dict[str, Any] = json.loads(program.run("picture", path, *project).splitlines()[-1])
+    report: dict[str, Any] = json.loads(program.run("picture", path).splitlines()[-1])
     return {**report, "window_s": round(report["painted_at"] - started_at, 3)}
 
 

@@ -11,7 +11,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 if [ -n "${SIGN_AS:-}" ]; then
-    codesign --force --deep --options runtime --timestamp --sign "$SIGN_AS" "$app"
+    codesign --force --deep --timestamp --sign "$SIGN_AS" "$app"
 else
     codesign --force --deep --sign - "$app"
 fi

@@ -10,6 +10,7 @@ SetCompressorDictSize 64
 
 !include "MUI2.nsh"
 !include "FileFunc.nsh"
+!include "LogicLib.nsh"
 !include "x64.nsh"
 
 !define TITLE "NEP Studio"
@@ -52,21 +53,28 @@ Function .onInit
   ${EndIf}
 FunctionEnd
 
-; The older version goes first: a file that the new one does not have must not stay. It lies in a
-; folder that only this installer has made, which its uninstaller proves.
+; The older version goes first, wherever it is: a file that the new one does not have must not stay.
+; Only the folder that an installer of ours has noted is touched: others have an uninstall.exe, too.
 Section "-Older version"
-  IfFileExists "$INSTDIR\uninstall.exe" 0 nothing_older
-  ExecWait '"$INSTDIR\uninstall.exe" /S _?=$INSTDIR' $0
-  StrCmp $0 "0" nothing_older
+  ReadRegStr $1 HKCU "Software\${KEY}" "Folder"
+  StrCmp $1 "" nothing_older
+  IfFileExists "$1\uninstall.exe" 0 nothing_older
+  StrCpy $0 "not started"
+  ExecWait '"$1\uninstall.exe" /S _?=$1' $0
+  StrCmp $0 "0" older_is_gone
     MessageBox MB_ICONSTOP "Close NEP Studio, then install it again." /SD IDOK
+    SetErrorLevel 2
     Abort
+  older_is_gone:
+  Delete "$1\uninstall.exe" ; it could not take away itself
+  RMDir "$1"
   nothing_older:
 SectionEnd
 
 Section "NEP Studio"
   SectionIn RO
   SetOutPath "$INSTDIR"
-  File /r "${PROGRAM}/*"
+  File /r "${PROGRAM}\*"
   WriteUninstaller "$INSTDIR\uninstall.exe"
 
   CreateShortCut "$SMPROGRAMS\NEP Studio.lnk" "$INSTDIR\NEP Studio.exe"
@@ -94,15 +102,26 @@ Section "NEP Studio"
   ${RefreshShellIcons}
 SectionEnd
 
-; Projects, settings and the folder of portable mode belong to the person and stay.
-Section "Uninstall"
+; A program that runs cannot be written to. Nothing is removed before all of them have ended.
+!macro StopIfRunning FILE
   ClearErrors
-  Delete "$INSTDIR\NEP Studio.exe"
-  IfErrors 0 not_running
+  ${If} ${FileExists} "${FILE}"
+    FileOpen $0 "${FILE}" a
+    FileClose $0
+  ${EndIf}
+  ${If} ${Errors}
     MessageBox MB_ICONSTOP "NEP Studio is still open. Close it, then try again." /SD IDOK
     SetErrorLevel 2
     Abort
-  not_running:
+  ${EndIf}
+!macroend
+
+; Projects, settings and the folder of portable mode belong to the person and stay.
+Section "Uninstall"
+  !insertmacro StopIfRunning "$INSTDIR\NEP Studio.exe"
+  !insertmacro StopIfRunning "$INSTDIR\nep-studio.exe"
+  !insertmacro StopIfRunning "$INSTDIR\nep.exe"
+  Delete "$INSTDIR\NEP Studio.exe"
   Delete "$INSTDIR\nep-studio.exe"
   Delete "$INSTDIR\nep.exe"
   RMDir /r "$INSTDIR\_internal"

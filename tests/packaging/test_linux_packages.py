@@ -2,6 +2,7 @@
 
 import configparser
 import os
+import re
 import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
@@ -13,7 +14,7 @@ import linux_files
 import parts
 import pytest
 
-from nep_studio import __version__
+from nep_studio import __version__, safe_mode
 
 DESKTOP = linux_files.LINUX / "nep-studio.desktop"
 MIME = linux_files.LINUX / "nep-studio.xml"
@@ -30,15 +31,15 @@ def program(tmp_path: Path) -> Path:
     (folder / "nep-studio").chmod(0o700)
     (folder / "nep").symlink_to("nep-studio")
     (folder / "_internal" / "libzmq.so.5").write_bytes(b"GLIBC_2.17\0")
-    (folder / "_internal" / "libzmq.so.5").chmod(0o600)
+    (folder / "_internal" / "libzmq.so.5").chmod(0o700)
     return folder
 
 
-def entry() -> configparser.SectionProxy:
+def entry(section: str = "Desktop Entry") -> configparser.SectionProxy:
     parser = configparser.ConfigParser(interpolation=None)
     parser.optionxform = str  # type: ignore[assignment, method-assign]
     parser.read(DESKTOP, encoding="utf-8")
-    return parser["Desktop Entry"]
+    return parser[section]
 
 
 def test_the_menu_entry_opens_the_projects_that_the_system_knows_by_their_ending() -> None:
@@ -55,6 +56,18 @@ def test_the_menu_entry_opens_the_projects_that_the_system_knows_by_their_ending
     assert entry()["Icon"] == parts.NAME
 
 
+def test_the_menu_entry_offers_safe_mode_in_the_words_of_the_window() -> None:
+    action = entry("Desktop Action safe-mode")
+
+    names = {key.partition("[")[2].rstrip("]"): value for key, value in action.items()}
+
+    assert entry()["Actions"] == "safe-mode;"
+    assert action["Exec"] == f"{parts.NAME} {safe_mode.OPTION}"
+    words = action["Name"]
+    for file in sorted((parts.ROOT / "resources" / "translations").glob("*.toml")):
+        assert f'"{words}" = "{names[file.stem]}"\n' in file.read_text(encoding="utf-8")
+
+
 def test_software_shops_are_told_this_version_and_the_menu_entry() -> None:
     metainfo = ElementTree.parse(METAINFO).getroot()
 
@@ -63,6 +76,7 @@ def test_software_shops_are_told_this_version_and_the_menu_entry() -> None:
     assert metainfo.findtext("provides/mediatype") == linux_files.MIME_TYPE
     releases = [release.get("version") for release in metainfo.iter("release")]
     assert releases[0] == __version__
+    assert re.fullmatch(r"\d+\.\d+\.\d+", __version__)  # Windows and Debian read it as a number
 
 
 @pytest.mark.parametrize(
@@ -107,7 +121,11 @@ def test_the_tree_has_the_program_its_names_and_everything_that_desktops_read(
 
 @pytest.mark.skipif(shutil.which("dpkg-deb") is None, reason="no dpkg-deb")
 def test_debian_reads_from_the_package_what_it_is_and_needs(program: Path, tmp_path: Path) -> None:
-    made = deb.build(program, tmp_path, "plain")
+    umask = os.umask(0o077)  # a careful person builds it
+    try:
+        made = deb.build(program, tmp_path, "plain")
+    finally:
+        os.umask(umask)
 
     fields = ["Package", "Version", "Depends"]
     shown = subprocess.check_output(["dpkg-deb", "--field", made, *fields], text=True)
@@ -117,6 +135,8 @@ def test_debian_reads_from_the_package_what_it_is_and_needs(program: Path, tmp_p
     assert "libc6 (>= 2.34), libegl1, libgl1" in shown
     assert "python" not in shown
     assert all(" root/root " in line for line in listed.splitlines())
+    modes = {line.split()[0] for line in listed.splitlines()}
+    assert modes == {"drwxr-xr-x", "-rwxr-xr-x", "-rw-r--r--", "lrwxrwxrwx"}
 
 
 def test_the_appimage_starts_the_program_under_both_names(program: Path, tmp_path: Path) -> None:

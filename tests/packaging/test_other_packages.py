@@ -38,6 +38,7 @@ def test_the_installer_for_windows_asks_no_administrator_and_takes_away_what_it_
     assert "RequestExecutionLevel user" in script
     assert "HKLM" not in script and "$PROGRAMFILES" not in script
     for name in parts.PROGRAMS["win32"]:
+        assert f'StopIfRunning "$INSTDIR\\{name}.exe"' in removing
         assert f'Delete "$INSTDIR\\{name}.exe"' in removing
     assert 'RMDir /r "$INSTDIR"\n' not in removing  # it may be a folder that holds more
     for key in set(re.findall(r'WriteReg\w+ HKCU "([^"]+)"', installing)):
@@ -46,8 +47,9 @@ def test_the_installer_for_windows_asks_no_administrator_and_takes_away_what_it_
 
 
 def test_the_archive_unpacks_into_one_folder_that_belongs_to_nobody(tmp_path: Path) -> None:
-    (tmp_path / "program").mkdir()
+    (tmp_path / "program").mkdir(mode=0o700)
     (tmp_path / "program" / "nep-studio").write_text("it")
+    (tmp_path / "program" / "nep-studio").chmod(0o700)
 
     made = archive.build(tmp_path / "program", tmp_path, preset=0)
 
@@ -56,6 +58,7 @@ def test_the_archive_unpacks_into_one_folder_that_belongs_to_nobody(tmp_path: Pa
     folder = made.name.removesuffix(".tar.xz")
     assert set(members) == {folder, f"{folder}/nep-studio"}
     assert {(member.uid, member.gname) for member in members.values()} == {(0, "root")}
+    assert {member.mode for member in members.values()} == {0o755}
 
 
 @pytest.mark.parametrize(
@@ -102,6 +105,8 @@ def test_freezing_takes_along_what_is_here_so_that_it_must_be_here() -> None:
     assert freezing == packaging
     assert {"libgl1", "libxcb-icccm4", "binutils"} <= set(freezing)
     assert nothing == {}
+    trying, _ = dev.system_needs("test", ["-m", "freeze"], is_shown=False)
+    assert "binutils" in trying
     assert {"dpkg", "nsis", "appstream", "desktop-file-utils", "xz-utils"} == set(tools)
 
 

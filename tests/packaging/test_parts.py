@@ -38,16 +38,14 @@ def test_every_example_manifest_and_node_is_taken_along_and_nothing_that_makes_t
     assert not [path for path in shipped if "/docs/" in path]
 
 
-def test_the_pages_for_a_browser_are_taken_along(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "de").mkdir()
-    (tmp_path / "de" / "index.html").write_text("Hallo", encoding="utf-8")
-    monkeypatch.setattr(parts, "SITE", tmp_path)
+def test_pages_and_licences_that_were_made_go_where_the_program_looks(tmp_path: Path) -> None:
+    page = tmp_path / "de" / "index.html"
+    page.parent.mkdir()
+    page.write_text("Hallo", encoding="utf-8")
 
-    shipped = dict(parts.data_files())
+    made = parts.made_files(tmp_path, parts.DOCUMENTATION)
 
-    assert shipped[str(tmp_path / "de" / "index.html")] == str(Path("documentation", "de"))
+    assert made == [(str(Path("documentation", "de", "index.html")), str(page), "DATA")]
 
 
 def test_every_library_that_is_named_because_nothing_imports_it_early_is_there() -> None:
@@ -61,6 +59,7 @@ def test_every_library_that_is_named_because_nothing_imports_it_early_is_there()
 @pytest.mark.parametrize(
     ("place", "is_wanted"),
     [
+        ("nep_studio-0.1.0.dist-info/direct_url.json", False),
         ("PySide6/Qt/plugins/platforms/libqxcb.so", True),
         ("PySide6/Qt/plugins/platforms/libqoffscreen.so", True),
         ("PySide6/Qt/plugins/platformthemes/libqgtk3.so", False),
@@ -100,6 +99,8 @@ def test_the_licence_of_every_part_is_collected_and_qt_may_be_replaced(tmp_path:
     for part in ("numpy", "pyzmq", "pyqtgraph", "mcap", "Python ", "Atkinson", "lucide"):
         assert f"* {part}" in told
     assert "you may\nreplace them" in told
+    foxglove = (tmp_path / "licences" / "mcap" / "LICENSE.txt").read_text(encoding="utf-8")
+    assert "Copyright (c) Foxglove" in foxglove  # its package comes without
     for name in ("numpy", "pyzmq", "pyqtgraph", "mcap", "qt", "python", "fonts", "icons"):
         assert any(file.stat().st_size for file in (tmp_path / "licences" / name).iterdir())
 
