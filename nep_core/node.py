@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar, get_args
 from weakref import ref
 
-from nep_core.errors import ParameterError
+from nep_core.errors import NepError, ParameterError
 from nep_core.frames import Encoding
 from nep_core.io_thread import Wake
 from nep_core.messages import NODE_STATE, NodeEvent, NodeState, NodeType
@@ -165,7 +165,8 @@ class Node:
         return self
 
     def __exit__(self, _kind: object, error: BaseException | None, _trace: object) -> None:
-        if error is None or isinstance(error, KeyboardInterrupt | SystemExit):
+        is_its_end = self._stopping and isinstance(error, NepError)  # the network has gone first
+        if error is None or is_its_end or isinstance(error, KeyboardInterrupt | SystemExit):
             self.close()
         else:
             self.close("crashed", str(error) or type(error).__name__)

@@ -34,12 +34,19 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
         try:
             run(node, **parameters)
         except NepError as error:
-            node.close("crashed", error.sentence)
-            print(error.sentence, file=sys.stderr)
-            for step in error.checklist:
-                print(f"  [ ] {step}", file=sys.stderr)
-            return 1
+            if node.stopping:
+                log.info("after it was asked to stop: %s", error)
+            else:
+                return _failed(node, error)
     return ASKED if is_launched and node.was_asked else 0
+
+
+def _failed(node: Node, error: NepError) -> int:
+    node.close("crashed", error.sentence)
+    print(error.sentence, file=sys.stderr)
+    for step in error.checklist:
+        print(f"  [ ] {step}", file=sys.stderr)
+    return 1
 
 
 def _run_function(manifest: Manifest) -> Callable[..., None]:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.errors import NameTaken, ParameterError
+from nep_core.errors import NameTaken, NetworkError, ParameterError
 from nep_core.master import Master
 from nep_core.messages import NODE_STATE, NodeState
 from nep_core.node import Node
@@ -44,6 +44,17 @@ def test_a_node_that_fails_tells_so(join: Join) -> None:
 
     heard = [state for state in iter(lambda: states.receive(0.5), None) if state]
     assert (heard[-1].event, heard[-1].description) == ("crashed", "the lamp is broken")
+
+
+def test_what_fails_because_a_node_stops_is_no_crash(join: Join) -> None:
+    states = Subscriber(NODE_STATE, NodeState, network=join("observer"))
+
+    with pytest.raises(NetworkError), Node("lamp", "sensory") as node:
+        node.stop()
+        raise NetworkError("The network of lamp is closed.")
+
+    heard = [state for state in iter(lambda: states.receive(0.5), None) if state]
+    assert heard[-1].event == "stopped"
 
 
 def test_measures_of_the_same_state_go_out_as_a_heartbeat_at_most_twice_a_second(
