@@ -85,10 +85,12 @@ def test_a_process_for_each_gesture_tells_that_gesture_only(program, file, stran
     program.state("ready", node="third")
 
     program.send(stranger, listeners=3)
-    told = program.told(len(takes_of(stranger)))
+    told = []
+    while sum(source != "third" for source, _ in told) < len(takes_of(stranger)):
+        told += [(one.source, one.human_state) for one in program.told(1)]
 
-    sources = {(one.source, one.human_state) for one in told if one.source != "third"}
-    assert sources == {("hand_up", "gesture_hand_up"), ("karate", "gesture_karate")}
+    own = {("hand_up", "gesture_hand_up"), ("karate", "gesture_karate")}
+    assert set(told) - {("third", "gesture_karate")} == own
 
 
 def test_a_process_for_a_set_of_gestures_tells_how_certain_quick_and_busy_it_is(
