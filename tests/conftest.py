@@ -45,8 +45,9 @@ def pytest_configure() -> None:
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # a shell started us in the background
         signal.signal(signal.SIGINT, signal.default_int_handler)  # else all children ignore Ctrl-C
     # who runs at once would take the usual port from each other as soon as a master is killed
-    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-    os.environ.setdefault(MASTER_VARIABLE, f"tcp://127.0.0.1:{17_100 + 10 * worker}")
+    if worker := os.environ.get("PYTEST_XDIST_WORKER"):
+        port = 17_100 + 10 * int(worker.removeprefix("gw"))
+        os.environ[MASTER_VARIABLE] = f"tcp://127.0.0.1:{port}"
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
 
