@@ -27,6 +27,7 @@ from dev_system import (
     say,
     step,
 )
+from dev_tests import EVERY_TEST, run_all
 
 HELP = """\
 python3 dev.py run                 open the window; without a display, play the karate story
@@ -45,9 +46,6 @@ Each makes .venv beside this file when it is not there or out of date."""
 ROOT = Path(__file__).resolve().parent
 OLDEST, NEWEST = (3, 11), (3, 13)
 STORY = ["run", str(ROOT / "resources" / "examples" / "karate_greeting.nep")]
-EVERY_TEST = ["--numprocesses", str(min((os.cpu_count() or 1) + 2, 4)), "--dist", "worksteal"]
-"""All tests side by side: most of the stories' time is waiting for what robots and people do."""
-
 UNABLE = {
     "Windows": "On Windows dev.py installs no system software. If Qt does not start, install the"
     ' "Microsoft Visual C++ Redistributable" (x64) yourself.',
@@ -129,7 +127,7 @@ def modules(arguments: list[str], *, is_shown: bool) -> dict[str, list[list[str]
     """
     return {
         "run": [["nep_studio", *(arguments or ([] if is_shown else STORY))]],
-        "test": [["pytest", *(arguments or EVERY_TEST)]],
+        "test": [["pytest", *arguments]],
         "lint": [["ruff", "format", "--check", "."], ["ruff", "check", "."], ["mypy"]],
         "bench": [["benchmarks", *arguments]],
         "freeze": [["packaging/freeze.py"]],
@@ -177,6 +175,8 @@ def work(command: str, arguments: list[str]) -> int:
     if command != "run":  # run may name files in the folder that the person is in
         os.chdir(ROOT)
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    if command == "test" and not arguments:
+        return run_all(str(python), ROOT, EVERY_TEST)
     programs = modules(arguments, is_shown=is_shown)[command]
     return max([call([str(python), *how_to_run(program)]) for program in programs], default=0)
 

@@ -90,12 +90,13 @@ def call(command: list[str], output: IO[bytes] | None = None) -> int:
     """
     is_interrupted = False
     with subprocess.Popen(command, stdout=output, stderr=output) as child:
-        signal.signal(signal.SIGTERM, lambda *_: child.terminate())
+        before = signal.signal(signal.SIGTERM, lambda *_: child.terminate())
         while child.returncode is None:
             try:
                 child.wait()
             except KeyboardInterrupt:
                 is_interrupted = True
+    signal.signal(signal.SIGTERM, before)
     if is_interrupted and output:
         raise KeyboardInterrupt
     return child.returncode if child.returncode >= 0 else 128 - child.returncode
