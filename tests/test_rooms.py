@@ -25,7 +25,8 @@ class Room:
 
 TALK = ("zmq", "msgspec", "psutil", "platformdirs")
 ROOMS = {
-    "dev": Room(("dev_system",)),
+    "dev": Room(("dev_system", "dev_tests")),
+    "dev_tests": Room(("dev_system",)),
     "dev_system": Room(),
     "nep_core": Room(("nep_core",), TALK),
     "nodes": Room(("nodes", "nep_core"), (*TALK, "numpy")),
