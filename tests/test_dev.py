@@ -10,7 +10,6 @@ import pytest
 
 import dev
 import dev_system
-import dev_tests
 
 ROOT = Path(dev.__file__).parent
 QT_PACKAGES = "libgl1 libegl1 libglib2.0-0 libxkbcommon0 libdbus-1-3 libfontconfig1"
@@ -294,23 +293,3 @@ def test_without_packages_to_be_had_it_says_what_to_try_and_leaves_no_stamp(tmp_
     assert ended.stderr.endswith(dev.PIP_FAILED + "\n")
     assert "Traceback" not in ended.stderr
     assert not (tmp_path / ".venv" / "nep-studio-stamp.json").exists()
-
-
-def test_what_fails_beside_others_is_tried_again_alone_and_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "pytest.ini").write_text("[pytest]\n")
-    (tmp_path / "test_it.py").write_text(
-        "from pathlib import Path\n"
-        "def test_well(): Path('well').touch(exist_ok=False)\n"
-        "def test_once(): assert Path('once').exists() or Path('once').write_text('')\n"
-    )
-    monkeypatch.chdir(tmp_path)
-
-    code = dev_tests.run_all(sys.executable, tmp_path, ["-p", "no:xdist"])
-
-    told = capfd.readouterr().err
-    assert code == 0
-    assert told.count("test_it.py::test_once") == 2
-    assert "please mend them" in told
-    assert dev_tests.run_all(sys.executable, tmp_path, ["-p", "no:xdist"]) == 1

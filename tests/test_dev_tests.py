@@ -1,0 +1,28 @@
+"""dev_tests.py: all tests, and once more those that failed beside others."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+import dev_tests
+
+
+def test_what_fails_beside_others_is_tried_again_alone_and_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "pytest.ini").write_text("[pytest]\n")
+    (tmp_path / "test_it.py").write_text(
+        "from pathlib import Path\n"
+        "def test_well(): Path('well').touch(exist_ok=False)\n"
+        "def test_once(): assert Path('once').exists() or Path('once').write_text('')\n"
+    )
+    monkeypatch.chdir(tmp_path)
+
+    code = dev_tests.run_all(sys.executable, tmp_path, ["-p", "no:xdist"])
+
+    told = capfd.readouterr().err
+    assert code == 0
+    assert told.count("test_it.py::test_once") == 2
+    assert "please mend them" in told
+    assert dev_tests.run_all(sys.executable, tmp_path, ["-p", "no:xdist"]) == 1
