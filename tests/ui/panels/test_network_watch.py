@@ -65,7 +65,9 @@ def test_texts_are_counted_too(watch: NetworkWatch, join: Join, qtbot: QtBot) ->
 
     publisher.send("hello")
 
-    seen = wait_for(watch, lambda seen: seen.topics["/words"].count == 1, qtbot)
+    seen = wait_for(
+        watch, lambda seen: "/words" in seen.topics and seen.topics["/words"].count == 1, qtbot
+    )
     assert seen.topics["/words"].last == "hello"
 
 
