@@ -76,7 +76,8 @@ class SupportDialog(QDialog):
             self.report.save(path)
         except OSError as error:
             reason = tr((error.strerror or str(error)).lower())
-            self.state.setText(tr("{name}: {reason}.", name=path.name, reason=reason))
+            told = tr("{name}: {reason}.", name=path.name, reason=reason)
+            self.state.setText(f"{told} {tr('Choose another folder.')}")
             return
         self.state.setText(tr("The report is in “{name}”. Send it yourself.", name=path.name))
 

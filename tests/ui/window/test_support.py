@@ -75,7 +75,7 @@ def test_the_report_is_read_before_it_is_copied_and_saved(
     assert (tmp_path / "report.zip").is_file()
     assert "report.zip" in dialog.state.text()
     dialog.save(tmp_path / "missing" / "report.zip")
-    assert "no such file" in dialog.state.text()
+    assert "no such file or directory. Choose another folder." in dialog.state.text()
 
 
 def test_a_report_that_is_closed_early_ends_its_process(window: MainWindow) -> None:
