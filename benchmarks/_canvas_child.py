@@ -19,12 +19,12 @@ from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QApplication, QLineEdit
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import DeleteBlocks, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.theme import LIGHT, load_theme
+from nep_studio.ui.theme.colours import LIGHT, load_theme
 
 from .canvas_driving import Driver, NotPainted
 from .canvas_reference import ReferenceView

@@ -15,19 +15,19 @@ from pathlib import Path
 import psutil
 
 from benchmarks._heartbeat_child import wait
-from nep_core import messages as m
-from nep_core.launcher import LaunchedNode
-from nep_core.outcome import Outcome
+from nep_core.processes.launcher import LaunchedNode
+from nep_core.processes.process import Outcome
+from nep_core.wire import messages as m
 from nep_studio import paths
-from nep_studio.node_board import FROZEN_S
-from nep_studio.own_master import MASTER
-from nep_studio.plan import PlannedNode
-from nep_studio.session import PROGRAM
+from nep_studio.run.local_network import MASTER
+from nep_studio.run.node_board import FROZEN_S
+from nep_studio.run.plan import PlannedNode
+from nep_studio.run.session import PROGRAM
 from nep_studio.settings import Settings
-from nep_studio.ui.app import Studio, make_application
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.nodes.adding import add_nodes_panel
-from nep_studio.ui.panels.nodes.panel import NodesPanel
+from nep_studio.ui.plugins.nodes import add_nodes_panel
+from nep_studio.ui.plugins.nodes.panel import NodesPanel
+from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.shell.main_window import MainWindow
 
 ROUNDS = 2
 

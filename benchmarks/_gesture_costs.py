@@ -11,7 +11,7 @@ import numpy as np
 import psutil
 
 from benchmarks._gesture_folder import DATA, Split, read_gesture_folder, split_sessions
-from nodes.perceptual.recognition.everyday import simulated_everyday
+from nodes.perceptual.recognition.dataset import simulated_everyday
 from nodes.perceptual.recognition.model import METHODS, Model
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.training import train

@@ -20,7 +20,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from benchmarks._gesture_references import Looks
-from nodes.perceptual.recognition.passages import Take, takes_of
+from nodes.perceptual.recognition.streams import Take, takes_of
 from nodes.recordings import Recording
 
 Floats = NDArray[np.float64]

@@ -17,7 +17,7 @@ from benchmarks._gesture_trials import (
     WARPING,
     examples_named,
 )
-from nodes.perceptual.recognition.matching import NOTHING
+from nodes.perceptual.recognition.validation import NOTHING
 
 Row = dict[str, Any]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from nodes.perceptual.recognition.matching import Tally
+from nodes.perceptual.recognition.validation import Tally
 
 CLEAN = ""
 """The sensor as it is: nothing is worse about it."""

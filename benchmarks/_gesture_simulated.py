@@ -18,15 +18,14 @@ from benchmarks._gesture_paper import PaperMatching
 from benchmarks._gesture_references import fire
 from benchmarks._gesture_scores import CLEAN, Score
 from benchmarks._gesture_trials import PAPER, SIMULATED, SIMULATED_LIVELY, triggers
-from nodes.perceptual.recognition.matching import Tally, match
-from nodes.perceptual.recognition.model import METHODS, TRIGGER, Model
-from nodes.perceptual.recognition.model_file import read_model
-from nodes.perceptual.recognition.passages import takes_of
+from nodes.perceptual.recognition.model import METHODS, TRIGGER, Model, read_model
+from nodes.perceptual.recognition.streams import takes_of
+from nodes.perceptual.recognition.validation import Tally, match
 from nodes.recordings import Recording
 from nodes.resources import resource_folder
+from nodes.sensory.arm.everyday import LIVELY
 from nodes.sensory.arm.gestures import GESTURES
-from nodes.sensory.arm.lively import LIVELY
-from nodes.sensory.arm.simulate import perform, simulate_everyday, simulate_session
+from nodes.sensory.arm.people import perform, simulate_everyday, simulate_session
 
 NAME = "five gestures of simulated people"
 VOLUNTEERS = (120, 121, 122, 123, 124)

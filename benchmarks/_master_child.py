@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from nep_core.master import Master
+from nep_core.networks.master import Master
 
 if __name__ == "__main__":
     master = Master(sys.argv[1])

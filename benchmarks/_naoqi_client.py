@@ -19,7 +19,7 @@ Call = Callable[[], object]
 
 def our_calls(port: int) -> tuple[Call, Call]:
     """Connect with our client."""
-    from nodes.action.naoqi.client import Session
+    from robots.naoqi.client.session import Session
 
     session = Session(("127.0.0.1", port))
     session.connect()

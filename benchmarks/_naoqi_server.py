@@ -12,7 +12,8 @@ ANGLES = [0.1 * number for number in range(26)]
 
 def serve_ours() -> int:
     """Start our server; return its port."""
-    from nodes.action.naoqi.server import Server, method
+    from robots.naoqi.server.server import Server
+    from robots.naoqi.wire.service import method
 
     class ALMotion:
         """As much of the robot's service as is measured."""

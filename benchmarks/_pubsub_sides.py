@@ -18,9 +18,9 @@ from typing import Any
 import msgspec
 import zmq
 
-from nep_core.outbox import HIGH_WATER_MARK
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.zmq_network import DirectNetwork
+from nep_core.networks.zmq_networks import DirectNetwork
+from nep_core.wire.outbox import HIGH_WATER_MARK
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Send = Callable[[float], object]
 Hear = Callable[[float], float | None]

@@ -6,8 +6,8 @@ import contextlib
 import sys
 from typing import Any
 
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 TOPICS_A_NODE = 5
 SHARED_TOPIC = "/bench/shared"

@@ -13,11 +13,11 @@ from benchmarks.robot_view import FRAMES, HEIGHT, WIDTH, scene_of
 from nep_studio.ui.robot_view.camera import Camera, Frame, Lens
 from nep_studio.ui.robot_view.drawing import gl_bodies
 from nep_studio.ui.robot_view.figure import load_figure
-from nep_studio.ui.robot_view.looking import seeing_all
+from nep_studio.ui.robot_view.gestures import seeing_all
 from nep_studio.ui.robot_view.painter import groups_of
-from nep_studio.ui.robot_view.room_picture import nao_folder
 from nep_studio.ui.robot_view.shading import Shades
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.robot_view.view import nao_folder
+from nep_studio.ui.theme.colours import load_theme
 
 
 def main() -> int:

@@ -14,14 +14,13 @@ from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
 from PySide6.QtGui import QFontMetricsF
 from PySide6.QtWidgets import QApplication, QWidget
 
-from nep_core.messages import IMU, Imu
-from nep_studio.ui.panels.sensors.feed import SensorFeed
-from nep_studio.ui.panels.sensors.imu_stream import MAGNITUDE, ImuStream
-from nep_studio.ui.panels.sensors.plots import Plots
-from nep_studio.ui.panels.sensors.streams import StreamKey
-from nep_studio.ui.panels.sensors.view import TimeView
+from nep_core.wire.messages import IMU, Imu
+from nep_studio.ui.plugins.sensors.feed import SensorFeed
+from nep_studio.ui.plugins.sensors.measuring import TimeView
+from nep_studio.ui.plugins.sensors.plots import Plots
+from nep_studio.ui.plugins.sensors.streams import MAGNITUDE, ImuStream, StreamKey
 from nep_studio.ui.running.tap import Heard, Tap
-from nep_studio.ui.theme import Look, load_fonts
+from nep_studio.ui.theme.look import Look, load_fonts
 
 RATE_HZ = 1000
 WINDOW_S = 30.0

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 TICK_S = 0.02
 BURST_TICKS, BURST = 50, 50

@@ -21,14 +21,12 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Changes
-from nep_studio.ui.canvas.block_painter import BlockPainter
-from nep_studio.ui.canvas.boxes import Chain
-from nep_studio.ui.canvas.index import Rect
-from nep_studio.ui.canvas.layout import Layout
-from nep_studio.ui.canvas.measures import Measures
-from nep_studio.ui.canvas.page import Placed, boxes_of
-from nep_studio.ui.canvas.texts import TextWidths
-from nep_studio.ui.theme import Theme
+from nep_studio.ui.canvas.layout.boxes import Chain, Measures, TextWidths
+from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.canvas.layout.layout import Layout
+from nep_studio.ui.canvas.layout.page import Placed, boxes_of
+from nep_studio.ui.canvas.painting.painter import BlockPainter
+from nep_studio.ui.theme.colours import Theme
 
 SNAP_RADIUS = 28.0
 EVERYWHERE = Rect(-1e7, -1e7, 2e7, 2e7)

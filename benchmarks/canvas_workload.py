@@ -15,12 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from nep_studio.blocks.definitions import Definition
-from nep_studio.blocks.edits import AddVariable, CreateBlocks
+from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.edits.project import AddVariable
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.loading import load_language
 from nep_studio.blocks.places import NewStack
 from nep_studio.blocks.program import Block, Project
-from nep_studio.blocks.values import FieldValue
+from nep_studio.blocks.slots import FieldValue
+from nep_studio.run.installation import load_language
 
 STACK_BLOCKS = 100
 UNIT_BLOCKS = 20

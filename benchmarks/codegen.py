@@ -17,14 +17,15 @@ from pathlib import Path
 from typing import Any
 
 from nep_studio.blocks.checks import check
-from nep_studio.blocks.edits import AddVariable, CreateBlocks, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.edits.project import AddVariable
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
-from nep_studio.blocks.loading import load_language
 from nep_studio.blocks.places import NewStack
 from nep_studio.blocks.program import Block, Project
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.values import FieldValue
-from nep_studio.blocks.writing import to_bytes
+from nep_studio.blocks.slots import FieldValue
+from nep_studio.run.installation import load_language
 
 STACKS = 50
 ROUNDS = 15

@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
 
-from nep_studio.plan import PlannedNode
-from nep_studio.session import Ending
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.run.plan import PlannedNode
+from nep_studio.run.session import Ending
+from nep_studio.ui.shell.main_window import MainWindow
 
 Wait = Callable[[Callable[[], bool]], None]
 """Runs the window until a condition holds; fails when that takes too long."""
@@ -34,8 +34,8 @@ for number in range({LINES}):
 TALK = f"""\
 import time
 
-from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
-from nep_core.pubsub import Publisher
+from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.wire.pubsub import Publisher
 
 publisher = Publisher(HUMAN_BEHAVIOR)
 publisher.wait_for_subscribers(1, 10)

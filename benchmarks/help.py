@@ -17,11 +17,11 @@ from PySide6.QtWidgets import QApplication
 
 from benchmarks.canvas_workload import language, made
 from nep_studio.blocks.editor import Editor
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.help.book import Book
-from nep_studio.ui.help.panel import HelpPanel
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.plugins.help.panel import HelpPanel
+from nep_studio.ui.plugins.help.repository import Book
+from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import use_language
 

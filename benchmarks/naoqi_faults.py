@@ -20,13 +20,12 @@ from typing import Any
 
 import psutil
 
-from nep_core.messages import ActionRequest, ActionResult
-from nodes.action.naobody.actor import Actor
-from nodes.action.naobody.animations import load_animations
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.models import robot_folder
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naoqi.driver.driver import NaoqiDriver
+from nep_core.wire.messages import ActionRequest, ActionResult
+from robots.body.actor import Actor
+from robots.body.animations import load_animations
+from robots.body.body import load_body, robot_folder
+from robots.body.pose import VirtualRobot
+from robots.naoqi.driver.driver import NaoqiDriver
 
 GOAL_S, STOP_GOAL_S = 3.0, 0.2
 WAIT_S = 20.0

@@ -10,9 +10,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from nep_core.launcher import Launcher
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import Launcher
 
 NODES: dict[str, dict[str, str | float]] = {
     "sensory/virtual_watch": {},

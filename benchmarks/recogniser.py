@@ -16,13 +16,12 @@ from typing import Any
 import numpy as np
 
 from benchmarks._gesture_costs import at_rate, memory_rows, ten_gestures, training_rows
-from nodes.perceptual.recognition.model import METHODS
-from nodes.perceptual.recognition.model_file import read_model
+from nodes.perceptual.recognition.model import METHODS, read_model
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.recordings import Recording
 from nodes.resources import resource_folder
 from nodes.sensory.arm.gestures import GESTURES
-from nodes.sensory.arm.simulate import simulate_session
+from nodes.sensory.arm.people import simulate_session
 
 _SAMPLES = 3000
 _FIVE_GOAL_US = 1000.0

@@ -17,10 +17,10 @@ from typing import Any
 import psutil
 
 from benchmarks._registry_child import TOPICS_A_NODE
-from nep_core import master_messages as says
-from nep_core.master_probe import MasterProbe, ask_master
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
+from nep_core.networks import master_messages as says
+from nep_core.networks.master_messages import MasterProbe, ask_master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.pubsub import Publisher
 
 NODES = 200
 PROCESSES = 4

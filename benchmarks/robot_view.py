@@ -25,15 +25,15 @@ from PySide6.QtGui import QFont, QImage, QPainter, QRadialGradient
 from PySide6.QtWidgets import QApplication
 
 from benchmarks.virtual_display import NoDisplay, virtual_display
-from nep_core.messages import RobotState
+from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.camera import Camera, Frame, Lens
 from nep_studio.ui.robot_view.figure import RobotFigure, load_figure
+from nep_studio.ui.robot_view.gestures import seeing_all
 from nep_studio.ui.robot_view.gl_context import SLOW
-from nep_studio.ui.robot_view.looking import seeing_all
 from nep_studio.ui.robot_view.painter import ScenePainter
-from nep_studio.ui.robot_view.room_picture import nao_folder
 from nep_studio.ui.robot_view.scene import Scene, SceneRobot
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.robot_view.view import nao_folder
+from nep_studio.ui.theme.colours import load_theme
 
 Row = dict[str, Any]
 

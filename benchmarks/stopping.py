@@ -20,9 +20,9 @@ from typing import Any
 
 import msgspec
 
-from nep_core.messages import ACTION_RESULT, ActionResult
-from nep_studio.plan import PlannedNode
-from nep_studio.session import Session, Watching
+from nep_core.wire.messages import ACTION_RESULT, ActionResult
+from nep_studio.run.plan import PlannedNode
+from nep_studio.run.session import Session, Watching
 
 GOAL_S = 0.2
 WAIT_S = 20.0

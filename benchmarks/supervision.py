@@ -13,12 +13,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.master import Master
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.p2p import PeerNetwork
-from nep_core.process_tree import descendants
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import LaunchedNode, Launcher
+from nep_core.processes.process import descendants
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 ROUNDS = 11
 GOAL_MS = 300

@@ -14,9 +14,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from nep_core.messages import ProgramControl, ProgramState
-from nep_core.tasks import PROGRAM
-from nodes.cognitive.tracing.source import read_source
+from nep_core.program.tasks import PROGRAM
+from nep_core.wire.messages import ProgramControl, ProgramState
+from nodes.cognitive.tracing.state import read_source
 from nodes.cognitive.tracing.tracer import Tracer
 
 ROUNDS = 5
@@ -40,7 +40,7 @@ LONG = "from nep_core import Behavior\nbehavior = Behavior()\nx = 0\ny = 0\n" + 
 )
 RULES = 20
 SIDE_BY_SIDE = f"""
-from nep_core.tasks import PROGRAM, together
+from nep_core.program.tasks import PROGRAM, together
 def rule():
     global count
     while not PROGRAM.cancelled.is_set():

@@ -18,9 +18,9 @@ from typing import Any
 
 from benchmarks._pubsub_sides import Text, filling, free_ports
 from benchmarks._pubsub_talker import flood, ping
-from nep_core.endpoints import NETWORK_VARIABLE
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.transports import TRANSPORTS, network_for
+from nep_core.networks.endpoints import NETWORK_VARIABLE
+from nep_core.networks.transports import TRANSPORTS, network_for
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Row = dict[str, Any]
 

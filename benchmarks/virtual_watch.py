@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from nodes.sensory.arm.gestures import GESTURES
-from nodes.sensory.arm.simulate import perform
+from nodes.sensory.arm.people import perform
 
 MODELS = Path(__file__).resolve().parents[2] / "shared" / "data" / "nep_models"
 _RATE_HZ = 32.0

@@ -24,10 +24,10 @@ from nep_studio.blocks.operations.finding import find
 from nep_studio.blocks.typing_in.suggesting import suggestions
 from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.minimap import Minimap
-from nep_studio.ui.palette.palette import Palette
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.words import tr, use_language
+from nep_studio.ui.workbench.minimap import Minimap
+from nep_studio.ui.workbench.palette.palette import Palette
 
 _BLOCKS = 5000
 _FRAME_MS = 1000 / 60

@@ -8,8 +8,8 @@ from typing import Any
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPen
 
-from nep_studio.ui.theme import load_theme
-from nep_studio.ui.theme.fonts import text_font
+from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.theme.look import text_font
 
 SCALE = 2
 CELL = 50.0

@@ -10,18 +10,18 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter
 
-from nep_core.messages import ActionRequest, RobotState
+from nep_core.wire.messages import ActionRequest, RobotState
 from nep_studio.ui.robot_view.camera import Camera, Lens
 from nep_studio.ui.robot_view.figure import load_figure
 from nep_studio.ui.robot_view.painter import ScenePainter
 from nep_studio.ui.robot_view.scene import Scene, SceneRobot
-from nep_studio.ui.theme import load_theme
-from nodes.action.naobody.actor import FINAL, Actor
-from nodes.action.naobody.animations import Animation, load_animations
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.motion import TICK_S
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.virtual import VirtualDriver
+from nep_studio.ui.theme.colours import load_theme
+from robots.body.actor import FINAL, Actor
+from robots.body.animations import Animation, load_animations
+from robots.body.body import load_body
+from robots.body.motion import TICK_S
+from robots.body.pose import VirtualRobot
+from robots.body.virtual import VirtualDriver
 
 FRAMES = 8
 WIDE, HIGH = 156, 196

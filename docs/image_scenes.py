@@ -8,9 +8,9 @@ from image_window import SMALL, Stage, around, block_of, drag, part_of, picture,
 from PySide6.QtCore import QPoint, QPointF, QRect, QSize
 from PySide6.QtGui import QImage
 
-from nep_studio.blocks.edits import DeleteBlocks
+from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.main_window import MainWindow
 
 Scene = Callable[[Stage], QImage]
 SCENES: dict[str, Scene] = {}

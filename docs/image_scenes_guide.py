@@ -8,10 +8,11 @@ from image_window import SIZE, Stage, block_of, part_of, picture, quiet
 from PySide6.QtCore import QRect, QSize
 from PySide6.QtGui import QImage
 
-from nep_studio.blocks.edits import DeleteBlocks, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.places import InStack
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.show.mode import ShowMode
+from nep_studio.ui.plugins.show import ShowMode
+from nep_studio.ui.shell.main_window import MainWindow
 
 __all__ = ["SCENES"]
 

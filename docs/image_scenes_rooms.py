@@ -7,9 +7,9 @@ from image_window import Stage, picture, quiet
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.trainer.panel import TrainerPanel
-from nep_studio.ui.watches.dialog import WatchDialog
+from nep_studio.ui.plugins.gestures.panel import TrainerPanel
+from nep_studio.ui.plugins.watches.dialog import WatchDialog
+from nep_studio.ui.shell.main_window import MainWindow
 
 __all__ = ["SCENES"]
 

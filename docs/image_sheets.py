@@ -10,8 +10,8 @@ from PySide6.QtCore import QPoint, QSize
 from PySide6.QtGui import QColor, QImage, QPainter
 
 from nep_studio import paths
-from nep_studio.ui.canvas.scrolling import ScrollingView
-from nep_studio.ui.theme import themes
+from nep_studio.ui.canvas.view import ScrollingView
+from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.words import PSEUDO
 
 LANGUAGES = ("en", "ja", PSEUDO)

@@ -24,10 +24,10 @@ from PySide6.QtWidgets import QApplication, QWidget
 from nep_studio import paths
 from nep_studio.settings import Settings
 from nep_studio.ui import words
-from nep_studio.ui.app import Studio, make_application
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.theme import load_fonts
+from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.theme.look import load_fonts
 
 SIZE = (1280, 800)
 SMALL = (900, 600)

@@ -22,7 +22,11 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from nep_studio.blocks.files import load, save  # noqa: E402
+from nep_studio.blocks.files import (  # noqa: E402
+    from_bytes,
+    load,
+    save,
+)
 from nep_studio.blocks.own_gestures import (  # noqa: E402  (the project's folder comes first)
     OwnGesture,
     OwnRecogniser,
@@ -31,20 +35,21 @@ from nep_studio.blocks.own_gestures import (  # noqa: E402  (the project's folde
     keep_gesture,
     keep_recogniser,
     keep_recording,
+    packed_samples,
     training_digest,
 )
-from nep_studio.blocks.packed_samples import packed_samples  # noqa: E402
-from nep_studio.blocks.reading import from_bytes  # noqa: E402
-from nep_studio.studio_language import studio_language  # noqa: E402
-from nodes.perceptual.recognition.model_file import write_model  # noqa: E402
-from nodes.perceptual.recognition.passages import takes_of  # noqa: E402
+from nep_studio.run.installation import studio_language  # noqa: E402
+from nodes.perceptual.recognition.model import write_model  # noqa: E402
+from nodes.perceptual.recognition.streams import takes_of  # noqa: E402
 from nodes.perceptual.recognition.training import train  # noqa: E402
 from nodes.recordings import Recording  # noqa: E402
 from nodes.sensory.arm.everyday import rest  # noqa: E402
 from nodes.sensory.arm.gestures import Gesture, KeyStroke, arm, trunk  # noqa: E402
-from nodes.sensory.arm.people import person_numbered  # noqa: E402
-from nodes.sensory.arm.performer import Performer  # noqa: E402
-from nodes.sensory.arm.simulate import simulate_everyday  # noqa: E402
+from nodes.sensory.arm.people import (  # noqa: E402
+    Performer,
+    person_numbered,
+    simulate_everyday,
+)
 
 FILE = ROOT / "resources" / "examples" / "own_gestures.nep"
 PERSON, TAKES, RATE_HZ, EVERYDAY_S = 150, 5, 50.0, 60.0

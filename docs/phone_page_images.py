@@ -62,8 +62,8 @@ def _photograph() -> None:
     from image_files import write_small
     from PySide6.QtGui import QImage
 
+    from nodes.sensory.connectors.connector import Settings
     from nodes.sensory.phone_page.server import PhonePage
-    from nodes.sensory.ways.way import Settings
     from tests.nodes.sensory.chromium import Chromium
 
     with tempfile.TemporaryDirectory(prefix="nep-page-") as folder:

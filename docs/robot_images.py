@@ -23,10 +23,10 @@ from PySide6.QtCore import QSize  # noqa: E402  the platform comes first
 from PySide6.QtGui import QImage  # noqa: E402
 from PySide6.QtWidgets import QApplication  # noqa: E402
 
-from nep_core.messages import RobotState, Thing  # noqa: E402
+from nep_core.wire.messages import RobotState, Thing  # noqa: E402
 from nep_studio.ui.robot_view.figure import load_figure  # noqa: E402
 from nep_studio.ui.robot_view.view import RobotView, nao_folder  # noqa: E402
-from nep_studio.ui.theme import Look, load_fonts  # noqa: E402
+from nep_studio.ui.theme.look import Look, load_fonts  # noqa: E402
 
 SIZE = QSize(800, 500)
 BLUE, GREEN, WARM = 0x30C8FF, 0x50F0A0, 0xFFB040

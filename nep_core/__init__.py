@@ -7,13 +7,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from nep_core.behavior import Behavior
-    from nep_core.broker import Broker
-    from nep_core.broker_network import BrokerNetwork
-    from nep_core.choosing import in_turn, one_of
-    from nep_core.colours import colour_from, mix_colours
     from nep_core.errors import NepError
-    from nep_core.human import (
+
+    from .networks.broker import Broker, BrokerNetwork
+    from .networks.master import Master
+    from .networks.zmq_networks import DirectNetwork, PeerNetwork
+    from .processes.launcher import Launcher
+    from .processes.node import Node
+    from .program.behavior import Behavior, in_turn, one_of
+    from .program.human import (
         heard_word,
         human_state,
         is_remembered,
@@ -22,43 +24,38 @@ if TYPE_CHECKING:
         until_state,
         was_seen,
     )
-    from nep_core.launcher import Launcher
-    from nep_core.master import Master
-    from nep_core.node import Node
-    from nep_core.p2p import PeerNetwork
-    from nep_core.pubsub import Publisher, Subscriber
-    from nep_core.robot import Robot
-    from nep_core.tasks import stop_program, together, wait, wait_until
-    from nep_core.zmq_network import DirectNetwork
+    from .program.robot import Robot, colour_from, mix_colours
+    from .program.tasks import stop_program, together, wait, wait_until
+    from .wire.pubsub import Publisher, Subscriber
 
 _HOMES = {
-    "Behavior": "behavior",
-    "Broker": "broker",
-    "BrokerNetwork": "broker_network",
-    "DirectNetwork": "zmq_network",
-    "Launcher": "launcher",
-    "Master": "master",
+    "Behavior": "program.behavior",
+    "Broker": "networks.broker",
+    "BrokerNetwork": "networks.broker",
+    "DirectNetwork": "networks.zmq_networks",
+    "Launcher": "processes.launcher",
+    "Master": "networks.master",
     "NepError": "errors",
-    "Node": "node",
-    "PeerNetwork": "p2p",
-    "Publisher": "pubsub",
-    "Robot": "robot",
-    "Subscriber": "pubsub",
-    "colour_from": "colours",
-    "heard_word": "human",
-    "human_state": "human",
-    "in_turn": "choosing",
-    "is_remembered": "human",
-    "mix_colours": "colours",
-    "one_of": "choosing",
-    "remember": "human",
-    "stop_program": "tasks",
-    "times_seen": "human",
-    "together": "tasks",
-    "until_state": "human",
-    "was_seen": "human",
-    "wait": "tasks",
-    "wait_until": "tasks",
+    "Node": "processes.node",
+    "PeerNetwork": "networks.zmq_networks",
+    "Publisher": "wire.pubsub",
+    "Robot": "program.robot",
+    "Subscriber": "wire.pubsub",
+    "colour_from": "program.robot",
+    "heard_word": "program.human",
+    "human_state": "program.human",
+    "in_turn": "program.behavior",
+    "is_remembered": "program.human",
+    "mix_colours": "program.robot",
+    "one_of": "program.behavior",
+    "remember": "program.human",
+    "stop_program": "program.tasks",
+    "times_seen": "program.human",
+    "together": "program.tasks",
+    "until_state": "program.human",
+    "was_seen": "program.human",
+    "wait": "program.tasks",
+    "wait_until": "program.tasks",
 }
 
 __all__ = [

@@ -25,21 +25,11 @@ NepError
 
 from __future__ import annotations
 
+from faults import FaultError
 
-class NepError(Exception):
-    """An error that a person can act on: what happened, and a checklist of what to try in order."""
 
-    title = "Something went wrong"
-
-    def __init__(
-        self, sentence: str, *, checklist: tuple[str, ...] = (), details: str = ""
-    ) -> None:
-        super().__init__(sentence)
-        self.sentence = sentence
-        self.checklist = checklist
-        self.details = details
-        for step in checklist:
-            self.add_note(f"  [ ] {step}")  # what a traceback of somebody's script shows, too
+class NepError(FaultError):
+    """An error of programs that talk to each other, or of what they are made of."""
 
 
 class NetworkError(NepError):

@@ -13,12 +13,13 @@ from collections.abc import Callable
 from typing import Any
 
 from nep_core.errors import NepError
-from nep_core.human import human_listener
-from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.messages import HumanBehavior
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.robot import Robot
-from nep_core.tasks import PROGRAM, Cancelled
+
+from .processes.launcher import LaunchedNode, Launcher
+from .program.human import human_listener
+from .program.robot import Robot
+from .program.tasks import PROGRAM, Cancelled
+from .wire.messages import HumanBehavior
+from .wire.pubsub import Publisher, Subscriber
 
 __all__ = ["launcher", "publisher", "robot", "robot_behaviors", "subscriber"]
 
@@ -106,7 +107,9 @@ class robot_behaviors:  # noqa: N801  the paper's name
     def __init__(self, kind: str = "reactive") -> None:
         if kind != "reactive":
             raise NepError(
-                f'There is no "{kind}" behaviour.', checklist=('Use robot_behaviors("reactive").',)
+                'There is no "{kind}" behaviour.',
+                checklist=('Use robot_behaviors("reactive").',),
+                kind=kind,
             )
 
     def run(self) -> None:

@@ -10,23 +10,23 @@ from importlib import import_module
 
 JOBS = {
     "run": "nep_studio.commands.run:main",
-    "show": "nep_studio.ui.show.command:main",
-    "code": "nep_studio.commands.code:main",
-    "check": "nep_studio.commands.check:main",
+    "show": "nep_studio.ui.plugins.show.command:main",
+    "code": "nep_studio.commands.project:code",
+    "check": "nep_studio.commands.project:check",
     "doctor": "nep_studio.commands.doctor:main",
-    "doctor-screen": "nep_studio.ui.support.screen:main",
+    "doctor-screen": "nep_studio.ui.shell.screen_report:main",
     "node": "nep_core.cli.node:main",
-    "guard": "nep_core.guard:main",
+    "guard": "nep_core.processes.guard:main",
     "naoqi": "nep_studio.commands.naoqi:main",
-    "exec": "nep_studio.commands.execute:main",
+    "exec": "nep_studio.commands.project:execute",
     "train": "nodes.perceptual.recognition.command:main",
     "train-worker": "nodes.perceptual.recognition.worker:main",
     "master": "nep_core.cli.services:run_master",
     "nep": "nep_core.cli:main",
-    "picture": "nep_studio.ui.window_picture:main",
+    "picture": "nep_studio.ui.shell.window_picture:main",
 }
 
-WINDOW = "nep_studio.ui.app:main"
+WINDOW = "nep_studio.ui.shell.app:main"
 ON_A_SCREEN = ("show", "picture")
 """The jobs that need a display, as the window does."""
 
@@ -82,7 +82,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _begin(words: list[str]) -> list[str]:
     """Choose where things are kept, and what is left out; the words without the options of that."""
-    from nep_studio import portable, safe_mode
+    from .support import portable, safe_mode
 
     options = set()
     while words and words[0] in (portable.OPTION, safe_mode.OPTION):

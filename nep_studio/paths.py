@@ -20,3 +20,23 @@ def resources() -> Path:
 def examples() -> Path:
     """The example projects."""
     return resources() / "examples"
+
+
+# Where the documentation that comes with the program lies: pages for a browser.
+
+ENGLISH, FIRST = "en", "index.html"
+
+
+def documentation_folder() -> Path:
+    """In a frozen program beside its resources; in a checkout where docs/build_site.py makes it."""
+    frozen = getattr(sys, "_MEIPASS", None)
+    if frozen:
+        return Path(frozen) / "documentation"
+    return Path(__file__).resolve().parent.parent / "build" / "site"
+
+
+def first_page(language: str) -> Path | None:
+    """The page to begin with in a language, else in English; None where there are no pages."""
+    folder = documentation_folder()
+    own = folder if language == ENGLISH else folder / language
+    return next((each / FIRST for each in (own, folder) if (each / FIRST).is_file()), None)

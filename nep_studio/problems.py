@@ -5,8 +5,7 @@ from __future__ import annotations
 import unicodedata
 from dataclasses import dataclass
 
-from nep_core.errors import NepError
-from nep_studio.blocks.errors import BlocksError
+from faults import FaultError, Words
 
 _INVISIBLE = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 """Categories of Unicode: controls, marks such as "write from right to left", ends of lines."""
@@ -18,9 +17,9 @@ _JOINERS = "\u200c\u200d"
 class Problem:
     """A title, one sentence, where it is, a checklist, and technical details to copy."""
 
-    title: str
-    sentence: str = ""
-    checklist: tuple[str, ...] = ()
+    title: Words
+    sentence: Words = ""
+    checklist: tuple[Words, ...] = ()
     details: str = ""
     place: str = ""
 
@@ -28,11 +27,11 @@ class Problem:
         place = f"  at {self.place}" if self.place else ""
         steps = (f"  [ ] {step}" for step in self.checklist)
         return "\n".join(
-            on_one_line(part) for part in (self.title, self.sentence, place, *steps) if part
+            on_one_line(str(part)) for part in (self.title, self.sentence, place, *steps) if part
         )
 
 
-def problem_of(error: NepError | BlocksError) -> Problem:
+def problem_of(error: FaultError) -> Problem:
     """The problem that an error tells of."""
     return Problem(error.title, error.sentence, error.checklist, error.details)
 

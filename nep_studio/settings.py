@@ -14,7 +14,8 @@ from typing import Literal
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
 
 from nep_core.places import log_folder, portable_folder
-from nep_studio.portable import kept_name, not_kept, path_of
+
+from .support.portable import kept_name, not_kept, path_of
 
 FOLDER_VARIABLE = "NEP_STUDIO_FOLDER"
 """Another place for settings, journals and logs than the user's folder."""

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import logging
+import re
 import socket
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
@@ -14,18 +16,74 @@ import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.errors import NepError, NetworkError
-from nep_core.messages import NodeState
+from nep_core.networks.security.addresses import endpoint_at, is_ours
+from nep_core.networks.security.keys import Computer, Keys
+from nep_core.networks.security.opening import DOOR_PORT, MASTER_PORT, Opening
+from nep_core.networks.security.pairing import Code, DoorEvent
 from nep_core.places import key_file
-from nep_core.security.addresses import endpoint_at, is_ours
-from nep_core.security.door import Code, DoorEvent
-from nep_core.security.keys import Computer, Keys
-from nep_core.security.opening import DOOR_PORT, MASTER_PORT, Opening
-from nep_studio.local_network import STUDIO, LocalNetwork
-from nep_studio.other_network import UsedKeys, pair_with
-from nep_studio.own_master import free_endpoint
-from nep_studio.refusals import Refusal, Refusals, refusals_in
+from nep_core.wire.messages import NodeState
+
+from .run.local_network import STUDIO, LocalNetwork, UsedKeys, free_endpoint, pair_with
 
 log = logging.getLogger(__name__)
+
+
+# Who was not let in to an opened network, from what the master, the nodes and the door tell.
+
+RefusalKind = Literal["stranger", "own_program", "unable", "wrong_code", "code_used_up"]
+
+MOST = 20
+
+_TOLD: tuple[tuple[RefusalKind, re.Pattern[str]], ...] = (
+    ("stranger", re.compile(r"A program at (?P<places>.+?) showed no key of this network")),
+    ("own_program", re.compile(r"A program of this computer showed no key of this network")),
+    ("unable", re.compile(r"The program at (?P<places>.+?) does not have the keys")),
+)
+"""How nep_core/networks/security/curve.py tells of those who were not let in."""
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Who was not let in, from where ("" when it is this computer), and when (time.time())."""
+
+    kind: RefusalKind
+    address: str
+    time_s: float
+
+
+class Refusals:
+    """The last ones, each once; who knocks again moves to the front."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, str], Refusal] = {}
+
+    def add(self, refusal: Refusal) -> bool:
+        """Note one; whether it is news."""
+        key = refusal.kind, refusal.address
+        is_new = self._known.pop(key, None) is None
+        self._known[key] = refusal
+        while len(self._known) > MOST:
+            del self._known[next(iter(self._known))]
+        return is_new
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._known.clear()
+
+    @property
+    def newest_first(self) -> list[Refusal]:
+        """All that are known."""
+        return list(reversed(self._known.values()))
+
+
+def refusals_in(told: str) -> Iterator[Refusal]:
+    """What a warning says of those who were refused; nothing when it is about something else."""
+    for kind, pattern in _TOLD:
+        for found in pattern.finditer(told):
+            places = found.groupdict().get("places", "")
+            for address in places.partition(" and ")[0].split(", "):
+                yield Refusal(kind, address, time.time())
+
 
 State = Literal["closed", "busy", "open", "joined"]
 
@@ -187,8 +245,9 @@ class Sharing(QObject):
     def _open(self, address: str) -> None:
         if not is_ours(address):
             raise NetworkError(
-                f"This computer is not at {address} any more.",
+                "This computer is not at {address} any more.",
                 checklist=("Is it still in that network?", "Choose its address of now."),
+                address=address,
             )
         free = [free_endpoint(endpoint_at(address, port)) for port in self.ports]
         master, door = (int(endpoint.rpartition(":")[2]) for endpoint in free)

@@ -24,9 +24,10 @@ def resource_folder() -> Path:
         "The files that come with NEP Studio (its resources folder) are not where they should be.",
         checklist=(
             "Install NEP Studio again.",
-            f"If you moved that folder yourself, put its place in the variable {OVERRIDE}.",
+            "If you moved that folder yourself, put its place in the variable {override}.",
         ),
         details=f"Looked in: {tried}",
+        override=OVERRIDE,
     )
 
 

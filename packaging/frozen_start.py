@@ -34,7 +34,7 @@ def start() -> int:
         write_at_once()
     if Path(sys.argv[0]).stem == "nep":
         from nep_core.cli import main as nep
-        from nep_studio import portable
+        from nep_studio.support import portable
 
         portable.begin()
         return nep(sys.argv[1:])

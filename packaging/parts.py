@@ -21,7 +21,7 @@ NOT_SHIPPED = (
 )
 """What a checkout's folders hold that nobody needs: parts of paths."""
 
-OURS = ("nep_core", "nodes", "nep_studio")
+OURS = ("faults", "nep_core", "nodes", "robots", "nep_studio")
 """Collected whole: jobs, panels, transports and nodes are imported by their names."""
 
 LATE = ("sklearn.ensemble", "bleak", "mcap.reader", "mcap.writer", "zeroconf", "spake2")

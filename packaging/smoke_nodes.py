@@ -18,13 +18,13 @@ import parts
 from numpy.typing import NDArray
 from smoke_program import Figures, Program, expect
 
-from nep_core.launcher import Launcher
-from nep_core.manifest import NodeCatalog
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import Launcher
+from nep_core.processes.manifest import NodeCatalog
 from nep_studio.blocks.files import load
-from nep_studio.gesture_files import take_files
-from nep_studio.studio_language import studio_language
+from nep_studio.project.kept_files import take_files
+from nep_studio.run.installation import studio_language
 
 ROUNDS = 3
 READY_S = 20.0
@@ -69,7 +69,9 @@ def _launcher(program: Program, folder: Path, *more: Path) -> Iterator[Launcher]
     folders = (*more, program.folder / "nodes")
     try:
         with (
-            mock.patch("nep_core.launcher.program_command", lambda *w: [*program.words, *w]),
+            mock.patch(
+                "nep_core.processes.launcher.program_command", lambda *w: [*program.words, *w]
+            ),
             PeerNetwork("smoke", master=master.endpoint) as network,
             Launcher(folders=folders, master=master.endpoint, logs=folder) as launcher,
         ):

@@ -20,10 +20,10 @@ import pytest
 from hypothesis import HealthCheck, Phase, settings
 
 from benchmarks.virtual_display import NoDisplay, virtual_display
-from nep_core.default_network import set_default_network
-from nep_core.endpoints import MASTER_VARIABLE
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.master import Master
+from nep_core.networks.transports import set_default_network
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.places import ROBOT_FILES_VARIABLE
 
 PROJECT = Path(__file__).resolve().parent.parent

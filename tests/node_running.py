@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Subscriber
 
 NODES = Path(__file__).resolve().parents[1] / "nodes"
 WAIT_S = 20.0
@@ -21,8 +21,8 @@ WAIT_S = 20.0
 START = """
 import ast, sys
 from pathlib import Path
-from nep_core.manifest import read_manifest
-from nep_core.run_node import run_node
+from nep_core.processes.manifest import read_manifest
+from nep_core.cli.node import run_node
 sys.exit(run_node(read_manifest(Path(sys.argv[1])), sys.argv[2], ast.literal_eval(sys.argv[3])))
 """
 

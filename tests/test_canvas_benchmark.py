@@ -11,8 +11,8 @@ from benchmarks.canvas_blockly import chromium, measuring
 from benchmarks.canvas_driving import Driver, NotPainted
 from benchmarks.canvas_reference import ReferenceView
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import DeleteBlocks
-from nep_studio.ui.theme import LIGHT, load_theme
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.ui.theme.colours import LIGHT, load_theme
 
 
 @pytest.fixture

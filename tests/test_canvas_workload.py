@@ -5,10 +5,9 @@ from pathlib import Path
 import pytest
 
 from benchmarks import canvas_workload as workload
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
 
 
 @pytest.fixture(scope="module")

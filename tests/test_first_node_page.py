@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.endpoints import MASTER_VARIABLE
-from nep_core.master_probe import ask_master
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.master_messages import ask_master
 from nep_core.places import NODES_VARIABLE
 from tests.conftest import PROJECT
 

@@ -13,10 +13,10 @@ from benchmarks._gesture_report import as_data, at_best, rows_of
 from benchmarks._gesture_scores import CLEAN, Score
 from benchmarks._gesture_sensors import LOSSY, NO_GYROSCOPE, SLOW, TURNED, worse
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.matching import Tally
-from nodes.perceptual.recognition.passages import takes_of
+from nodes.perceptual.recognition.streams import takes_of
+from nodes.perceptual.recognition.validation import Tally
 from nodes.recordings import write_recording
-from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
 RATE_HZ = 33.0
 

@@ -5,8 +5,8 @@ import pytest
 
 from benchmarks._gesture_paper import PaperMatching, split
 from benchmarks._gesture_references import Looks, NearestByWarping, fire, warped_distances
-from nodes.perceptual.recognition.passages import takes_of
-from nodes.sensory.arm.simulate import perform, simulate_everyday, simulate_session
+from nodes.perceptual.recognition.streams import takes_of
+from nodes.sensory.arm.people import perform, simulate_everyday, simulate_session
 
 RATE_HZ = 33.0
 

@@ -5,8 +5,8 @@ from PySide6.QtWidgets import QApplication
 
 from benchmarks import _sensors_child, sensors
 from benchmarks.__main__ import benchmark_names, complete
-from nep_studio.ui.panels.sensors.feed import SensorFeed
-from nep_studio.ui.theme import Look
+from nep_studio.ui.plugins.sensors.feed import SensorFeed
+from nep_studio.ui.theme.look import Look
 
 pytestmark = pytest.mark.qt_log_ignore("This plugin does not support")
 
@@ -48,7 +48,7 @@ def test_curves_that_are_not_drawn_are_no_success(
 
     _sensors_child.check_curves(plots)
 
-    monkeypatch.setattr("nep_studio.ui.panels.sensors.live_layer.lines", lambda *_: [])
+    monkeypatch.setattr("nep_studio.ui.plugins.sensors.live_layer.lines", lambda *_: [])
     plots.resize(900, 300)
     plots.draw()
     with pytest.raises(RuntimeError, match="is not drawn"):

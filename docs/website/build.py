@@ -14,10 +14,10 @@ from pathlib import Path
 from nep_studio import paths
 from nep_studio.blocks.language import Language
 from nep_studio.help.texts import help_folder
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.help.book import Book, Rows
-from nep_studio.ui.help.node_pages import manifests, node_title
-from nep_studio.ui.theme import APPLICATION_ICON, icon_path
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.plugins.help.pages import manifests, node_title
+from nep_studio.ui.plugins.help.repository import Book, Rows
+from nep_studio.ui.theme.icons import APPLICATION_ICON, icon_path
 from nep_studio.ui.words import use_language
 
 from .benchmark_rows import benchmark_rows

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
 
 NAMES = (
     "canvas",

@@ -7,16 +7,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 from html import escape
 
-from nep_core.messages import BY_TOPIC
+from nep_core.wire.messages import BY_TOPIC
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.text import sentence
-from nep_studio.help.examples import examples
-from nep_studio.help.texts import category_texts, page_texts
-from nep_studio.ui.help.block_pages import DRAG, EXAMPLE, PICTURE, text_of
-from nep_studio.ui.help.book import Book
-from nep_studio.ui.help.page_names import BLOCK, CATEGORY, HOME, HOW_TO, NODE, split
-from nep_studio.ui.help.samples import sample_clip
+from nep_studio.help.page_names import BLOCK, CATEGORY, HOME, HOW_TO, NODE, split
+from nep_studio.help.texts import category_texts, examples, page_texts
+from nep_studio.ui.plugins.help.pages import DRAG, EXAMPLE, PICTURE, sample_clip, text_of
+from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.words import tr
 
 from .markup import for_browsers

@@ -11,8 +11,8 @@ from typing import Any
 import msgspec
 from msgspec.inspect import Field
 
-from nep_core.manifest import Manifest
-from nep_core.messages import BY_TOPIC, LATCHED
+from nep_core.processes.manifest import Manifest
+from nep_core.wire.messages import BY_TOPIC, LATCHED
 
 from .markup import scrolling_table
 from .page import HERE, Page

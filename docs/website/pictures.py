@@ -14,8 +14,9 @@ from PySide6.QtSvg import QSvgGenerator
 
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-from nep_studio.ui.help.drawing import BlockPicture, PictureLook
-from nep_studio.ui.theme import Theme, load_theme, text_font
+from nep_studio.ui.canvas.block_pictures import HelpPicture, PictureLook
+from nep_studio.ui.theme.colours import Theme, load_theme
+from nep_studio.ui.theme.look import text_font
 
 POINTS = 10.0
 PIXELS_AN_EM = 15.0
@@ -118,7 +119,7 @@ def _drawing(project: Project, language: Language, theme: Theme) -> Element:
     look = PictureLook(
         theme, text_font(POINTS), is_mirrored=False, ratio=1.0, scale=1.0, widest=1.0
     )
-    picture = BlockPicture(project, language, look)
+    picture = HelpPicture(project, language, look)
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     generator = QSvgGenerator(QSvgGenerator.SvgVersion.Svg11)

@@ -12,7 +12,7 @@ from pathlib import Path
 from nep_studio import paths
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
-from nep_studio.ui.canvas.fields.titles import slot_name
+from nep_studio.ui.canvas.fields.editors import slot_name
 from nep_studio.ui.words import tr
 
 from .words import word

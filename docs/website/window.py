@@ -7,11 +7,11 @@ from pathlib import Path
 from PySide6.QtCore import qInstallMessageHandler
 
 from nep_studio.settings import Settings
-from nep_studio.ui.app import Studio, make_application
-from nep_studio.ui.help.book import Rows
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.main_window_help import on_the_canvas, shortcuts_of
-from nep_studio.ui.theme import load_fonts
+from nep_studio.ui.plugins.help.repository import Rows
+from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.shell.help_dialogs import on_the_canvas, shortcuts_of
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.theme.look import load_fonts
 
 
 class Shortcuts:

@@ -12,10 +12,11 @@ import traceback
 from importlib import import_module
 from typing import NoReturn
 
-from nep_core.cli.joining import near
 from nep_core.cli.lessons import EXIT_CODES, FIRST_STEPS, LESSONS
 from nep_core.errors import NepError
 from nep_core.places import log_folder
+
+from .console import near
 
 COMMANDS = {
     "master": ("services", "run the NEP Master, the name server of the network"),
@@ -184,7 +185,7 @@ def run_command(options: argparse.Namespace) -> int:
 def explain(error: NepError) -> str:
     """An error as text: its title, its sentence and its checklist."""
     steps = [f"  [ ] {step}" for step in error.checklist]
-    return "\n".join([error.title, error.sentence, *steps])
+    return "\n".join([error.title, str(error), *steps])
 
 
 def _explain_mistake(error: Exception) -> str:

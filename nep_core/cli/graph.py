@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Mapping
 
-from nep_core.cli.arguments import add_json
-from nep_core.cli.joining import join, registrations
 from nep_core.cli.look import add_rates, rates_of
-from nep_core.cli.showing import say, say_json
-from nep_core.messages import NODE_STATE
-from nep_core.topics import TopicEnds, topics_of
+from nep_core.networks.transports import TopicEnds, topics_of
+from nep_core.wire.messages import NODE_STATE
+
+from .console import add_json, join, registrations, say, say_json
 
 
 def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:

@@ -10,14 +10,13 @@ import time
 
 import psutil
 
-from nep_core.cli.arguments import seconds
-from nep_core.cli.joining import join, near, registrations
-from nep_core.cli.showing import say
 from nep_core.errors import NodeNotFound, NodeStopError
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.pubsub import Publisher
-from nep_core.registry import Registration
-from nep_core.transports import ask_to_stop
+from nep_core.networks.registry import Registration
+from nep_core.networks.transports import ask_to_stop
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Publisher
+
+from .console import join, near, registrations, say, seconds
 
 STOP_S = 3.0
 LOOK_S = 0.05
@@ -49,11 +48,13 @@ def run(options: argparse.Namespace) -> int:
         return 0
     if not options.force:
         raise NodeStopError(
-            f"{told.node} did not stop within {options.seconds:g} s.",
+            "{node} did not stop within {seconds} s.",
             checklist=(
-                f"Wait longer: nep kill {told.node} --seconds 30",
-                f"End its process: nep kill {told.node} --force",
+                "Wait longer: nep kill {node} --seconds 30",
+                "End its process: nep kill {node} --force",
             ),
+            node=told.node,
+            seconds=f"{options.seconds:g}",
         )
     _end(options, told, process)
     say(f"{told.node} did not stop; its process {told.pid} was ended.")
@@ -89,8 +90,10 @@ def _find(options: argparse.Namespace) -> Registration:
     if options.node not in there:
         others = near(options.node, there) or sorted(there)
         raise NodeNotFound(
-            f'No node "{options.node}" is running.',
-            checklist=(f"These are: {', '.join(others) or 'none'}.", "See them all: nep nodes"),
+            'No node "{node}" is running.',
+            checklist=("These are: {others}.", "See them all: nep nodes"),
+            node=options.node,
+            others=", ".join(others) or "none",
         )
     return there[options.node]
 
@@ -118,12 +121,14 @@ def _wait(
 def _end(options: argparse.Namespace, told: Registration, process: psutil.Process | None) -> None:
     if process is None:
         raise NodeStopError(
-            f"{told.node} did not stop, and its process {told.pid} on {told.host} cannot be "
-            "ended from here.",
+            "{node} did not stop, and its process {pid} on {host} cannot be ended from here.",
             checklist=(
-                f"Run nep kill on {told.host}, as the user who started it.",
+                "Run nep kill on {host}, as the user who started it.",
                 "Is it gone by now? See: nep nodes",
             ),
+            node=told.node,
+            pid=told.pid,
+            host=told.host,
         )
     _tell_launcher(options, told)
     try:
@@ -133,9 +138,11 @@ def _end(options: argparse.Namespace, told: Registration, process: psutil.Proces
         pass
     except psutil.Error as error:
         raise NodeStopError(
-            f"The process {told.pid} of {told.node} could not be ended.",
+            "The process {pid} of {node} could not be ended.",
             checklist=("Run nep kill as the user who started it.",),
             details=str(error),
+            pid=told.pid,
+            node=told.node,
         ) from error
 
 

@@ -14,20 +14,24 @@ from typing import Any
 
 import msgspec
 
-from nep_core.cli.arguments import add_json, add_times
-from nep_core.cli.joining import about_nobody, join, registrations
-from nep_core.cli.showing import (
+from nep_core.recordings.raw import RawMessage, RawSubscriber
+
+from .console import (
     NoField,
+    about_nobody,
+    add_json,
+    add_times,
     amount,
     field_of,
+    join,
     many,
+    registrations,
     remark,
     say,
     say_json,
     value_of,
     value_text,
 )
-from nep_core.recordings.raw import RawMessage, RawSubscriber
 
 WINDOW_S = 10.0
 WINDOW_MESSAGES = 100_000

@@ -10,15 +10,14 @@ from dataclasses import dataclass
 
 import psutil
 
-from nep_core.cli.arguments import add_json, seconds
-from nep_core.cli.joining import join, registrations
-from nep_core.cli.showing import say, say_json, table
-from nep_core.messages import BY_TOPIC, NODE_STATE, NodeState
-from nep_core.network import Network
-from nep_core.pubsub import Subscriber
+from nep_core.networks.network import Network
+from nep_core.networks.registry import Registration
+from nep_core.networks.transports import TopicEnds, topics_of
 from nep_core.recordings.raw import RawSubscriber
-from nep_core.registry import Registration
-from nep_core.topics import TopicEnds, topics_of
+from nep_core.wire.messages import BY_TOPIC, NODE_STATE, NodeState
+from nep_core.wire.pubsub import Subscriber
+
+from .console import add_json, join, registrations, say, say_json, seconds, table
 
 RATES_S = 1.0
 STATES_S = 0.3

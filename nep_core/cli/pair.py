@@ -9,16 +9,15 @@ import threading
 import time
 from pathlib import Path
 
-from nep_core import discovery
 from nep_core.cli.services import serve
 from nep_core.errors import PairingError, PortTaken
-from nep_core.master import Master
+from nep_core.networks import discovery
+from nep_core.networks.master import Master
+from nep_core.networks.security import KEYS_VARIABLE, key_file_path
+from nep_core.networks.security.keys import KeyFile
+from nep_core.networks.security.opening import DOOR_PORT, MASTER_PORT, Opening
+from nep_core.networks.security.pairing import DoorEvent, pair
 from nep_core.places import key_file
-from nep_core.security import KEYS_VARIABLE, key_file_path
-from nep_core.security.door import DoorEvent
-from nep_core.security.joining import pair
-from nep_core.security.keys import KeyFile
-from nep_core.security.opening import DOOR_PORT, MASTER_PORT, Opening
 
 SET = "set" if os.name == "nt" else "export"
 CODE_DIGITS = 6
@@ -99,12 +98,14 @@ def _master(opening: Opening) -> Master:
         return Master(opening.master, is_shared=True)
     except PortTaken as error:
         raise PortTaken(
-            f"The network cannot be opened at {opening.master}: {error.sentence}",
+            "The network cannot be opened at {master}: {sentence}",
             checklist=(
                 "Is that nep master? Stop it first: nep open is a master itself.",
                 "Is it NEP Studio? Choose there: Robots, Open to other computers.",
                 "Or choose another port: nep open --port 7200.",
             ),
+            master=opening.master,
+            sentence=error.sentence,
         ) from error
 
 
@@ -154,11 +155,12 @@ def _address_and_code(words: list[str]) -> tuple[str, str]:
     others = [part for part in parts if not part.isdigit()]
     if len(code) != CODE_DIGITS or len(others) > 1:
         raise PairingError(
-            f'"{" ".join(words)}" is no code.',
+            '"{words}" is no code.',
             checklist=(
                 "A code has six digits; the other computer shows it: nep open.",
                 "Write the address before it, as in: nep pair 192.168.1.5 482 913",
             ),
+            words=" ".join(words),
         )
     return "".join(others), code
 
@@ -180,13 +182,14 @@ def _found_door() -> tuple[str, int]:
     what = "Several open networks were found" if found else "No open network was found"
     lines = tuple(f"{one.title} on {one.computer}: nep pair {one.host} CODE" for one in found)
     raise PairingError(
-        f"{what}.",
+        "{what}.",
         checklist=(
             *lines,
             "Write the address that the other computer shows: nep pair ADDRESS CODE.",
             "Many guest and school networks hide computers from each other: then only a network "
             "of your own helps, such as a phone's hot spot.",
         ),
+        what=what,
     )
 
 

@@ -10,16 +10,28 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 
-from nep_core.cli.arguments import add_json, factor, seconds
-from nep_core.cli.joining import about_nobody, join, registrations
-from nep_core.cli.showing import amount, many, remark, say, say_json, table
 from nep_core.errors import RecordingError
-from nep_core.io_thread import Wake
-from nep_core.messages import NODE_STATE
-from nep_core.node import STOP_SIGNALS
+from nep_core.processes.node import STOP_SIGNALS
 from nep_core.recordings.file import Overview, overview
 from nep_core.recordings.player import Player
 from nep_core.recordings.recorder import Recorder
+from nep_core.wire.io_thread import Wake
+from nep_core.wire.messages import NODE_STATE
+
+from .console import (
+    about_nobody,
+    add_json,
+    amount,
+    factor,
+    join,
+    many,
+    registrations,
+    remark,
+    say,
+    say_json,
+    seconds,
+    table,
+)
 
 TOLD_S = 1.0
 LOOK_S = 0.2
@@ -185,12 +197,14 @@ def _play(options: argparse.Namespace) -> int:
             player.play(loop=options.loop)
         if not player.sent and not player.is_stopping:
             raise RecordingError(
-                f"There was nothing to play in {options.file}.",
+                "There was nothing to play in {file}.",
                 checklist=(
-                    f"See what is in it: nep play {options.file} --info",
+                    "See what is in it: nep play {file} --info",
                     "Are --from, --to and --topics right?",
-                    f"{NODE_STATE} is played only with --node-states.",
+                    "{node_state} is played only with --node-states.",
                 ),
+                file=options.file,
+                node_state=NODE_STATE,
             )
         say(f"Played {many(player.sent, 'message')} of {many(len(player.topics), 'topic')}.")
     return 0

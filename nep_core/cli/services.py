@@ -10,24 +10,70 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nep_core import lifeline
-from nep_core.broker import Broker
-from nep_core.broker_network import BrokerNetwork
-from nep_core.cli.arguments import OWN
-from nep_core.cli.router import add_router_arguments, broker_for
-from nep_core.endpoints import NETWORK_VARIABLE
 from nep_core.errors import NetworkError
-from nep_core.io_thread import Wake
-from nep_core.master import Master
-from nep_core.node import STOP_SIGNALS
-from nep_core.over_zenoh.router import ZenohRouter
-from nep_core.p2p import PeerNetwork
-from nep_core.security import KEYS_VARIABLE
-from nep_core.security.service_voice import ServiceVoice
-from nep_core.transports import transport
+from nep_core.networks.broker import Broker, BrokerNetwork
+from nep_core.networks.endpoints import NETWORK_VARIABLE
+from nep_core.networks.master import Master
+from nep_core.networks.security import KEYS_VARIABLE
+from nep_core.networks.security.opening import ServiceVoice
+from nep_core.networks.transports import transport
+from nep_core.networks.zenoh_session import ZenohRouter
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes import lifeline
+from nep_core.processes.node import STOP_SIGNALS
+from nep_core.wire.io_thread import Wake
+
+from .console import OWN
 
 if TYPE_CHECKING:
-    from nep_core.gateway import Gateway
+    from nep_core.networks.gateway.gateway import Gateway
+
+
+# The options of ``nep broker``, which is a zenoh router if that is asked for.
+
+
+def add_router_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say which options the router has."""
+    parser.add_argument(
+        "--zenoh", action="store_true", help="run a zenoh router instead (for NEP_NETWORK=zenoh)"
+    )
+    parser.add_argument(
+        "--listen",
+        action="append",
+        default=[],
+        metavar="ENDPOINT",
+        help="with --zenoh: where, such as tcp/127.0.0.1:7447 or tls/0.0.0.0:7447",
+    )
+    parser.add_argument(
+        "--connect",
+        action="append",
+        default=[],
+        metavar="ENDPOINT",
+        help="with --zenoh: the router of another site, such as tls/site.example:7447",
+    )
+    parser.add_argument(
+        "--private",
+        action="store_true",
+        help="with --zenoh: --listen is in a network that only your own computers can read",
+    )
+
+
+def broker_for(options: argparse.Namespace) -> Broker | ZenohRouter:
+    """The service that the options ask for; raises NetworkError when they do not fit together."""
+    if not options.zenoh and (options.listen or options.connect or options.private):
+        raise NetworkError(
+            "--listen, --connect and --private are for a zenoh router.",
+            checklist=("Add --zenoh.", "Or say where the broker serves: --endpoint"),
+        )
+    if not options.zenoh:
+        return Broker(options.endpoint)
+    if options.endpoint or options.keys:
+        raise NetworkError(
+            "--endpoint and --keys are for a NEP broker, not for a zenoh router.",
+            checklist=("Say where it serves: --listen tcp/127.0.0.1:7447",),
+        )
+    return ZenohRouter(options.listen, options.connect, is_private=options.private)
+
 
 SIGNAL_S = 1.0
 """Windows runs a signal's handler between two waits only."""
@@ -86,11 +132,14 @@ def _require_p2p() -> None:
     if (kind := transport()) != "p2p":
         service = "nep broker" if kind == "broker" else "nep broker --zenoh"
         raise NetworkError(
-            f"{NETWORK_VARIABLE} is {kind}: programs of that network ask no NEP master.",
+            "{network_variable} is {kind}: programs of that network ask no NEP master.",
             checklist=(
-                f"Run the service of that network: {service}",
-                f"Or take the variable {NETWORK_VARIABLE} away, here and for all programs.",
+                "Run the service of that network: {service}",
+                "Or take the variable {network_variable} away, here and for all programs.",
             ),
+            network_variable=NETWORK_VARIABLE,
+            kind=kind,
+            service=service,
         )
 
 
@@ -134,7 +183,7 @@ def run_master(arguments: list[str]) -> int:
 
 def _gateway(master: str) -> Gateway | None:
     """What lets programs of the original NEP join; the master goes on without it too."""
-    from nep_core.gateway import Gateway
+    from nep_core.networks.gateway.gateway import Gateway
     from nep_core.places import cache_folder
 
     try:

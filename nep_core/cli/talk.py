@@ -12,18 +12,17 @@ from typing import Any
 
 import msgspec
 
-from nep_core.cli.arguments import count, rate, seconds
-from nep_core.cli.joining import end_undisturbed, join
 from nep_core.cli.node import settings
-from nep_core.cli.showing import many, remark, say
 from nep_core.errors import BadMessage, NodeNotFound, NodeStartError
-from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.manifest import Manifest
-from nep_core.messages import BY_TOPIC, NODE_STATE, NodeState
-from nep_core.node_log import log_file_name
-from nep_core.outcome import Outcome
 from nep_core.places import NODES_VARIABLE
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.processes.launcher import LaunchedNode, Launcher
+from nep_core.processes.manifest import Manifest
+from nep_core.processes.node_log import log_file_name
+from nep_core.processes.process import Outcome
+from nep_core.wire.messages import BY_TOPIC, NODE_STATE, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
+
+from .console import count, end_undisturbed, join, many, rate, remark, say, seconds
 
 FIRST_SUBSCRIBER_S = 0.5
 FROM_INPUT = "-"
@@ -128,11 +127,12 @@ def _read(text: str, options: argparse.Namespace) -> Any:
         message = msgspec.json.decode(text)
     except (msgspec.MsgspecError, RecursionError, UnicodeError) as error:
         raise BadMessage(
-            f"This is not JSON: {error}.",
+            "This is not JSON: {error}.",
             checklist=(
                 """Write '{"key": "value"}', with the single quotes in this place.""",
                 "Is it a plain text? Add --text.",
             ),
+            error=error,
         ) from error
     kind = BY_TOPIC.get(options.topic)
     if kind is not None and not options.unchecked:
@@ -148,12 +148,17 @@ def _check(message: Any, kind: type[msgspec.Struct], topic: str) -> None:
         needed = [one.encode_name for one in fields if one.required]
         others = [one.encode_name for one in fields if not one.required]
         raise BadMessage(
-            f"This is no {kind.__name__}, which {topic} carries: {error}.",
+            "This is no {name}, which {topic} carries: {error}.",
             checklist=(
-                f"It needs: {', '.join(needed) or 'nothing'}.",
-                f"It may have: {', '.join(others) or 'nothing more'}.",
+                "It needs: {needed}.",
+                "It may have: {others}.",
                 "Send it all the same: add --unchecked.",
             ),
+            name=kind.__name__,
+            topic=topic,
+            error=error,
+            needed=", ".join(needed) or "nothing",
+            others=", ".join(others) or "nothing more",
         ) from error
     if isinstance(message, dict):
         unknown = sorted(set(message) - {one.encode_name for one in msgspec.structs.fields(kind)})
@@ -166,7 +171,8 @@ def _launch(options: argparse.Namespace) -> int:
 
     def told(launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if outcome.was_successful or launched.ready.is_set() or again:  # else wait_ready() tells
-            log = "" if outcome.was_successful else f" {_log(launcher, launched.name)}"
+            log_file = launcher.logs / log_file_name(launched.name)
+            log = "" if outcome.was_successful else f" Its log: {log_file}"
             say(f"{outcome}{'; it is started again' if again else ''}.{log}")
         if not again:
             endings.put(outcome)
@@ -186,23 +192,22 @@ def _launch(options: argparse.Namespace) -> int:
         try:
             launched.wait_ready()
         except NodeStartError as error:
-            error.checklist += (_log(launcher, name),)
+            log_file = launcher.logs / log_file_name(name)
+            error.advise("Its log: {log_file}", log_file=str(log_file))
             raise
         if launched.ready.is_set():
             say(f"{launched.name} is ready. Ctrl-C stops it.")
         return 0 if endings.get().was_successful else 1
 
 
-def _log(launcher: Launcher, name: str) -> str:
-    return f"Its log: {launcher.logs / log_file_name(name)}"
-
-
 def _found(launcher: Launcher, options: argparse.Namespace) -> Manifest:
     try:
         return launcher.catalog.find(f"{options.type}/{options.node}")
     except NodeNotFound as error:
-        error.checklist += (
-            f"Is it your own? Set {NODES_VARIABLE} to the folder in which {options.type}/ lies.",
+        error.advise(
+            "Is it your own? Set {variable} to the folder in which {type}/ lies.",
+            variable=NODES_VARIABLE,
+            type=options.type,
         )
         raise
 

@@ -11,14 +11,14 @@ from contextlib import ExitStack
 import msgspec
 
 from nep_core.errors import RecordingError
-from nep_core.frames import Sendable
-from nep_core.io_thread import Wake
-from nep_core.messages import LATCHED, NODE_STATE
-from nep_core.network import Network
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
+from nep_core.networks.network import Network
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.recordings.file import Overview, Recording, overview, read_recording
 from nep_core.recordings.raw import RawMessage
+from nep_core.wire.frames import Sendable
+from nep_core.wire.io_thread import Wake
+from nep_core.wire.messages import LATCHED, NODE_STATE
+from nep_core.wire.pubsub import Publisher
 
 __all__ = ["Overview", "Player", "Recording", "overview", "read_recording"]
 
@@ -162,8 +162,10 @@ def _chosen(told: Overview, topics: Collection[str] | None, node_states: bool) -
         return there if node_states else there - {NODE_STATE}
     if missing := sorted(set(topics) - there):
         raise RecordingError(
-            f"The recording has nothing of {', '.join(missing)}.",
-            checklist=(f"It has: {', '.join(sorted(there)) or 'no messages'}.",),
+            "The recording has nothing of {missing}.",
+            checklist=("It has: {sorted}.",),
+            missing=", ".join(missing),
+            sorted=", ".join(sorted(there)) or "no messages",
         )
     return set(topics)
 

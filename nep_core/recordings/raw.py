@@ -6,8 +6,8 @@ import time
 from dataclasses import dataclass
 
 from nep_core.errors import BadMessage
-from nep_core.frames import NUL, Encoding, check_topic, read_header
-from nep_core.network import HANDSHAKE_S, Network
+from nep_core.networks.network import HANDSHAKE_S, Network
+from nep_core.wire.frames import NUL, Encoding, check_topic, read_header
 
 
 @dataclass(frozen=True, slots=True)

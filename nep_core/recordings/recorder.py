@@ -12,13 +12,15 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nep_core import transports
+from faults import reason_of
 from nep_core.errors import RecordingError
-from nep_core.network import Network
-from nep_core.recordings.format import Channel, channel_of
+from nep_core.networks import transports
+from nep_core.networks.network import Network
+from nep_core.networks.registry import Registration
+from nep_core.networks.transports import topics_of
 from nep_core.recordings.raw import RawMessage, RawSubscriber, SteadyClock
-from nep_core.registry import Registration
-from nep_core.topics import topics_of
+
+from .file import Channel, channel_of
 
 if TYPE_CHECKING:
     from mcap.writer import Writer
@@ -240,24 +242,29 @@ class Recorder:
 def _cannot_open(path: Path, error: OSError) -> RecordingError:
     if isinstance(error, FileExistsError):
         return RecordingError(
-            f"{path} is there already, and it is kept.",
+            "{path} is there already, and it is kept.",
             checklist=("Choose another name.", "Or let it be replaced: add --force."),
+            path=path,
         )
     return RecordingError(
-        f"{path} cannot be written: {(error.strerror or 'unknown reason').lower()}.",
+        "{path} cannot be written: {reason}.",
         checklist=("Is there such a folder?", "May you write into it?"),
         details=str(error),
+        path=path,
+        reason=reason_of(error),
     )
 
 
 def _cannot_write(path: Path, error: OSError, kept: int) -> RecordingError:
     return RecordingError(
-        f"The recording ended because {path} cannot grow: "
-        f"{(error.strerror or 'unknown reason').lower()}. "
-        f"What was recorded before is kept: {kept} bytes.",
+        "The recording ended because {path} cannot grow: {reason}. What was recorded before is "
+        "kept: {kept} bytes.",
         checklist=(
             "Make room on the disk, or record to another one.",
             "Record fewer topics.",
         ),
         details=str(error),
+        path=path,
+        reason=reason_of(error),
+        kept=kept,
     )

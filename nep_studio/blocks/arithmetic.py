@@ -15,6 +15,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
+from faults import Text, text_of
+
+from .errors import BlocksError
+
 LONGEST_ARITHMETIC = 200
 DEEPEST_ARITHMETIC = 25
 LARGEST_NUMBER = 10**15
@@ -44,8 +48,8 @@ _OPERATIONS: dict[type[ast.operator], Callable[[Number, Number], Number]] = {
 }
 
 
-class ArithmeticRefused(ValueError):
-    """A text that cannot be calculated; its text says why."""
+class ArithmeticRefused(BlocksError):
+    """A text that cannot be calculated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +65,10 @@ class Arithmetic:
 def calculate(text: str) -> Arithmetic:
     """Read and calculate a text, or raise ArithmeticRefused."""
     if len(text) > LONGEST_ARITHMETIC:
-        raise ArithmeticRefused(f"This is too long: {LONGEST_ARITHMETIC} signs at most.")
+        raise ArithmeticRefused(
+            "This is too long: {longest_arithmetic} signs at most.",
+            longest_arithmetic=LONGEST_ARITHMETIC,
+        )
     plain = text.translate(_SIGNS).strip()
     if not plain:
         raise ArithmeticRefused("A number is needed here.")
@@ -74,9 +81,7 @@ def calculate(text: str) -> Arithmetic:
     try:
         value, node = reader.read(tree, 0)
     except (ArithmeticError, ValueError) as error:
-        if isinstance(error, ArithmeticRefused):
-            raise
-        raise ArithmeticRefused(f"“{text}” cannot be calculated.") from error
+        raise ArithmeticRefused("“{text}” cannot be calculated.", text=text) from error
     return Arithmetic(value, node, reader.needs_math)
 
 
@@ -101,9 +106,9 @@ def _require_known_signs(text: str) -> None:
         raise ArithmeticRefused("A number is written on one line.")
 
 
-def _not_understood(text: str) -> str:
+def _not_understood(text: str) -> Text:
     shown = text if len(text) <= 40 else text[:39] + "…"
-    return f"{shown!r} is not a number, nor arithmetic such as 2*pi/3."
+    return text_of("{shown} is not a number, nor arithmetic such as 2*pi/3.", shown=repr(shown))
 
 
 class _Reader:
@@ -171,5 +176,8 @@ def _power(a: Number, b: Number) -> Number:
 
 def _small(value: Number) -> Number:
     if value != value or abs(value) > LARGEST_NUMBER:
-        raise ArithmeticRefused(f"This number is too large: {LARGEST_NUMBER:,} at most.")
+        raise ArithmeticRefused(
+            "This number is too large: {largest_number} at most.",
+            largest_number=f"{LARGEST_NUMBER:,}",
+        )
     return value

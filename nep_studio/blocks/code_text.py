@@ -9,14 +9,18 @@ from dataclasses import dataclass
 from functools import lru_cache
 from types import CodeType
 
+from faults import Text, Words, text_of
+
+from .errors import BlocksError
+
 _GENERATOR_FLAGS = 0x20 | 0x80 | 0x200
 """Of a code object: it is a generator, a coroutine, or both."""
 
 
-class CodeTextRefused(ValueError):
+class CodeTextRefused(BlocksError):
     """Python that cannot be where it is; ``line`` is the one that is wrong, from 1."""
 
-    def __init__(self, sentence: str, line: int = 1) -> None:
+    def __init__(self, sentence: Words, line: int = 1) -> None:
         super().__init__(sentence)
         self.line = line
 
@@ -52,7 +56,7 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
         code = compile_quietly("\n".join([*opening, *shifted, "  pass"]))
     except CodeTextRefused as refused:
         line = min(max(refused.line - 2, 1), len(lines))
-        raise CodeTextRefused(_in_line(str(refused), line), line) from refused
+        raise CodeTextRefused(_in_line(refused.sentence, line), line) from refused
     if any(getattr(c, "co_flags", 0) & _GENERATOR_FLAGS for c in code.co_consts):
         raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
     _refuse_global(tree)
@@ -116,7 +120,7 @@ def _visible_lines(text: str) -> list[str]:
     for number, line in enumerate(lines, start=1):
         if not line.replace("\t", " ").isprintable():
             raise CodeTextRefused(
-                _in_line("There is a character here that cannot be seen.", number), number
+                _in_line(Text("There is a character here that cannot be seen."), number), number
             )
     return lines
 
@@ -137,7 +141,7 @@ def _refuse_global(tree: ast.AST) -> None:
         node = waiting.pop()
         if isinstance(node, ast.Global | ast.Nonlocal):
             raise CodeTextRefused(
-                _in_line("The program writes “global” by itself.", node.lineno), node.lineno
+                _in_line(Text("The program writes “global” by itself."), node.lineno), node.lineno
             )
         if not isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda):
             waiting += ast.iter_child_nodes(node)
@@ -185,9 +189,11 @@ def _made_by(node: ast.AST) -> Iterator[str]:
             yield name
 
 
-def _told(error: SyntaxError) -> str:
-    return f"Python does not understand this: {error.msg}."
+def _told(error: SyntaxError) -> Text:
+    return text_of("Python does not understand this: {msg}.", msg=error.msg)
 
 
-def _in_line(sentence: str, line: int) -> str:
-    return sentence if line == 1 else f"Line {line}: {sentence}"
+def _in_line(sentence: Text, line: int) -> Text:
+    if line == 1:
+        return sentence
+    return text_of("Line {line}: {sentence}", line=line, sentence=sentence)

@@ -8,13 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
-from .definition_call import CallError, read_call
-from .definitions import FLAGS, Category, Definition, Shape
+from .definitions import FLAGS, CallError, Category, Definition, Shape, read_call
 from .errors import DefinitionError
 from .program import PAGES
 from .sentence import SentenceError, groups_of, parse, slots_of
-from .slots import RESULTS
-from .values import why_not_value
+from .slots import RESULTS, why_not_value
 
 _BLOCK_KEYS = frozenset(
     ("sentence", "shape", "result", "help", "defaults", "minimum", "flags", "call", "generator")
@@ -41,7 +39,9 @@ def load_definitions(folder: Path, generators: Mapping[str, Collection[str]]) ->
     for path in sorted(folder.glob("*.toml")):
         _read_file(path, generators, found)
     if not found.definitions:
-        raise DefinitionError(f"There are no block definitions in the folder {folder}.")
+        raise DefinitionError(
+            "There are no block definitions in the folder {folder}.", folder=folder
+        )
     found.categories.sort(key=lambda category: (category.order, category.id))
     return found
 
@@ -52,14 +52,19 @@ def read_toml(path: Path) -> dict[str, Any]:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
         raise DefinitionError(
-            f"The file {path.name} cannot be read: {error}.", details=str(path)
+            "The file {name} cannot be read: {error}.",
+            details=str(path),
+            name=path.name,
+            error=error,
         ) from error
 
 
 def read_choices(path: Path, data: object) -> dict[str, dict[str, str]]:
     """Check tables of choices (value = label, or value = {label = ...}) read from a file."""
     if not isinstance(data, dict) or not all(isinstance(table, dict) for table in data.values()):
-        raise DefinitionError(f"In {path.name}, [choices] must hold tables of value = “label”.")
+        raise DefinitionError(
+            "In {name}, [choices] must hold tables of value = “label”.", name=path.name
+        )
     choices: dict[str, dict[str, str]] = {}
     for name, table in data.items():
         if table and all(isinstance(e, dict) and "label" not in e for e in table.values()):
@@ -75,7 +80,12 @@ def _read_table(path: Path, name: str, table: Mapping[str, Any]) -> dict[str, st
     for value, entry in table.items():
         label = entry.get("label") if isinstance(entry, dict) else entry
         if not isinstance(label, str) or why_not_value("choice", value) is not None:
-            raise DefinitionError(f"In {path.name}, choice “{value}” of {name} has no label.")
+            raise DefinitionError(
+                "In {name}, choice “{value}” of {name_2} has no label.",
+                name=path.name,
+                value=value,
+                name_2=name,
+            )
         labels[value] = label
     return labels
 
@@ -85,31 +95,41 @@ def _read_file(path: Path, generators: Mapping[str, Collection[str]], found: Def
     category = _read_category(path, data.get("category"))
     choices = read_choices(path, data.get("choices", {}))
     if twice := choices.keys() & found.choices.keys():
-        raise DefinitionError(f"In {path.name}, the choices “{min(twice)}” are defined twice.")
+        raise DefinitionError(
+            "In {name}, the choices “{min}” are defined twice.", name=path.name, min=min(twice)
+        )
     found.categories.append(category)
     found.choices.update(choices)
     blocks = data.get("blocks", {})
     if not isinstance(blocks, dict):
-        raise DefinitionError(f"In {path.name}, [blocks] must be a table of blocks.")
+        raise DefinitionError("In {name}, [blocks] must be a table of blocks.", name=path.name)
     for name, entry in blocks.items():
         try:
             definition = _read_block(category, name, entry, generators)
         except (SentenceError, CallError) as error:
-            raise DefinitionError(f"In {path.name}, block “{name}”: {error}.") from error
+            raise DefinitionError(
+                "In {name}, block “{name_2}”: {error}.", name=path.name, name_2=name, error=error
+            ) from error
         if definition.id in found.definitions:
-            raise DefinitionError(f"In {path.name}, block “{definition.id}” is defined twice.")
+            raise DefinitionError(
+                "In {name}, block “{id}” is defined twice.", name=path.name, id=definition.id
+            )
         found.definitions[definition.id] = definition
 
 
 def _read_category(path: Path, data: object) -> Category:
     if not isinstance(data, dict) or not isinstance(data.get("id"), str):
-        raise DefinitionError(f"The file {path.name} needs a [category] with an id.")
+        raise DefinitionError("The file {name} needs a [category] with an id.", name=path.name)
     page = data.get("page", "behaviour")
     if page not in PAGES:
-        raise DefinitionError(f"In {path.name}, the page is one of {', '.join(PAGES)}.")
+        raise DefinitionError(
+            "In {name}, the page is one of {pages}.", name=path.name, pages=", ".join(PAGES)
+        )
     title, colour, order = data.get("title"), data.get("colour"), data.get("order")
     if not isinstance(title, str) or not isinstance(colour, str) or not isinstance(order, int):
-        raise DefinitionError(f"In {path.name}, [category] needs a title, a colour and an order.")
+        raise DefinitionError(
+            "In {name}, [category] needs a title, a colour and an order.", name=path.name
+        )
     return Category(data["id"], title, colour, order, page)
 
 
@@ -200,3 +220,52 @@ def _check_code(definition: Definition, generators: Mapping[str, Collection[str]
         raise CallError(f"nep_core has no function “{call.name}” for programs")
     if call is not None and definition.shape == "hat":
         raise CallError("a hat needs a generator")
+
+
+# A robot profile: the choices that a kind of robot gives to blocks, read from robot.toml.
+
+
+@dataclass(frozen=True, slots=True)
+class RobotProfile:
+    """What a kind of robot can do.
+
+    ``node`` is the action node that plays it; ``choices`` are tables of value and label;
+    ``standing`` are the postures from which the robot can walk.
+    """
+
+    name: str
+    title: str
+    node: str
+    choices: Mapping[str, Mapping[str, str]] = field(repr=False)
+    standing: frozenset[str]
+
+
+def load_profile(path: Path) -> RobotProfile:
+    """Read a robot.toml, or raise DefinitionError, which names the file."""
+    data = read_toml(path)
+    names = [data.get(key) for key in ("name", "title", "node")]
+    if not all(isinstance(name, str) and name for name in names):
+        raise DefinitionError("The file {name} needs a name, a title and a node.", name=path.name)
+    choices = read_choices(path, data.get("choices", {}))
+    postures = data.get("choices", {}).get("postures", {})
+    standing = frozenset(
+        value
+        for value, entry in postures.items()
+        if isinstance(entry, dict) and entry.get("stands") is True
+    )
+    return RobotProfile(data["name"], data["title"], data["node"], choices, standing)
+
+
+def drivers_beside(path: Path, profile: RobotProfile) -> dict[str, Mapping[str, str]]:
+    """The table of drivers with those of the robots in the folders beside a robot's own.
+
+    So a folder with another robot adds it to the Robots page. Raises DefinitionError.
+    """
+    own = profile.choices.get("drivers")
+    if own is None or path.parent.name != profile.name:
+        return {}
+    drivers = dict(own)
+    for other in sorted(path.parent.parent.glob("*/robot.toml")):
+        for driver, label in load_profile(other).choices.get("drivers", {}).items():
+            drivers.setdefault(driver, label)
+    return {"drivers": drivers}

@@ -9,7 +9,7 @@ from typing import cast
 from .language import Language
 from .procedures import DEFINE
 from .program import Block, Project
-from .values import FieldValue, Setting
+from .slots import FieldValue, Setting
 
 ROBOT_BLOCK = "robots.robot"
 NODE_BLOCK = "nodes.launch"

@@ -9,19 +9,15 @@ BlocksError
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 
-class BlocksError(Exception):
-    """An error that a person can act on: what happened, and a checklist of what to try in order."""
+from faults import FaultError, Words
+
+
+class BlocksError(FaultError):
+    """An error of blocks, or of the files that hold or describe them."""
 
     title = "Something is wrong with the blocks"
-
-    def __init__(
-        self, sentence: str, *, checklist: tuple[str, ...] = (), details: str = ""
-    ) -> None:
-        super().__init__(sentence)
-        self.sentence = sentence
-        self.checklist = checklist
-        self.details = details
 
 
 class DefinitionError(BlocksError):
@@ -49,11 +45,13 @@ class CodeRefused(BlocksError):
 
     def __init__(
         self,
-        sentence: str,
+        sentence: Words,
+        /,
         *,
         block: str = "",
-        checklist: tuple[str, ...] = (),
+        checklist: Sequence[Words] = (),
         details: str = "",
+        **values: object,
     ) -> None:
-        super().__init__(sentence, checklist=checklist, details=details)
+        super().__init__(sentence, checklist=checklist, details=details, code="", **values)
         self.block = block

@@ -9,7 +9,9 @@ import re
 
 import msgspec
 
-from .errors import ProjectFileError
+from faults import Text, Words, text_of
+
+from .errors import BlocksError, ProjectFileError
 
 OLD_COPY = "Open an older copy of the file, if there is one."
 
@@ -24,11 +26,11 @@ _WORDS = {
 }
 
 
-class Fault(Exception):
+class Flaw(BlocksError):
     """What is wrong with a file, and with which block."""
 
-    def __init__(self, sentence: str, block: str = "") -> None:
-        super().__init__(sentence)
+    def __init__(self, sentence: Words, block: str = "", /, **values: object) -> None:
+        super().__init__(text_of(sentence, **values))
         self.block = block
 
 
@@ -39,27 +41,32 @@ def decode(data: bytes, file_name: str) -> object:
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         sentence, place = _why_not_json(data, error)
         raise ProjectFileError(
-            f"{file_name} cannot be read{place}: {sentence}",
+            "{file_name} cannot be read{place}: {sentence}",
             checklist=("Was the file copied completely? Copy it again.", OLD_COPY),
             details=str(error),
+            file_name=file_name,
+            place=place,
+            sentence=sentence,
         ) from error
 
 
-def place_in(data: bytes, block: str) -> str:
+def place_in(data: bytes, block: str) -> Text:
     """Where a block is in a file, as " at line 3, block b2"; nothing when no block is meant."""
     if not block:
-        return ""
+        return Text("")
     entry = re.search(rb'"id"\s*:\s*"' + re.escape(block.encode()) + rb'"', data)
-    line = f"line {_line_at(data, entry.start())}, " if entry else ""
-    return f" at {line}block {block}"
+    if entry is None:
+        return text_of(" at block {block}", block=block)
+    line = _line_at(data, entry.start())
+    return text_of(" at line {line}, block {block}", line=line, block=block)
 
 
-def in_words(error: msgspec.ValidationError) -> str:
+def in_words(error: msgspec.ValidationError) -> Text:
     """Turn “Expected `str`, got `int` - at `$.name`” into words."""
     what, _, where = str(error).partition(" - at ")
     place = re.sub(r"\[(\d+)\]", _entry, where.strip("`").removeprefix("$").lstrip("."))
     place = place.replace("[...]", "").replace(" .", ", ").strip()
-    return f"at {place or 'its beginning'}: {_what_in_words(what)}"
+    return _what_in_words(what, place or Text("its beginning"))
 
 
 def is_deeper(value: object, limit: int) -> bool:
@@ -77,46 +84,51 @@ def is_deeper(value: object, limit: int) -> bool:
     return True
 
 
-def _what_in_words(what: str) -> str:
+def _what_in_words(what: str, place: Text | str) -> Text:
     missing = re.fullmatch(r"Object missing required field `(\w+)`", what)
     if missing:
-        return f"“{missing[1]}” is missing"
+        return text_of("at {place}: “{missing}” is missing.", place=place, missing=missing[1])
     expected = re.fullmatch(r"Expected `([^`]+)`, got `(\w+)`", what)
     if expected is None:
-        return "this is not what belongs here"
-    wanted = " or ".join(_WORDS.get(word, "a value") for word in expected[1].split(" | "))
-    return f"{wanted} belongs here, not {_WORDS.get(expected[2], 'this')}"
+        return text_of("at {place}: this is not what belongs here.", place=place)
+    kinds = [_WORDS.get(word, "a value") for word in expected[1].split(" | ")]
+    return text_of(
+        "at {place}: {wanted} belongs here, not {told}.",
+        place=place,
+        wanted=Text(kinds[0]) if len(kinds) == 1 else " or ".join(kinds),
+        told=Text(_WORDS.get(expected[2], "this")),
+    )
 
 
 def _entry(match: re.Match[str]) -> str:
     return f" number {int(match[1]) + 1} "
 
 
-def _why_not_json(data: bytes, error: Exception) -> tuple[str, str]:
+def _why_not_json(data: bytes, error: Exception) -> tuple[Text, Text]:
     """A sentence and a place for what msgspec says about a file that is no JSON."""
     if isinstance(error, UnicodeDecodeError):
-        return "it is not text in UTF-8.", ""
+        return Text("it is not text in UTF-8."), Text("")
     if isinstance(error, RecursionError):
-        return "groups are nested too deep in it.", ""
+        return Text("groups are nested too deep in it."), Text("")
     if isinstance(error, msgspec.ValidationError):
-        return "there is a number in it that is too large.", _place_of_number(data)
+        return Text("there is a number in it that is too large."), _place_of_number(data)
     if "truncated" in str(error):
-        return "it ends too early, as if a part of it were missing.", ""
+        return Text("it ends too early, as if a part of it were missing."), Text("")
     byte = re.search(r"\(byte (\d+)\)", str(error))
     line = _line_at(data, int(byte[1]) if byte else 0)
-    return "this is not how a project is written.", f" at line {line}"
+    return Text("this is not how a project is written."), text_of(" at line {number}", number=line)
 
 
 def _line_at(data: bytes, offset: int) -> int:
     return data.count(b"\n", 0, offset) + 1
 
 
-def _place_of_number(data: bytes) -> str:
+def _place_of_number(data: bytes) -> Text:
     for number, line in enumerate(data.splitlines(), start=1):
         try:
             msgspec.json.decode(line.strip().rstrip(b","))
         except msgspec.ValidationError:
-            return f" at line {number}"
+            return text_of(" at line {number}", number=number)
         except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             continue
-    return ""
+    return Text("")

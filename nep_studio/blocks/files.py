@@ -3,15 +3,410 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
+import msgspec
+
+from faults import Text, reason_of, text_of
+
+from .connections import (
+    MOST_NOTES,
+    MOST_PAGES,
+    why_no_body,
+    why_no_field,
+    why_no_groups,
+    why_not_chained,
+    why_not_note,
+    why_not_plugged,
+    why_not_size,
+    why_not_variable_name,
+)
+from .definitions import Definition
+from .edits.content import see_ids
 from .errors import ProjectFileError
+from .file_text import OLD_COPY, Flaw, decode, in_words, is_deeper, place_in
 from .language import Language
-from .program import Project
-from .reading import from_bytes
-from .writing import to_bytes
+from .own_animations import PREFIX, why_not_animation
+from .own_gestures import why_not_kept
+from .procedures import MOST_PROCEDURES, why_not_procedure
+from .program import FARTHEST, PAGES, Block, Note, Parent, Procedure, Project, Stack, Variable
+from .slots import why_not_name, why_not_text
+
+# A project as the text of a .nep file: always the same bytes for the same project.
+#
+# Keys are sorted, blocks too, and each block, stack and variable has a line of its own, so that
+# two versions of a program compare well.
+
+FORMAT = "nep-studio-project"
+VERSION = 2
+
+
+def to_bytes(project: Project) -> bytes:
+    """The text of a project in UTF-8."""
+    pages = [
+        f"{_line(page)}: {_lines(msgspec.to_builtins(stack) for stack in stacks)}"
+        for page, stacks in sorted(project.pages.items())
+    ]
+    blocks = sorted(project.blocks.values(), key=lambda block: natural_key(block.id))
+    notes = sorted(project.notes.values(), key=lambda note: natural_key(note.id))
+    titles = project.page_titles
+    entries = {
+        "blocks": _lines(map(_block, blocks)),
+        "format": f'"{FORMAT}"',
+        "name": _line(project.name),
+        "notes": _lines(map(msgspec.to_builtins, notes)),
+        "page_order": _lines({"id": page, "title": titles.get(page, "")} for page in project.pages),
+        "pages": "{\n" + ",\n".join(pages) + "\n}",
+        "procedures": _lines(map(msgspec.to_builtins, project.procedures.values())),
+        "variables": _lines(map(msgspec.to_builtins, project.variables)),
+        "version": str(VERSION),
+        **{key: _line(value) for key, value in project.extra.items()},
+    }
+    text = ",\n".join(f"{_line(key)}: {entries[key]}" for key in sorted(entries))
+    return ("{\n" + text + "\n}\n").encode()
+
+
+def natural_key(some_id: str) -> tuple[str, int, str]:
+    """Sort b2 before b10."""
+    digits = re.search(r"[0-9]{1,15}$", some_id)
+    return (some_id[: digits.start()], int(digits[0]), some_id) if digits else (some_id, -1, "")
+
+
+def _block(block: Block) -> dict[str, Any]:
+    """What is not said is empty, off or the default; extra keys are as they were."""
+    entry: dict[str, Any] = msgspec.to_builtins(block)
+    entry.update(entry.pop("extra", {}))
+    for size in ("comment_width", "comment_height"):
+        if not entry.get(size, 1):
+            del entry[size]
+    groups = {name: count for name, count in block.groups.items() if count}
+    if groups:
+        entry["groups"] = groups
+    elif block.groups:
+        del entry["groups"]
+    return entry
+
+
+def _lines(entries: Iterable[object]) -> str:
+    lines = ",\n".join(map(_line, entries))
+    return f"[\n{lines}\n]" if lines else "[]"
+
+
+def _line(entry: object) -> str:
+    return msgspec.json.encode(entry, order="sorted").decode()
+
+
+# Whether whole blocks and chains, read from a file or a clipboard, fit their definitions.
+
+
+def why_not_block(block: Block, blocks: Mapping[str, Block], language: Language) -> Text | None:
+    """Why a block and those directly inside it do not fit; a block of an unknown type always does.
+
+    ``blocks`` holds at least the blocks inside it.
+    """
+    definition = language.definitions.get(block.type)
+    if definition is None:
+        return None
+    return next(_reasons(block, definition, blocks, language), None)
+
+
+def why_not_stack(
+    chain: Sequence[str], blocks: Mapping[str, Block], language: Language
+) -> tuple[str, Text] | None:
+    """The first block that cannot be where it is in a stack, and why."""
+    for block_id in chain:
+        definition = language.definitions.get(blocks[block_id].type)
+        is_first = block_id == chain[0]
+        reason = why_not_chained(definition, first_in_stack=is_first)
+        if definition is not None and definition.is_value and len(chain) > 1:
+            reason = reason or Text(
+                "A block that gives a value goes into a slot: nothing is below it."
+            )
+        if reason is not None:
+            return block_id, reason
+    return None
+
+
+def _reasons(
+    block: Block, definition: Definition, blocks: Mapping[str, Block], language: Language
+) -> Iterator[Text]:
+    if block.groups and (reason := why_no_groups(block, definition)) is not None:
+        yield reason
+    for key, value in block.fields.items():
+        slot = definition.slot(key, block.groups)
+        if slot is not None and slot.why_not(value) is None:
+            continue
+        if (reason := why_no_field(block, key, value, language)) is not None:
+            yield text_of("“{key}”: {reason}", key=key, reason=reason)
+    for key, plugged in block.inputs.items():
+        reason = why_not_plugged(block, key, blocks[plugged], language.definitions)
+        if reason is not None:
+            yield text_of("“{key}”: {reason}", key=key, reason=reason)
+    for key, chain in block.bodies.items():
+        if (reason := why_no_body(block, key, language.definitions)) is not None:
+            yield reason
+        for child in chain:
+            inner = language.definitions.get(blocks[child].type)
+            if (reason := why_not_chained(inner, first_in_stack=False)) is not None:
+                yield reason
+
+
+# The text of a .nep file as a project; whatever is wrong names the file, the place, the remedy.
+#
+# Nothing here trusts the file: its size, its nesting, its types, its ids, its shape as a forest,
+# and each value is checked.
+
+DEEPEST_EXTRA = 100
+_ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
+_TYPE = re.compile(r"[A-Za-z0-9_.-]{1,128}")
+_KNOWN_KEYS = frozenset(Block.__struct_fields__) - {"extra"}
+_UNKNOWN_TYPE_KEYS = _KNOWN_KEYS - {"fields", "groups"}
+
+
+class _Page(msgspec.Struct):
+    id: str
+    title: str = ""
+
+
+class _File(msgspec.Struct):
+    """The file; version 1 had neither own blocks nor notes, and three pages."""
+
+    format: str
+    version: int
+    name: str
+    pages: dict[str, list[Stack]]
+    blocks: list[dict[str, Any]]
+    variables: list[Variable] = []
+    procedures: list[Procedure] = []
+    notes: list[Note] = []
+    page_order: list[_Page] = []
+
+
+def from_bytes(data: bytes, file_name: str, language: Language) -> Project:
+    """Read a project, or raise ProjectFileError."""
+    decoded = decode(data, file_name)
+    if not isinstance(decoded, dict) or decoded.get("format") != FORMAT:
+        raise ProjectFileError(
+            "{file_name} is not a NEP Studio project.",
+            checklist=("Choose a file that NEP Studio has saved; its name ends in .nep.",),
+            file_name=file_name,
+        )
+    version = decoded.get("version")
+    if isinstance(version, int) and version > VERSION:
+        raise ProjectFileError(
+            "{file_name} was saved by a newer NEP Studio (format {version}; this one reads up to "
+            "{version_2}).",
+            checklist=("Update NEP Studio, then open the file again.",),
+            file_name=file_name,
+            version=version,
+            version_2=VERSION,
+        )
+    try:
+        return _project(decoded, language)
+    except Flaw as flaw:
+        place = place_in(data, flaw.block)
+        raise ProjectFileError(
+            "{file_name} cannot be used{place}: {fault}",
+            checklist=("If the file was changed by hand, change this place back.", OLD_COPY),
+            file_name=file_name,
+            place=place,
+            fault=flaw,
+        ) from flaw
+
+
+def _project(decoded: dict[str, Any], language: Language) -> Project:
+    try:
+        file = msgspec.convert(decoded, _File)
+    except msgspec.ValidationError as error:
+        raise Flaw(in_words(error)) from error
+    if (reason := why_not_name(file.name)) is not None:
+        raise Flaw("the project's name: {reason}", reason=reason)
+    project = Project(file.name)
+    project.extra = {k: v for k, v in decoded.items() if k not in _File.__struct_fields__}
+    if is_deeper(project.extra, DEEPEST_EXTRA):
+        raise Flaw("groups are nested too deep in it.")
+    _check_kept(project)
+    _read_variables(project, file.variables)
+    _read_procedures(project, file.procedures)
+    _read_page_order(project, file.page_order)
+    language = language.of(project)
+    for entry in file.blocks:
+        _read_block(project, entry, language)
+    _read_pages(project, file.pages)
+    _read_notes(project, file.notes)
+    _find_parents(project)
+    for block in project.blocks.values():
+        if (reason := why_not_block(block, project.blocks, language)) is not None:
+            raise Flaw(reason, block.id)
+    for stack in project.stacks.values():
+        if (fault := why_not_stack(stack.body, project.blocks, language)) is not None:
+            raise Flaw(fault[1], fault[0])
+    return project
+
+
+def _check_kept(project: Project) -> None:
+    for key, value in project.extra.items():
+        if (reason := why_not_kept(key, value)) is not None:
+            raise Flaw(reason)
+        name = key.removeprefix(PREFIX)
+        if name != key and (reason := why_not_animation(name, value)) is not None:
+            raise Flaw("the animation “{name}”: {reason}", name=name[:40], reason=reason)
+
+
+def _read_variables(project: Project, variables: list[Variable]) -> None:
+    for variable in variables:
+        _new_id(project, variable.id, {v.id for v in project.variables})
+        if (reason := why_not_variable_name(project, variable.name)) is not None:
+            raise Flaw("the variable “{name}”: {reason}", name=variable.name[:40], reason=reason)
+        project.variables.append(variable)
+
+
+def _read_procedures(project: Project, procedures: list[Procedure]) -> None:
+    if len(procedures) > MOST_PROCEDURES:
+        raise Flaw(
+            "there are too many own blocks: {most_procedures} at most.",
+            most_procedures=MOST_PROCEDURES,
+        )
+    for procedure in procedures:
+        if (reason := why_not_procedure(procedure)) is not None:
+            raise Flaw("the own block “{id}”: {reason}", id=procedure.id[:40], reason=reason)
+        _new_id(project, procedure.id, project.procedures)
+        project.procedures[procedure.id] = procedure
+        see_ids(project, procedure)
+    project.touch_procedures()
+    project.changes.whole = False  # nobody has seen the project yet
+
+
+def _read_page_order(project: Project, order: list[_Page]) -> None:
+    """The pages in their order; pages that every project has come last where none is said."""
+    if len(order) > MOST_PAGES:
+        raise Flaw("there are too many pages: {most_pages} at most.", most_pages=MOST_PAGES)
+    pages: dict[str, list[Stack]] = {}
+    for page in order:
+        _new_id(project, page.id, pages)
+        if page.title and (reason := why_not_name(page.title)) is not None:
+            raise Flaw("the title of a page: {reason}", reason=reason)
+        pages[page.id] = []
+        if page.title:
+            project.page_titles[page.id] = page.title
+    project.pages = {**pages, **{page: [] for page in PAGES if page not in pages}}
+
+
+def _read_notes(project: Project, notes: list[Note]) -> None:
+    if len(notes) > MOST_NOTES:
+        raise Flaw("there are too many notes: {most_notes} at most.", most_notes=MOST_NOTES)
+    for note in notes:
+        _new_id(project, note.id, project.notes)
+        if (reason := why_not_note(project, note)) is not None:
+            raise Flaw("the note {id}: {reason}", id=note.id, reason=reason)
+        project.notes[note.id] = note
+
+
+def _read_block(project: Project, entry: dict[str, Any], language: Language) -> None:
+    block_id, block_type = entry.get("id"), entry.get("type")
+    if not isinstance(block_id, str) or not isinstance(block_type, str):
+        raise Flaw("block number {count} needs an id and a type.", count=len(project.blocks) + 1)
+    _new_id(project, block_id, project.blocks)
+    definition = language.definitions.get(block_type)
+    if definition is None and not _TYPE.fullmatch(block_type):
+        raise Flaw("the block's type is not a name.", block_id)
+    keys = _KNOWN_KEYS if definition is not None else _UNKNOWN_TYPE_KEYS
+    known = entry if entry.keys() <= keys else {k: entry[k] for k in keys & entry.keys()}
+    try:
+        block = msgspec.convert(known, Block)
+    except msgspec.ValidationError as error:
+        raise Flaw(in_words(error), block_id) from error
+    if block.comment or block.comment_width or block.comment_height:
+        _require_comment(block)
+    if len(known) < len(entry):
+        block.extra = {key: value for key, value in entry.items() if key not in keys}
+        if is_deeper(block.extra, DEEPEST_EXTRA):
+            raise Flaw("groups are nested too deep in it.", block_id)
+    if block.bodies:
+        block.bodies = {slot: chain for slot, chain in block.bodies.items() if chain}
+    if definition is not None and definition.minimum:
+        block.groups = {**definition.minimum, **block.groups}
+    project.blocks[block_id] = block
+
+
+def _require_comment(block: Block) -> None:
+    reason = why_not_text(block.comment) or why_not_size(block.comment_width, block.comment_height)
+    if reason is not None:
+        raise Flaw("its comment: {reason}", block.id, reason=reason)
+
+
+def _new_id(project: Project, some_id: str, taken: Container[str]) -> None:
+    if not _ID.fullmatch(some_id):
+        raise Flaw(
+            "{some_id} is not an id: letters, digits, - and _ can be in it.",
+            some_id=f"{some_id[:40]!a}",
+        )
+    if some_id in taken:
+        raise Flaw("this id is there twice.", some_id)
+    project.id_seen(some_id)
+
+
+def _read_pages(project: Project, pages: dict[str, list[Stack]]) -> None:
+    taken = set(project.blocks)
+    for page, stacks in pages.items():
+        if page not in project.pages:
+            raise Flaw(
+                "there is no page “{page}”: {pages} are.",
+                page=page[:40],
+                pages=", ".join(project.pages),
+            )
+        for stack in stacks:
+            _new_id(project, stack.id, taken)
+            taken.add(stack.id)
+            if not all(abs(place) <= FARTHEST for place in (stack.x, stack.y)):
+                raise Flaw("stack {id} lies too far outside.", id=stack.id)
+            if stack.body:
+                project.stacks[stack.id] = stack
+                project.pages[page].append(stack)
+
+
+def _find_parents(project: Project) -> None:
+    """Note where each block is; each must be in one place, and be reached from a stack."""
+    for stack in project.stacks.values():
+        for block_id in stack.body:
+            _put(project, block_id, Parent(stack.id))
+    for block in project.blocks.values():
+        for slot, plugged in block.inputs.items():
+            _put(project, plugged, Parent(block.id, slot))
+        for slot, chain in block.bodies.items():
+            for block_id in chain:
+                _put(project, block_id, Parent(block.id, slot))
+    # With one parent each, a block that no stack reaches is alone or in a circle.
+    reached = {
+        block.id for stack in project.stacks.values() for block in project.within(stack.body)
+    }
+    for block_id in project.blocks:
+        if block_id not in reached:
+            where = Text("inside itself" if block_id in project.parents else "in no stack")
+            raise Flaw("the block is {where}.", block_id, where=where)
+
+
+def _put(project: Project, block_id: str, parent: Parent) -> None:
+    if block_id not in project.blocks:
+        raise Flaw(
+            "block “{block_id}” is named by {owner}, but is not there.",
+            block_id=block_id[:40],
+            owner=parent.owner,
+        )
+    if block_id in project.parents:
+        raise Flaw(
+            "the block is in two places: {owner} and {owner_2}.",
+            block_id,
+            owner=project.parents[block_id].owner,
+            owner_2=parent.owner,
+        )
+    project.parents[block_id] = parent
+
 
 LARGEST_BYTES = 60_000_000
 
@@ -22,17 +417,23 @@ def load(path: Path, language: Language) -> Project:
     """Read a project; raises ProjectFileError, which names the file, the place, the remedy."""
     try:
         if path.is_dir() or (path.exists() and not path.is_file()):
-            raise ProjectFileError(f"{path.name} is not a file.", checklist=_CHOOSE)
+            raise ProjectFileError("{name} is not a file.", checklist=_CHOOSE, name=path.name)
         with path.open("rb") as file:
             data = file.read(LARGEST_BYTES + 1)
     except OSError as error:
         raise ProjectFileError(
-            f"{path.name} cannot be opened: {_reason(error)}.", checklist=_CHOOSE, details=str(path)
+            "{name} cannot be opened: {reason}.",
+            checklist=_CHOOSE,
+            details=str(path),
+            name=path.name,
+            reason=reason_of(error),
         ) from error
     if len(data) > LARGEST_BYTES:
         raise ProjectFileError(
-            f"{path.name} is too large: more than {LARGEST_BYTES // 1_000_000} MB.",
+            "{name} is too large: more than {largest_bytes} MB.",
             checklist=_CHOOSE,
+            name=path.name,
+            largest_bytes=LARGEST_BYTES // 1_000_000,
         )
     return from_bytes(data, path.name, language)
 
@@ -56,16 +457,18 @@ def save(project: Project, path: Path) -> None:
     except (OSError, UnicodeEncodeError) as error:
         with suppress(OSError):
             new.unlink(missing_ok=True)
-        reason = _reason(error) if isinstance(error, OSError) else "a text in it cannot be written"
+        reason = (
+            reason_of(error)
+            if isinstance(error, OSError)
+            else Text("a text in it cannot be written")
+        )
         raise ProjectFileError(
-            f"{path.name} could not be saved: {reason}. The file that was there is unchanged.",
+            "{name} could not be saved: {reason}. The file that was there is unchanged.",
             checklist=(
                 "Is there room on the disk?",
                 "May you write into this folder? Save the project in another one.",
             ),
             details=str(error),
+            name=path.name,
+            reason=reason,
         ) from error
-
-
-def _reason(error: OSError) -> str:
-    return (error.strerror or "the system gives no reason").lower()

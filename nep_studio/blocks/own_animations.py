@@ -7,18 +7,44 @@ of undo. Which joints a robot has, and how far they go, only its node knows.
 from __future__ import annotations
 
 import math
+import re
+import unicodedata
 from collections.abc import Container, Iterator, Mapping
 from itertools import pairwise
 from typing import Literal, get_args
 
 import msgspec
 
-from .edits import SetExtra
-from .edits.kept import ANIMATION
+from faults import Text, text_of
+
+from .edits.content import ANIMATION, SetExtra
 from .file_text import in_words
-from .kept_names import DEVICES, KEPT_NAME, free_kept_name
 from .program import Project
-from .values import why_not_name, why_not_text
+from .slots import why_not_name, why_not_text
+
+# Names under which a project keeps what was made for it: its motions and its gestures.
+
+KEPT_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+DEVICES = frozenset(
+    ("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10)))
+)
+"""No file can be called so on Windows, and much of what is kept becomes a file of its name."""
+
+
+def free_kept_name(title: str, kind: str, taken: Container[str]) -> str:
+    """A name for something with this title, which none of the others has.
+
+    ``kind`` (one word) begins the names of titles that have no letter to begin with.
+    """
+    bare = unicodedata.normalize("NFKD", title.casefold().replace("ß", "ss"))
+    letters = "".join(c for c in bare if not unicodedata.combining(c))
+    name = re.sub(r"[^a-z0-9]+", "_", letters).strip("_")[:32].strip("_")
+    name = name if name[:1].isalpha() else f"{kind}_{name}"[:32].rstrip("_")
+    number, found = 2, name
+    while found in taken or found in DEVICES:
+        found, number = f"{name}_{number}", number + 1
+    return found
+
 
 AnimationKind = Literal["animation", "animal", "gesture"]
 Handle = tuple[float, float, float, float]
@@ -79,45 +105,59 @@ def keep(name: str, animation: OwnAnimation | None) -> SetExtra:
     return SetExtra(PREFIX + name, value)
 
 
-def why_not_animation(name: str, value: object) -> str | None:
+def why_not_animation(name: str, value: object) -> Text | None:
     """Why this cannot be an animation of a project, as a sentence, or None when it can."""
     if not KEPT_NAME.fullmatch(name) or name in DEVICES:
-        return "its name may have small letters, digits and _ in it, and begins with a letter."
+        return Text(
+            "its name may have small letters, digits and _ in it, and begins with a letter."
+        )
     try:
         animation = msgspec.convert(value, OwnAnimation)
     except msgspec.ValidationError as error:
-        return f"{in_words(error)}."
+        return in_words(error)
     return next(_reasons(animation), None)
 
 
-def _reasons(animation: OwnAnimation) -> Iterator[str]:
+def _reasons(animation: OwnAnimation) -> Iterator[Text]:
     if (reason := why_not_name(animation.title)) is not None:
-        yield f"its title: {reason}"
+        yield text_of("its title: {reason}", reason=reason)
     for text in (animation.description, animation.starts_from, animation.says):
         if (reason := why_not_text(text)) is not None:
             yield reason
     if not 0 < len(animation.joints) <= MOST_JOINTS:
-        yield f"it must move 1 to {MOST_JOINTS} joints."
+        yield text_of("it must move 1 to {most_joints} joints.", most_joints=MOST_JOINTS)
     for name, joint in animation.joints.items():
         if (reason := why_not_keys(joint)) is not None:
-            yield f"{name[:40]}: {reason}"
+            yield text_of("{name}: {reason}", name=name[:40], reason=reason)
 
 
-def why_not_keys(joint: JointKeys) -> str | None:
+def why_not_keys(joint: JointKeys) -> Text | None:
     """Why a joint cannot do this, as a sentence, or None when it can."""
     handles = joint.handles if joint.handles is not None else ((0.0,) * 4,) * len(joint.keys)
     if not len(joint.times) == len(joint.keys) == len(handles):
-        return f"{len(joint.times)} times and {len(handles)} handles for {len(joint.keys)} keys."
+        return text_of(
+            "{count} times and {count_2} handles for {count_3} keys.",
+            count=len(joint.times),
+            count_2=len(handles),
+            count_3=len(joint.keys),
+        )
     if not 0 < len(joint.keys) <= MOST_KEYS:
-        return f"it must have 1 to {MOST_KEYS} keys."
+        return text_of("it must have 1 to {most_keys} keys.", most_keys=MOST_KEYS)
     numbers = (*joint.times, *joint.keys, *(n for handle in handles for n in handle))
     if not all(map(math.isfinite, numbers)):
-        return "each number must be finite."
+        return Text("each number must be finite.")
     if joint.times[-1] > LONGEST_S or any(abs(key) > LARGEST_ANGLE for key in joint.keys):
-        return f"it lasts {LONGEST_S:g} s at most, with angles up to {LARGEST_ANGLE:g} rad."
+        return text_of(
+            "it lasts {longest_s} s at most, with angles up to {largest_angle} rad.",
+            longest_s=f"{LONGEST_S:g}",
+            largest_angle=f"{LARGEST_ANGLE:g}",
+        )
     times = (0.0, *joint.times)
     if any(late - early < SHORTEST_STEP_S - 1e-9 for early, late in pairwise(times)):
-        return f"each key must be at least {SHORTEST_STEP_S} s later than the one before it."
+        return text_of(
+            "each key must be at least {shortest_step_s} s later than the one before it.",
+            shortest_step_s=SHORTEST_STEP_S,
+        )
     return None
 
 

@@ -8,23 +8,84 @@ it (docs/gesture_models.md); nothing in here looks into it.
 
 from __future__ import annotations
 
+import binascii
 import hashlib
 import math
 import re
+import sys
+import zlib
+from array import array
+from base64 import b64decode, b64encode
 from collections.abc import Container, Iterable, Iterator, Mapping
-from itertools import chain
+from itertools import chain, pairwise
 from typing import Any, Literal, get_args
 from weakref import WeakKeyDictionary
 
 import msgspec
 
-from .edits import SetExtra
-from .edits.kept import GESTURE, RECOGNISER, RECORDING
+from faults import Text, text_of
+
+from .edits.content import GESTURE, RECOGNISER, RECORDING, SetExtra
 from .file_text import in_words
-from .kept_names import KEPT_NAME, free_kept_name
-from .packed_samples import why_not_samples
+from .own_animations import KEPT_NAME, free_kept_name
 from .program import Project
-from .values import why_not_name, why_not_text
+from .slots import why_not_name, why_not_text
+
+# Samples of a sensor as text: rows of little-endian 32-bit floats, deflated, in base64.
+#
+# A row is a time in s, three accelerations in m/s² and, where there is a gyroscope, three rotation
+# rates in rad/s.
+
+LARGEST_BYTES = 12_000_000
+"""Of the floats: an hour at 100 samples a second with rotation is ten million."""
+LARGEST_TEXT = 12_000_000
+
+
+def packed_samples(rows: bytes) -> str:
+    """The text for the bytes of 32-bit floats, row by row."""
+    return b64encode(zlib.compress(rows, 6)).decode("ascii")
+
+
+def unpacked_samples(text: str) -> bytes:
+    """The bytes of 32-bit floats; ValueError when the text is no such thing, or too much."""
+    unpacking = zlib.decompressobj()
+    try:
+        rows = unpacking.decompress(b64decode(text, validate=True), LARGEST_BYTES + 1)
+    except (binascii.Error, zlib.error, ValueError) as error:
+        raise ValueError("The samples cannot be unpacked.") from error
+    if len(rows) > LARGEST_BYTES:
+        raise ValueError("There are too many samples.")
+    if not unpacking.eof or unpacking.unused_data or len(rows) % 4:
+        raise ValueError("The samples end in the middle.")
+    return rows
+
+
+def floats_of(rows: bytes) -> array[float]:
+    """The numbers, one row after the other."""
+    numbers = array("f")
+    numbers.frombytes(rows)
+    if sys.byteorder == "big":
+        numbers.byteswap()
+    return numbers
+
+
+def why_not_samples(text: str, columns: int) -> Text | None:
+    """Why this text is not samples with so many columns, as a sentence; None when it is."""
+    if len(text) > LARGEST_TEXT:
+        return Text("it has too many samples.")
+    try:
+        numbers = floats_of(unpacked_samples(text))
+    except ValueError as error:
+        return Text(str(error))
+    if not numbers or len(numbers) % columns:
+        return Text("its samples are not whole rows.")
+    if not math.isfinite(sum(numbers)):  # one number that is none spoils the sum
+        return Text("each of its samples must be a finite number.")
+    times = numbers[::columns]
+    if times[0] < 0 or any(b < a for a, b in pairwise(times)):
+        return Text("the times of its samples must rise.")
+    return None
+
 
 Wrist = Literal["left", "right", "hand"]
 WRISTS = get_args(Wrist)
@@ -171,34 +232,38 @@ def free_gesture_name(title: str, taken: Iterable[str]) -> str:
     return free_kept_name(title, "gesture", {*taken, *_NO_GESTURE})
 
 
-def why_not_gesture(name: str, value: object) -> str | None:
+def why_not_gesture(name: str, value: object) -> Text | None:
     """Why this cannot be a gesture of a project, as a sentence, or None when it can."""
     if not KEPT_NAME.fullmatch(name):
-        return "its name may have small letters, digits and _ in it, and begins with a letter."
+        return Text(
+            "its name may have small letters, digits and _ in it, and begins with a letter."
+        )
     try:
         gesture = msgspec.convert(value, OwnGesture)
     except msgspec.ValidationError as error:
-        return f"{in_words(error)}."
+        return in_words(error)
     return next(_reasons(gesture), None)
 
 
-def _reasons(gesture: OwnGesture) -> Iterator[str]:
+def _reasons(gesture: OwnGesture) -> Iterator[Text]:
     if (reason := why_not_name(gesture.title)) is not None:
-        yield f"its title: {reason}"
+        yield text_of("its title: {reason}", reason=reason)
     if not 0.0 < gesture.certainty <= 1.0:
-        yield "the certainty that it takes must be above 0 and at most 1."
+        yield Text("the certainty that it takes must be above 0 and at most 1.")
     if len(gesture.takes) > MOST_TAKES:
-        yield f"it can have {MOST_TAKES} takes at most."
+        yield text_of("it can have {most_takes} takes at most.", most_takes=MOST_TAKES)
     if len({take.id for take in gesture.takes}) < len(gesture.takes):
-        yield "two of its takes have the same id."
+        yield Text("two of its takes have the same id.")
     for take in gesture.takes:
         if not _ID.fullmatch(take.id) or not _ID.fullmatch(take.recording):
-            yield "the id of a take or of its recording has other signs than letters, digits and _."
+            yield Text(
+                "the id of a take or of its recording has other signs than letters, digits and _."
+            )
         if not 0.0 <= take.start_s < take.end_s <= LONGEST_S:
-            yield "each take must end after its start, within its recording."
+            yield Text("each take must end after its start, within its recording.")
 
 
-def why_not_recording(recording_id: str, value: object) -> str | None:
+def why_not_recording(recording_id: str, value: object) -> Text | None:
     """Why this cannot be a recording of a project, as a sentence, or None when it can."""
     if (reason := _shape_of_recording(recording_id, value)) is not None:
         return reason
@@ -206,48 +271,50 @@ def why_not_recording(recording_id: str, value: object) -> str | None:
     return why_not_samples(recording.samples, 7 if recording.has_rotation else 4)
 
 
-def _shape_of_recording(recording_id: str, value: object) -> str | None:
+def _shape_of_recording(recording_id: str, value: object) -> Text | None:
     if not _ID.fullmatch(recording_id):
-        return "its id may have letters, digits and _ in it."
+        return Text("its id may have letters, digits and _ in it.")
     try:
         recording = msgspec.convert(value, OwnRecording)
     except msgspec.ValidationError as error:
-        return f"{in_words(error)}."
+        return in_words(error)
     for text in (recording.person, recording.source, recording.recorded):
         if (reason := why_not_text(text)) is not None:
             return reason
     numbers = (recording.seconds, recording.rate_hz, *chain.from_iterable(recording.forgotten))
     if not all(map(math.isfinite, numbers)) or min(numbers) < 0:
-        return "each number must be finite, and not below 0."
+        return Text("each number must be finite, and not below 0.")
     if recording.seconds > LONGEST_S:
-        return f"it lasts {LONGEST_S / 60:.0f} minutes at most."
+        return text_of("it lasts {longest_s} minutes at most.", longest_s=f"{LONGEST_S / 60:.0f}")
     return None
 
 
-def why_not_recogniser(value: object) -> str | None:
+def why_not_recogniser(value: object) -> Text | None:
     """Why this cannot be what was learned, as a sentence, or None when it can."""
     try:
         recogniser = msgspec.convert(value, OwnRecogniser)
     except msgspec.ValidationError as error:
-        return f"{in_words(error)}."
+        return in_words(error)
     if len(recogniser.file) > LARGEST_RECOGNISER_TEXT:
-        return "it is too large."
+        return Text("it is too large.")
     return None
 
 
-def why_not_kept(key: str, value: object) -> str | None:
+def why_not_kept(key: str, value: object) -> Text | None:
     """Why the project's file cannot have this under a key of gestures; None when it can."""
     if key == RECOGNISER:
-        what, reason = "what was learned of gestures", why_not_recogniser(value)
+        what, reason = Text("what was learned of gestures"), why_not_recogniser(value)
     elif key.startswith(GESTURE):
         name = key.removeprefix(GESTURE)
-        what, reason = f"the gesture “{name[:40]}”", why_not_gesture(name, value)
+        what = text_of("the gesture “{name}”", name=name[:40])
+        reason = why_not_gesture(name, value)
     elif key.startswith(RECORDING):
         name = key.removeprefix(RECORDING)
-        what, reason = f"the recording “{name[:40]}”", why_not_recording(name, value)
+        what = text_of("the recording “{name}”", name=name[:40])
+        reason = why_not_recording(name, value)
     else:
         return None
-    return None if reason is None else f"{what}: {reason}"
+    return None if reason is None else text_of("{what}: {reason}", what=what, reason=reason)
 
 
 def gestures_with(

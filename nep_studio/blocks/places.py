@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
+from .procedures import CALL
 from .program import Parent, Project, Stack
 
 
@@ -106,3 +107,20 @@ def _drop_chain(project: Project, parent: Parent) -> None:
     else:
         page = project.page_of(parent.owner)
         project.pages[page].remove(project.stacks.pop(parent.owner))
+
+
+# Where a variable or an own block is used.
+
+VARIABLE_SLOT = "variable"
+"""The name of every slot that names a variable."""
+
+
+def variable_uses(project: Project, variable_id: str) -> list[str]:
+    """The blocks that name a variable, in the order of their making."""
+    return [b.id for b in project.blocks.values() if b.fields.get(VARIABLE_SLOT) == variable_id]
+
+
+def procedure_uses(project: Project, procedure_id: str) -> list[str]:
+    """The blocks that call an own block, in the order of their making."""
+    call = CALL + procedure_id
+    return [block.id for block in project.blocks.values() if block.type == call]

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
+from faults import Text, text_of
+
 from .definitions import Category, Definition, Shape
 from .program import Parameter, Procedure, Project
 from .sentence import Part, Slot
-from .slots import KINDS
-from .values import FieldValue, why_not_line, why_not_name
+from .slots import KINDS, FieldValue, why_not_line, why_not_name
 
 OWN_CATEGORY = Category("my", "My blocks", "my_blocks", 50, "behaviour")
 """The category of own blocks; resources/blocks/my_blocks.toml has those of all projects."""
@@ -77,14 +78,16 @@ def header_of(project: Project, procedure_id: str) -> str:
     return found
 
 
-def why_not_procedure(procedure: Procedure) -> str | None:
+def why_not_procedure(procedure: Procedure) -> Text | None:
     """Why an own block cannot be like this, or None when it can."""
     if not _ID.fullmatch(procedure.id):
-        return "The id of an own block is made of small letters and digits."
+        return Text("The id of an own block is made of small letters and digits.")
     if not 1 <= len(procedure.parts) <= MOST_PARTS:
-        return f"An own block has 1 to {MOST_PARTS} words and values."
+        return text_of(
+            "An own block has 1 to {most_parts} words and values.", most_parts=MOST_PARTS
+        )
     if not any(isinstance(part, str) and part.strip() for part in procedure.parts):
-        return "An own block needs at least one word."
+        return Text("An own block needs at least one word.")
     ids: set[str] = set()
     for part in procedure.parts:
         reason = why_not_name(part) if isinstance(part, str) else _why_not_parameter(part, ids)
@@ -93,12 +96,15 @@ def why_not_procedure(procedure: Procedure) -> str | None:
     return None
 
 
-def _why_not_parameter(parameter: Parameter, ids: set[str]) -> str | None:
+def _why_not_parameter(parameter: Parameter, ids: set[str]) -> Text | None:
     if not _ID.fullmatch(parameter.id) or parameter.id in ids:
-        return "Each value of an own block has an id of its own, of small letters and digits."
+        return Text("Each value of an own block has an id of its own, of small letters and digits.")
     ids.add(parameter.id)
     if parameter.kind not in PARAMETER_KINDS:
-        return f"A value of an own block is one of: {', '.join(PARAMETER_KINDS)}."
+        return text_of(
+            "A value of an own block is one of: {parameter_kinds}.",
+            parameter_kinds=", ".join(PARAMETER_KINDS),
+        )
     return why_not_line(parameter.name) or why_not_name(parameter.name)
 
 

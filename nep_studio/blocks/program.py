@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import msgspec
 
-from .values import FieldValue
+from .slots import FieldValue
 
 PAGES = ("behaviour", "robots", "nodes")
 

@@ -13,8 +13,9 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .slots import KINDS, Kind
-from .values import why_not_between, why_not_value
+from faults import Text, text_of
+
+from .slots import KINDS, Kind, why_not_between, why_not_value
 
 MOST_REPEATS = 20
 
@@ -47,10 +48,12 @@ class Slot:
     high: float | None = None
     label: str = ""
 
-    def why_not(self, value: object) -> str | None:
+    def why_not(self, value: object) -> Text | None:
         """Why the slot's field cannot hold ``value``, whatever its choices are, or None."""
         if not self.kind.typed:
-            return f"This place takes {self.kind.noun}, not a value that is typed."
+            return text_of(
+                "This place takes {noun}, not a value that is typed.", noun=Text(self.kind.noun)
+            )
         if self.low is not None and self.high is not None:
             return why_not_between(value, self.low, self.high)
         return why_not_value(self.kind.name, value)

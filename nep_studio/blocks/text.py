@@ -8,7 +8,7 @@ from .definitions import Definition
 from .language import Language
 from .program import ALL_ROBOTS, Block, Project
 from .sentence import Group, Part, Slot
-from .values import FieldValue
+from .slots import FieldValue
 
 LONGEST = 120
 _DEEPEST = 4

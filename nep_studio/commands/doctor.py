@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from nep_studio.support_report import FILE
+from nep_studio.support.report import FILE
 
 
 def main(arguments: list[str]) -> int:
     """Print or save the report; 1 when there is something to look at."""
     options = parser().parse_args(arguments)
-    from nep_studio.support_parts import report
+    from nep_studio.support.report import report
 
     made = report(options.master)
     if options.save is not None:

@@ -9,19 +9,21 @@ import os
 import socket
 from collections.abc import Iterator
 
-from nep_core.endpoints import master_endpoint
+from faults import text_of
 from nep_core.errors import NepError, PortTaken
-from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.manifest import Value
-from nep_core.master_probe import ask_master
-from nep_core.node_name import check_node_name
+from nep_core.networks.endpoints import master_endpoint
+from nep_core.networks.master_messages import ask_master
+from nep_core.networks.transports import network_for, transport
 from nep_core.places import log_folder
-from nep_core.process import ON_WINDOWS
-from nep_core.transports import network_for, transport
-from nep_studio.commands.arguments import speed
+from nep_core.processes.launcher import LaunchedNode, Launcher
+from nep_core.processes.manifest import Value
+from nep_core.processes.node import check_node_name
+from nep_core.processes.process import ON_WINDOWS
 from nep_studio.commands.project import explain
-from nep_studio.own_master import start_master
-from nep_studio.signals import interrupt_once, undisturbed
+from nep_studio.run.local_network import start_master
+from nep_studio.run.signals import interrupt_once, undisturbed
+
+from .project import speed
 
 FAILED = 1
 PORT = 9559
@@ -92,12 +94,13 @@ def _check_free(port: int) -> None:
             probe.bind(("127.0.0.1", port))
         except OSError as error:
             raise PortTaken(
-                f"Port {port} of this computer is used by another program.",
+                "Port {port} of this computer is used by another program.",
                 checklist=(
                     "Is another NAO offered already, or Choregraphe's virtual robot? Close it.",
-                    f"Or take another port: nep-studio naoqi --port {port + 1}",
+                    text_of("Or take another port: nep-studio naoqi --port {port}", port=port + 1),
                 ),
                 details=str(error),
+                port=port,
             ) from error
 
 

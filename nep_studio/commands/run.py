@@ -6,12 +6,14 @@ import argparse
 import logging
 import sys
 import tempfile
+import threading
+import time
 from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 
-from nep_core.cli.arguments import seconds
+from nep_core.cli.console import seconds
 from nep_core.errors import NepError
 from nep_studio.blocks import text
 from nep_studio.blocks.deployment import robot_entries
@@ -20,13 +22,64 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-from nep_studio.commands.arguments import speed
-from nep_studio.commands.check import tell_errors
-from nep_studio.commands.printer import Printer
-from nep_studio.commands.project import UNUSABLE, explain, read_project
-from nep_studio.plan import Choices, PlannedNode, plan
-from nep_studio.session import Ending, Session
-from nep_studio.signals import interrupt_once
+from nep_studio.problems import on_one_line
+from nep_studio.run.plan import Choices, PlannedNode, plan
+from nep_studio.run.session import Ending, Session
+from nep_studio.run.signals import interrupt_once
+from nep_studio.run.timeline import Timeline
+
+from .project import UNUSABLE, explain, print_utf8, read_project, speed, tell_errors
+
+# What ``nep-studio run`` prints while a project plays.
+
+
+class Printer:
+    """Prints messages as they come: a timeline for people, or JSON for programs.
+
+    A JSON line is one message, in UTF-8: ``{"topic": "/node_state", "node": "NAO", "event":
+    "ready", ...}``, the topic and then every key of the topic's struct in
+    nep_core/wire/messages.py, those with their default value too. Printing raises OSError when
+    nobody reads any more.
+    """
+
+    def __init__(self, language: Language, *, as_json: bool) -> None:
+        self._timeline = Timeline(language)
+        self._as_json = as_json
+        self._lock = threading.Lock()
+        self._started_s = time.monotonic()
+
+    def title(self, project: Project, nodes: list[PlannedNode]) -> None:
+        """Say what is played, and which nodes were added."""
+        self._tell(f"{project.name}. Ctrl-C stops it.")
+        self._tell("")
+        for node in nodes:
+            if node.reason:
+                self._tell(f"   added  {node.name} ({node.node}): {node.reason}")
+
+    def joined(self, master: str) -> None:
+        """Say that the project takes part in a network that was there before."""
+        self._tell(f"   joined the network of the NEP master at {master}")
+
+    def hear(self, topic: str, message: msgspec.Struct) -> None:
+        """Print a message; safe from any thread."""
+        with self._lock:
+            if self._as_json:
+                told = {"topic": topic, **msgspec.structs.asdict(message)}
+                print_utf8(msgspec.json.encode(told).decode() + "\n")
+                return
+            elapsed_s = time.monotonic() - self._started_s
+            for who, what in self._timeline.lines(message):
+                self._tell(f"{elapsed_s:8.2f}  {who:<16} {what}")
+
+    def end(self) -> None:
+        """Say that everything is stopped."""
+        self._tell("")
+        self._tell(f"Everything is stopped after {time.monotonic() - self._started_s:.1f} s.")
+
+    def _tell(self, line: str) -> None:
+        if not self._as_json:
+            print(on_one_line(line), flush=True)
+
 
 FAILED = 1
 
@@ -108,20 +161,24 @@ def _choices(options: argparse.Namespace, robots: list[str]) -> Choices:
         name, _, address = word.partition("=")
         if not name or not address:
             raise CannotPlay(
-                f'"{word}" does not say where a robot is.',
+                '"{word}" does not say where a robot is.',
                 checklist=("Write --robot NAO=192.168.1.10",),
+                word=word,
             )
         if name not in robots:
             raise CannotPlay(
-                f"There is no robot {name} on the Robots page.",
-                checklist=(f"The robots there are: {', '.join(robots) or 'none'}.",),
+                "There is no robot {name} on the Robots page.",
+                checklist=("The robots there are: {robots}.",),
+                name=name,
+                robots=", ".join(robots) or "none",
             )
         addresses[name] = address
     recording = Path(options.recording).resolve() if options.recording is not None else None
     if recording is not None and not (options.recording and recording.exists()):
         raise CannotPlay(
-            f"There is no recording “{options.recording}”.",
+            "There is no recording “{recording}”.",
             checklist=("Is the name spelled right, and is the file still there?",),
+            recording=options.recording,
         )
     return Choices(recording, options.speed, addresses)
 

@@ -9,8 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.operations.finding import folded
-from nep_studio.blocks.typing_in.unspaced import is_unspaced
-from nep_studio.blocks.typing_in.vocabulary import is_near
+from nep_studio.blocks.typing_in.vocabulary import is_near, is_unspaced
 
 TITLE, WORDS, BODY = 10.0, 8.0, 1.5
 """How much a word counts in a title, among the other words of a page, and in its text."""

@@ -19,10 +19,11 @@ one decimal, so that the true score is between 77.5 and 79.2, and the paper's 78
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from nep_studio.plain_words import Tr, plain
+from faults import Tr, plain
 
 ITEMS = 10
 PAPER, BROOKE = "sus-7", "sus-5"
@@ -125,3 +126,41 @@ def score_of_means(means: Sequence[float], options: int) -> float:
     in_favour, against = means[0::2], means[1::2]
     worth = sum(mean - 1 for mean in in_favour) + sum(options - mean for mean in against)
     return 100 * worth / (ITEMS * (options - 1))
+
+
+# In which order a person meets the conditions of a study: a balanced Latin square.
+#
+# Source: E. J. Williams, "Experimental designs balanced for the estimation of residual effects of
+# treatments", Australian Journal of Scientific Research A 2 (1949) 149-168. Each condition is as
+# often at each place, and follows each other one as often. An odd number of conditions needs two
+# squares, of which the second is the mirror of the first.
+
+
+def latin_square(count: int) -> list[list[int]]:
+    """The rows of the square for so many conditions, which are numbered from 0."""
+    first = [0]
+    for step in range(1, count):
+        first.append((first[-1] + (step if step % 2 else -step)) % count)
+    square = [[(number + row) % count for number in first] for row in range(count)]
+    return square + [row[::-1] for row in square] if count % 2 and count > 1 else square
+
+
+def conditions_for(participant: int, conditions: Sequence[str]) -> list[str]:
+    """The conditions in the order for a participant, who are numbered from 1."""
+    if not conditions:
+        return []
+    square = latin_square(len(conditions))
+    return [conditions[number] for number in square[(participant - 1) % len(square)]]
+
+
+def participant_number(code: str) -> int | None:
+    """The number in a participant's code, as 7 in P07; None where there is none."""
+    found = re.search(r"(\d{1,9})\D*$", code)
+    number = int(found.group(1)) if found else 0
+    return number or None
+
+
+def next_code(codes: Sequence[str]) -> str:
+    """A code for the next participant, P01 for the first."""
+    last = max((participant_number(code) or 0 for code in codes), default=0)
+    return f"P{last + 1:02d}"

@@ -12,8 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAccessible, QAccessibleAnnouncementEvent
 from PySide6.QtWidgets import QWidget
 
-from nep_core.errors import NepError
-from nep_studio.blocks.errors import BlocksError
+from faults import FaultError, Words
 from nep_studio.problems import Problem, problem_of
 from nep_studio.ui.words import tr
 
@@ -117,11 +116,11 @@ class Messages(QObject):
         checklist = tuple(map(tr, problem.checklist))
         self.tell(Message(kind, tr(problem.title), sentence, checklist, problem.details, answers))
 
-    def tell_error(self, error: NepError | BlocksError, *answers: Answer) -> None:
+    def tell_error(self, error: FaultError, *answers: Answer) -> None:
         """Show what an error tells of."""
         self.tell_problem(problem_of(error), *answers)
 
-    def refuse(self, reason: str, checklist: tuple[str, ...] = ()) -> None:
+    def refuse(self, reason: Words, checklist: tuple[Words, ...] = ()) -> None:
         """Say why something did not go; the program is as it was."""
         message = Message("warning", tr("This does not fit"), tr(reason), tuple(map(tr, checklist)))
         self.tell(replace(message, passes=True))
@@ -142,7 +141,7 @@ class Messages(QObject):
 
     def ask(self, message: Message) -> None:
         """Ask a question that must be answered before the work goes on; Esc is the last answer."""
-        from nep_studio.ui.messages_question import QuestionDialog
+        from .message_cards import QuestionDialog
 
         QuestionDialog(message, self._window).open()
 

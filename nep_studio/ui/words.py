@@ -12,6 +12,7 @@ from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
+from faults import Text, Words, filled, told, values_told
 from nep_studio import paths
 from nep_studio.ui.message_templates import MessageTemplates
 
@@ -36,21 +37,19 @@ class _Catalogue:
 _used = _Catalogue()
 
 
-def tr(text: str, /, **values: object) -> str:
+def tr(text: Words, /, **values: object) -> str:
     """Return the words in the language in use, with ``{name}`` filled in from the values.
 
     The English text is the key. A sentence that comes with its values filled in, as problems and
     refusals do, is told from the templates in [messages]; what people wrote in it is kept.
     Words that are not translated yet are given in English.
     """
+    if isinstance(text, Text):
+        return told(text, tr)
     if not values:
         return _used.words.get(text) or _message(text)
     words = _pseudo(text) if _used.code == PSEUDO else _used.words.get(text, text)
-    try:
-        return words.format_map(values)
-    except (KeyError, IndexError, ValueError, AttributeError):
-        log.warning("A translation to %s cannot be filled in: %r", _used.code, words)
-        return _filled(text, values)
+    return filled(words, values_told(values, tr))
 
 
 def count_words(count: int, one: str, many: str, /, **values: object) -> str:
@@ -140,13 +139,6 @@ def _message(text: str) -> str:
     if said is None:
         return _pseudo(text) if _used.code == PSEUDO else text
     return said
-
-
-def _filled(text: str, values: Mapping[str, object]) -> str:
-    try:
-        return text.format_map(values)
-    except (KeyError, IndexError, ValueError, AttributeError):
-        return text
 
 
 def _pseudo(text: str) -> str:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Protocol
 
-from nep_core.messages import (
+from nep_core.processes.node import Node
+from nep_core.wire.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
     EXPECTED_WORDS,
@@ -21,18 +24,55 @@ from nep_core.messages import (
     SenseRequest,
     Surroundings,
 )
-from nep_core.node import Node
-from nep_core.pubsub import Publisher, Subscriber
-from nodes.action.naobody.actor import FINAL, Actor
-from nodes.action.naobody.animations import load_animations
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.body_language import load_gesture_words
-from nodes.action.naobody.driver import Driver
-from nodes.action.naobody.models import model_of, robot_folder
-from nodes.action.naobody.own_animations import with_own
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.virtual import VirtualDriver
-from nodes.action.naoqi.offering import NotOffered, Offering
+from nep_core.wire.pubsub import Publisher, Subscriber
+from robots.body.actor import FINAL, Actor
+from robots.body.animations import load_animations, with_own
+from robots.body.body import load_body, model_of, robot_folder
+from robots.body.driver import Driver
+from robots.body.pose import VirtualRobot
+from robots.body.speech import load_gesture_words
+from robots.body.virtual import VirtualDriver
+
+# What a node tells its robot's offering, where NAOqi programs may ask it too.
+
+
+class Offering(Protocol):
+    """What the node's loop tells an offered robot, and one that is not offered."""
+
+    is_on: bool
+    """Whether programs may ask the robot at any time."""
+    lock: contextlib.AbstractContextManager[object]
+    """To be held while the robot is touched."""
+    description: str
+    """Where programs reach it, in words."""
+
+    def hear(
+        self, told: Iterable[ActionResult], felt: Sequence[SenseRequest]
+    ) -> list[ActionResult]:
+        """Take in what happened; return the results that are to be sent on."""
+
+    def close(self) -> None:
+        """Offer it no more."""
+
+
+class NotOffered:
+    """A robot that only its node asks."""
+
+    is_on = False
+    description = ""
+
+    def __init__(self) -> None:
+        self.lock: contextlib.AbstractContextManager[object] = contextlib.nullcontext()
+
+    def hear(
+        self, told: Iterable[ActionResult], felt: Sequence[SenseRequest]
+    ) -> list[ActionResult]:
+        """Return all results."""
+        return list(told)
+
+    def close(self) -> None:
+        """There is nothing to end."""
+
 
 MOVING_LOOP_S = 0.01
 RESTING_LOOP_S = 0.1
@@ -78,7 +118,8 @@ def run(
     offering = _offering(actor, link, naoqi_port, folder)
     link.connect()
     _await_first_answer(node, link)
-    node.ready(", ".join(filter(None, (link.connection.description, offering.description))))
+    links = [one for one in (link.connection.fault.sentence, offering.description) if one]
+    node.ready("{links}", links=links)
     report.send_news()
     start_s = time.monotonic()
     while not node.stopping:
@@ -118,7 +159,7 @@ def _await_first_answer(node: Node, link: Driver) -> None:
 def _offering(actor: Actor, link: Driver, port: int, folder: Path) -> Offering:
     """Offer the robot to NAOqi programs, if it is a virtual one. Raises PortTaken."""
     if port and isinstance(link, VirtualDriver):
-        from nodes.action.naoqi.offered import Offered  # most robots need none of it
+        from robots.naoqi.services.all import Offered  # most robots need none of it
 
         return Offered(actor, link.robot, folder, port)
     return NotOffered()
@@ -135,7 +176,7 @@ def _driver(
     words = load_gesture_words(folder)
     known = VirtualRobot(robot, body, animations, gesture_words=words, model=model_of(folder))
     if driver == "naoqi":
-        from nodes.action.naoqi.driver.driver import NaoqiDriver  # the virtual one needs none of it
+        from robots.naoqi.driver.driver import NaoqiDriver  # the virtual one needs none of it
 
         return NaoqiDriver(known, address)
     return VirtualDriver(known)

@@ -11,19 +11,21 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nep_core.default_network import set_default_network
-from nep_core.human import human_listener
-from nep_core.messages import (
+from faults import Fault, fault_of
+from nep_core.networks.transports import set_default_network
+from nep_core.processes.node import STOP_SIGNALS, Node
+from nep_core.program.human import human_listener
+from nep_core.program.tasks import PROGRAM, Cancelled, wait_until
+from nep_core.wire.messages import (
     PROGRAM_CONTROL,
     PROGRAM_STATE,
     ProgramControl,
     ProgramEvent,
     ProgramState,
+    described,
 )
-from nep_core.node import STOP_SIGNALS, Node
-from nep_core.pubsub import Publisher
-from nep_core.tasks import PROGRAM, Cancelled, wait_until
-from nodes.cognitive.failures import Failure, ProgramFailed, failure_of, line_of
+from nep_core.wire.pubsub import Publisher
+from nodes.cognitive.failures import ProgramFailed, failure_of, line_of
 
 if TYPE_CHECKING:
     from nodes.cognitive.tracing.tracer import Tracer
@@ -39,7 +41,7 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     """
     if not Path(file).is_file():
         raise ProgramFailed(
-            f"There is no program {file}.", checklist=("Check the name of the file.",)
+            "There is no program {file}.", checklist=("Check the name of the file.",), file=file
         )
     states = node.publisher(PROGRAM_STATE)
     tracer = _tracer(states, node, file) if trace else None
@@ -47,7 +49,7 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     _listen_for_orders(node, begin, tracer)
     set_default_network(node.network)
     human_listener(node.network)  # what the person does from now on reaches the rules
-    node.ready(f"runs {Path(file).name}")
+    node.ready("runs {name}", name=Path(file).name)
     try:
         if hold:
             wait_until(begin.is_set)
@@ -55,7 +57,7 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
         with _traced(tracer):
             runpy.run_path(file, run_name="__main__")
     except Cancelled:
-        _tell(states, node, "finished", "stopped")
+        _tell(states, node, "finished", fault_of("stopped", code="stopped"))
     except SystemExit as error:
         if error.code not in (None, 0):
             _fail(states, node, file, error)
@@ -90,15 +92,17 @@ def _traced(tracer: Tracer | None) -> Iterator[None]:
 
 
 def _tell(
-    states: Publisher, node: Node, event: ProgramEvent, description: str = "", line: int = 0
+    states: Publisher, node: Node, event: ProgramEvent, fault: Fault | None = None, line: int = 0
 ) -> None:
-    states.send(ProgramState(program=node.name, event=event, description=description, line=line))
+    told = described(fault) if fault is not None else {}
+    told["text_values"] = told.pop("values", {})  # its values are those of variables
+    states.send(ProgramState(program=node.name, event=event, line=line, **told))
 
 
 def _fail(states: Publisher, node: Node, file: str, error: BaseException) -> None:
-    failure: Failure = failure_of(error)
-    _tell(states, node, "failed", failure.sentence, line_of(error, file))
-    raise ProgramFailed(failure.sentence, checklist=failure.checklist) from error
+    failure = failure_of(error)
+    _tell(states, node, "failed", failure, line_of(error, file))
+    raise ProgramFailed.of(failure) from error
 
 
 def _listen_for_orders(node: Node, begin: threading.Event, tracer: Tracer | None) -> None:

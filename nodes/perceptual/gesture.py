@@ -6,19 +6,19 @@ import time
 from functools import partial
 from pathlib import Path
 
+from faults import Text
 from nep_core.errors import ParameterError, RecordingError
-from nep_core.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
-from nep_core.node import Node
-from nodes.perceptual.recognition.ear import SensorEar, Worn
-from nodes.perceptual.recognition.measures import Measures
+from nep_core.processes.node import Node
+from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
 from nodes.perceptual.recognition.model import Model, with_triggers
-from nodes.perceptual.recognition.model_file import read_model
-from nodes.perceptual.recognition.peaks import Detection
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.resources import resource_folder
 
+from .recognition.model import read_model
+from .recognition.sensor_input import Measures, SensorEar, Worn
+from .recognition.windows import Detection
+
 _MOST_SENSORS = 8
-_LONGEST_NAME = 60
 _FORGOTTEN_S = 10.0
 """A sensor that is silent for so long may give way to another one."""
 _SILENCE_S = 0.3
@@ -52,7 +52,7 @@ def run(
     ears = _Ears(node, known, partial(_spotter, known, method, names), worn, measures)
     movement = node.subscriber(IMU, Imu)
     publisher = node.publisher(HUMAN_BEHAVIOR)
-    node.ready(f"recognises {', '.join(names)}")
+    node.ready("recognises {names}", names=", ".join(names))
     while not node.stopping:
         batch = movement.receive(timeout_s=_SILENCE_S)
         measures.arrived(movement.header.time_ns if batch and movement.header else None)
@@ -80,8 +80,9 @@ def read_certainties(text: str) -> dict[str, float]:
             name = ""
         if not name.strip():
             raise ParameterError(
-                f'The certainties have "{part.strip()}", which is not a gesture and its certainty.',
+                'The certainties have "{strip}", which is not a gesture and its certainty.',
                 checklist=("Write them with commas between them: karate 0.6, katana 0.8.",),
+                strip=part.strip(),
             )
     return found
 
@@ -138,7 +139,9 @@ class _Ears:
             return []
         if len(counts) > 1:
             self._ears[sensor] = None
-            self._node.warn(f"{batch.source} sends times and samples that do not belong together")
+            self._node.warn(
+                "{source} sends times and samples that do not belong together", source=batch.sender
+            )
             return []
         self._waiting.add(sensor)
         found = ear.hear(batch)
@@ -161,10 +164,11 @@ class _Ears:
         if is_new and len(self._heard_s) >= _MOST_SENSORS and not self._forget_silent():
             if not self._is_full:
                 self._is_full = True
-                source = batch.source[:_LONGEST_NAME]
                 self._node.warn(
-                    f"{source} is not heard: {_MOST_SENSORS} watches and phones send"
-                    " movement already. Switch off those that nobody wears."
+                    "{source} is not heard: {most_sensors} watches and phones send movement "
+                    "already. Switch off those that nobody wears.",
+                    source=batch.sender,
+                    most_sensors=_MOST_SENSORS,
                 )
             return False
         self._is_full = self._is_full and not is_new
@@ -173,19 +177,19 @@ class _Ears:
 
     def _listen_to(self, batch: Imu) -> SensorEar | None:
         make = partial(self._make_spotter, gravity_included=batch.gravity_included)
-        node, source = self._node, batch.source[:_LONGEST_NAME]
+        node, source = self._node, batch.sender
         try:
             ear = SensorEar(batch, self._model, make, self._worn, self._remark, node.warn)
         except RecordingError as error:
-            node.warn(" ".join([error.sentence, *error.checklist]))
+            node.warn(error.fault)
             return None
         if batch.gyr is None:
-            node.state("running", f"listens to {source}, which sends no rotation")
+            node.state("running", "listens to {source}, which sends no rotation", source=source)
         else:
-            node.state("running", f"listens to {source}")
+            node.state("running", "listens to {source}", source=source)
         return ear
 
-    def _remark(self, sentence: str) -> None:
+    def _remark(self, sentence: Text) -> None:
         self._node.state("running", sentence)
 
     def _forget_silent(self) -> bool:

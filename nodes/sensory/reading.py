@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from nodes.recordings import Floats
+
 Vector = tuple[float, float, float]
 
 G_M_S2 = 9.80665
@@ -58,3 +60,13 @@ def scaled(parts: Vector, factor: float) -> Vector:
 def added(one: Vector, other: Vector) -> Vector:
     """The sum of two vectors."""
     return one[0] + other[0], one[1] + other[1], one[2] + other[2]
+
+
+# Samples in the shape of an ``/imu`` message.
+
+Row = tuple[float, float, float]
+
+
+def rows(vectors: Floats) -> list[Row]:
+    """An array (n, 3) as n rows."""
+    return [(x, y, z) for x, y, z in vectors.tolist()]

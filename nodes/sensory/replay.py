@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 
 from nep_core.errors import ParameterError
-from nep_core.messages import IMU, Imu
-from nep_core.node import Node
-from nodes.recording_table import Floats
-from nodes.recordings import Recording, read_recording, read_recordings
-from nodes.sensory.batches import rows
+from nep_core.processes.node import Node
+from nep_core.wire.messages import IMU, Imu
+from nodes.recordings import Floats, Recording, read_recording, read_recordings
+
+from .reading import rows
 
 _BATCH_S = 0.03
 _MOST_LATE_S = 0.2  # a longer hold-up delays the rest: samples come late, but none is left out
@@ -32,12 +32,14 @@ def run(
     recordings = _read(Path(recording), start_s)
     publisher = node.publisher(IMU)
     duration_s = sum(float(played.t[-1]) for played in recordings)
-    node.ready(f"{duration_s:.0f} seconds to play")
+    node.ready("{duration_s} seconds to play", duration_s=f"{duration_s:.0f}")
     clock_s = 0.0
     for played in cycle(recordings) if loop else recordings:
         if node.stopping:
             return
-        node.state("running", f"plays {played.source} ({played.t[-1]:.0f} seconds)")
+        node.state(
+            "running", "plays {source} ({t} seconds)", source=played.source, t=f"{played.t[-1]:.0f}"
+        )
         for part in _parts_in_time(node, played.t, speed):
             publisher.send(_message(played, part, clock_s))
         clock_s += float(played.t[-1]) + _PAUSE_S
@@ -52,8 +54,11 @@ def _read(path: Path, start_s: float) -> list[Recording]:
     kept = first.t >= start_s
     if not kept.any():
         raise ParameterError(
-            f"{first.source} cannot start at second {start_s:g}: it lasts {first.t[-1]:.1f} s.",
+            "{source} cannot start at second {start_s}: it lasts {t} s.",
             checklist=("Choose an earlier start_s.",),
+            source=first.source,
+            start_s=f"{start_s:g}",
+            t=f"{first.t[-1]:.1f}",
         )
     recordings[0] = replace(
         first,

@@ -5,10 +5,140 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from statistics import median
 
-from nodes.sensory.clock_fit import ClockFit
-from nodes.sensory.flow import Flow
-from nodes.sensory.reading import NS, Reading, Vector
+from .reading import NS, Reading, Vector
+
+# How a sender's clock runs against ours, from when its samples arrive.
+
+_SPAN_S = 5.0  # of which the quickest arrival is kept: the others waited on their way
+_MOST_SPANS = 60  # five minutes
+_ENOUGH_SPANS = 5
+_RECENT = 50  # arrivals that the usual delay is taken from
+
+
+class ClockFit:
+    """Fits a line through the quickest arrivals of each few seconds.
+
+    A message is never too early, so the least delayed ones tell the offset of the two clocks; the
+    median of the slopes between them (Theil-Sen) is the drift, whatever a few spans say.
+    """
+
+    def __init__(self) -> None:
+        self._quickest: deque[tuple[float, float]] = deque(maxlen=_MOST_SPANS)
+        self._span_end_s: float | None = None
+        self._delays: deque[float] = deque(maxlen=_RECENT)
+        self._slope = 0.0
+
+    def add(self, sent_s: float, arrived_s: float) -> None:
+        """A sample's time on the sender's clock, and when it arrived on ours."""
+        offset_s = arrived_s - sent_s
+        if self._span_end_s is None or arrived_s >= self._span_end_s:
+            self._span_end_s = arrived_s + _SPAN_S
+            self._slope = self._fit()
+            self._quickest.append((arrived_s, offset_s))
+        elif offset_s < self._quickest[-1][1]:
+            self._quickest[-1] = (arrived_s, offset_s)
+        self._delays.append(max(0.0, offset_s - self._expected(arrived_s)))
+
+    @property
+    def drift_ppm(self) -> float | None:
+        """How much slower than ours the sender's clock runs, None before that is known."""
+        return self._slope * 1e6 if len(self._quickest) > _ENOUGH_SPANS else None
+
+    @property
+    def delay_s(self) -> float:
+        """How much later than the quickest a message usually arrives."""
+        return median(self._delays) if self._delays else 0.0
+
+    def lead_s(self, sent_s: float, arrived_s: float) -> float:
+        """How much earlier than even the quickest before it this sample would have arrived."""
+        if not self._quickest:
+            return 0.0
+        return self._expected(arrived_s) - (arrived_s - sent_s)
+
+    def _expected(self, arrived_s: float) -> float:
+        """The least offset at a moment, by the line through the quickest arrivals."""
+        return min(
+            offset_s + self._slope * (arrived_s - then_s) for then_s, offset_s in self._quickest
+        )
+
+    def _fit(self) -> float:
+        points = list(self._quickest)
+        if len(points) < _ENOUGH_SPANS:
+            return 0.0
+        slopes = [
+            (later[1] - one[1]) / (later[0] - one[0])
+            for number, one in enumerate(points)
+            for later in points[number + 1 :]
+            if later[0] > one[0]
+        ]
+        return median(slopes) if slopes else 0.0
+
+
+# How well samples flow in: their rate, what is lost, where there are gaps.
+
+_RATE_OVER = 200  # samples
+_LOSS_OVER = 2_000  # samples
+_FEW = 10
+_MISSED = 1.6  # steps; a longer one misses samples
+_GAP_S, _GAP_STEPS = 0.25, 4
+
+
+class Flow:
+    """Counts over the last samples; memory is bounded."""
+
+    def __init__(self) -> None:
+        self._times: deque[float] = deque(maxlen=_RATE_OVER)
+        self._missed: deque[int] = deque(maxlen=_LOSS_OVER)
+        self._step_s = 0.0
+        self._since_step = 0
+        self._numbers: deque[int] = deque(maxlen=_LOSS_OVER)  # lost messages before each
+        self._last_number: int | None = None
+        self.gaps = 0
+
+    def add(self, t: float, *, is_stamped: bool = True) -> None:
+        """A sample's time in s; times rise. Those of arrival tell nothing of losses."""
+        if self._times and is_stamped:
+            self._note_step(t - self._times[-1])
+        self._times.append(t)
+        self._since_step += 1
+        if self._since_step >= _FEW:
+            self._since_step = 0
+            times = list(self._times)
+            self._step_s = median([after - before for before, after in pairwise(times)])
+
+    def add_message(self, number: int) -> None:
+        """A message's place in the sender's count; one that starts anew loses nothing."""
+        last, self._last_number = self._last_number, number
+        if last is not None and 0 < number - last < _LOSS_OVER:
+            self._numbers.append(number - last - 1)
+
+    @property
+    def rate_hz(self) -> float:
+        """Samples a second, gaps left out; 0 while too few have come."""
+        if len(self._times) < _FEW or self._times[-1] <= self._times[0]:
+            return 0.0
+        return (len(self._times) - 1) / (self._times[-1] - self._times[0])
+
+    @property
+    def loss(self) -> float:
+        """The share of samples, or of messages, that is missing."""
+        missed, lost = sum(self._missed), sum(self._numbers)
+        by_cadence = missed / (missed + len(self._missed)) if self._missed else 0.0
+        by_number = lost / (lost + len(self._numbers)) if self._numbers else 0.0
+        return max(by_cadence, by_number)
+
+    def _note_step(self, step_s: float) -> None:
+        usual_s = self._step_s
+        if not usual_s:
+            return
+        steps = step_s / usual_s
+        self._missed.append(min(_LOSS_OVER, round(steps) - 1) if steps > _MISSED else 0)
+        if step_s > max(_GAP_S, _GAP_STEPS * usual_s):
+            self.gaps += 1
+
 
 _GYRO_LASTS_S = 0.5  # a rotation rate older than this is not joined to an acceleration any more
 _LONGEST_GAP_S = 30.0  # a sender's clock that jumps further was started anew,

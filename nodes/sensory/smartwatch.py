@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 
-from nep_core.messages import IMU, Wrist
-from nep_core.node import Node
+from nep_core.processes.node import Node
+from nep_core.wire.messages import IMU, Wrist
 from nodes.sensory.hearing import Hearing
-from nodes.sensory.ways import WAYS
-from nodes.sensory.ways.way import Settings
+
+from .connectors import WAYS
+from .connectors.connector import Settings
 
 _BATCH_S = 0.03
 

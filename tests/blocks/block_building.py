@@ -7,12 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import AddGroup, SetField
+from nep_studio.blocks.edits.content import AddGroup, SetField
+from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InBody, InInput, InStack
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.values import FieldValue
-from nep_studio.blocks.writing import to_bytes
+from nep_studio.blocks.slots import FieldValue
 
 
 @dataclass

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.loading import load_language
+from nep_studio.run.installation import load_language
 
 RESOURCES = Path(__file__).resolve().parents[2] / "resources"
 

@@ -5,32 +5,32 @@ from __future__ import annotations
 from hypothesis import strategies as st
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import (
+from nep_studio.blocks.edits import Edit
+from nep_studio.blocks.edits.content import (
     AddGroup,
     AddNote,
-    AddPage,
     AddProcedure,
-    AddVariable,
     ChangeNote,
     ChangeProcedure,
-    CreateBlocks,
-    DeleteBlocks,
-    Edit,
-    MoveBlocks,
-    MovePage,
-    MoveStack,
     RemoveGroup,
     RemoveNote,
-    RemovePage,
     RemoveProcedure,
-    RemoveVariable,
-    RenamePage,
-    RenameProject,
-    RenameVariable,
     SetComment,
     SetCommentSize,
     SetField,
     SetFlag,
+)
+from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
+from nep_studio.blocks.edits.project import (
+    AddPage,
+    AddVariable,
+    MovePage,
+    MoveStack,
+    RemovePage,
+    RemoveVariable,
+    RenamePage,
+    RenameProject,
+    RenameVariable,
 )
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack
 from nep_studio.blocks.procedures import PARAMETER_KINDS

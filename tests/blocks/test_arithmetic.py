@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.arithmetic import LARGEST_NUMBER, ArithmeticRefused, calculate
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.blocks.generate.printing import show
+from nep_studio.blocks.generate.expressions import show
 from nep_studio.blocks.generate.program import generate_program
 
 SIGNS = "0123456789.+-*/%()^ ,eEpisqrtabound×π"  # noqa: RUF001 signs that people type

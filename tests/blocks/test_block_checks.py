@@ -17,10 +17,12 @@ from nep_studio.blocks.deployment import (
     robot_entries,
     robots_used,
 )
-from nep_studio.blocks.edits import DeleteBlocks, RemoveVariable, SetField, SetFlag
+from nep_studio.blocks.edits.content import SetField, SetFlag
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.edits.project import RemoveVariable
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.loading import load_language
+from nep_studio.run.installation import load_language
 
 RESOURCES = Path(__file__).resolve().parents[2] / "resources"
 
@@ -44,7 +46,7 @@ def test_an_empty_page_says_how_to_begin(language):
     problem = only(build(language), language)
 
     assert problem.severity == "error" and problem.kind == "no_rule" and not problem.block
-    assert "Drag a “when” block" in problem.checklist[0]
+    assert "Drag a “when” block" in str(problem.checklist[0])
 
 
 def test_an_empty_question_is_told_where_it_is_missing(language):
@@ -53,7 +55,7 @@ def test_an_empty_question_is_told_where_it_is_missing(language):
     problem = only(editor, language)
 
     assert problem.kind == "empty_slot" and problem.block == block_of(editor, "control.wait_until")
-    assert problem.sentence == "“wait until …”: a question is missing."
+    assert str(problem.sentence) == "“wait until …”: a question is missing."
 
 
 def test_a_slot_whose_block_is_disabled_counts_as_empty(language):
@@ -84,7 +86,9 @@ def test_a_choice_that_the_robot_does_not_have_is_told(language):
 
     problem = only(editor, language)
 
-    assert problem.kind == "unknown_choice" and "“posture_fly” is not one of" in problem.sentence
+    assert problem.kind == "unknown_choice" and "“posture_fly” is not one of" in str(
+        problem.sentence
+    )
     with pytest.raises(CodeRefused, match="posture_fly"):
         generate_program(editor.project, language)
 
@@ -114,7 +118,7 @@ def test_a_robot_that_is_not_on_the_robots_page_can_be_added(language):
 
     problem = only(editor, language)
 
-    assert problem.sentence == "Pepper is not on the Robots page."
+    assert str(problem.sentence) == "Pepper is not on the Robots page."
     assert problem.fix.name == "add_robot" and problem.fix.data == {"name": "Pepper"}
     assert robots_used(editor.project, language) == {"Pepper": problem.block}
 
@@ -124,7 +128,10 @@ def test_all_robots_need_at_least_one(language):
 
     problem = only(editor, language)
 
-    assert problem.sentence == "There is no robot on the Robots page." and problem.fix.data["name"]
+    assert (
+        str(problem.sentence) == "There is no robot on the Robots page."
+        and problem.fix.data["name"]
+    )
 
 
 def test_two_rules_for_one_gesture_are_told_however_they_name_it(language):
@@ -155,7 +162,7 @@ def test_robots_and_nodes_need_names_of_their_own(language):
     editor.apply(SetField(robot, "name", " "))
     assert only(editor, language).kind == "bad_name" and only(editor, language).block == robot
     editor.apply(SetField(robot, "name", "*"))
-    assert "stands for all robots" in only(editor, language).sentence
+    assert "stands for all robots" in str(only(editor, language).sentence)
 
     editor.apply(DeleteBlocks(robot))
     assert kinds(editor, language) == []

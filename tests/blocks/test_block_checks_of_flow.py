@@ -7,7 +7,7 @@ from block_building import B
 from sound_programs import WAIT, block_of, kinds, only, sound
 
 from nep_studio.blocks.checks import check
-from nep_studio.blocks.edits import SetFlag
+from nep_studio.blocks.edits.content import SetFlag
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
 
@@ -42,7 +42,7 @@ def test_walking_while_sitting_is_told_for_the_robot_that_sits(language):
 
     problem = only(editor, language)
 
-    assert problem.sentence == "NAO cannot walk after the posture “sit”."
+    assert str(problem.sentence) == "NAO cannot walk after the posture “sit”."
     assert problem.fix.data == {"block": block_of(editor, "robot.walk"), "robot": "NAO"}
 
 

@@ -9,13 +9,13 @@ import pytest
 from block_building import B, build
 
 from nep_core import Robot
+from nep_studio.blocks.definition_files import load_profile
 from nep_studio.blocks.errors import DefinitionError
 from nep_studio.blocks.generate.names import API
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.loading import load_language
-from nep_studio.blocks.profile import load_profile
 from nep_studio.blocks.sentence import Group, SentenceError, Slot, parse
 from nep_studio.blocks.text import sentence
+from nep_studio.run.installation import load_language
 
 ROBOT = Path(__file__).resolve().parents[2] / "resources" / "robots" / "nao" / "robot.toml"
 HEAD = '[category]\nid = "my"\ntitle = "My"\ncolour = "my"\norder = 1\n'
@@ -77,8 +77,8 @@ def test_what_is_wrong_with_a_definition_is_told_with_file_and_block(tmp_path, l
     with pytest.raises(DefinitionError) as refused:
         load(tmp_path, *lines)
 
-    assert reason in refused.value.sentence
-    assert refused.value.sentence.startswith("In my.toml, block “sing”")
+    assert reason in str(refused.value.sentence)
+    assert str(refused.value.sentence).startswith("In my.toml, block “sing”")
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_what_is_wrong_with_a_category_is_told_with_its_file(tmp_path, head, rea
     with pytest.raises(DefinitionError) as refused:
         load(tmp_path, GOOD, DEFAULTS, CALL, head=head)
 
-    assert reason in refused.value.sentence and "my.toml" in refused.value.sentence
+    assert reason in str(refused.value.sentence) and "my.toml" in str(refused.value.sentence)
 
 
 def test_a_folder_without_definitions_and_a_robot_without_a_name_are_told(tmp_path):

@@ -8,11 +8,10 @@ import pytest
 
 from nep_studio import paths
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.language import Language
+from nep_studio.blocks.language import Language, faults, translated, translated_parts
 from nep_studio.blocks.sentence import Group, SentenceError, Slot
 from nep_studio.blocks.text import sentence
-from nep_studio.blocks.translation import faults, translated, translated_parts
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from tests.blocks.block_building import B, build
 
 TABLES = sorted((paths.resources() / "translations").glob("*.toml"))

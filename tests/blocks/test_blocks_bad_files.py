@@ -10,16 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.errors import ProjectFileError
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
+from nep_studio.blocks.files import from_bytes, to_bytes
 
 
 def refusal(data: bytes, language) -> str:
     with pytest.raises(ProjectFileError) as refused:
         from_bytes(data, "karate.nep", language)
-    assert refused.value.sentence.startswith("karate.nep ")
+    assert str(refused.value.sentence).startswith("karate.nep ")
     assert refused.value.checklist
-    return refused.value.sentence
+    return str(refused.value.sentence)
 
 
 def test_a_file_cut_off_anywhere_is_refused(language):
@@ -38,7 +37,7 @@ def test_a_file_with_damaged_bytes_is_refused_or_is_a_program(language, data):
     try:
         project = from_bytes(bytes(content), "karate.nep", language)
     except ProjectFileError as refused:
-        assert refused.sentence.startswith("karate.nep ")
+        assert str(refused.sentence).startswith("karate.nep ")
     else:
         assert to_bytes(from_bytes(to_bytes(project), "x.nep", language)) == to_bytes(project)
 

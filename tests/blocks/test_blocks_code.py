@@ -6,10 +6,10 @@ import pytest
 from block_building import B, build, karate
 from generated import assert_mapped, assert_tame, parse
 
-from nep_studio.blocks.edits import RenameVariable, SetComment, SetField, SetFlag
+from nep_studio.blocks.edits.content import SetComment, SetField, SetFlag
+from nep_studio.blocks.edits.project import RenameVariable
 from nep_studio.blocks.errors import CodeRefused
-from nep_studio.blocks.generate.launch import generate_launch
-from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
+from nep_studio.blocks.generate.program import ProgramGenerator, generate_launch, generate_program
 from nep_studio.blocks.places import InStack
 
 

@@ -10,14 +10,12 @@ import pytest
 from block_building import B, build, changed_karate, karate
 
 from nep_studio.blocks.checks import check
-from nep_studio.blocks.edits import RenameProject
+from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import CodeRefused, ProjectFileError
-from nep_studio.blocks.files import LARGEST_BYTES, load, save
+from nep_studio.blocks.files import LARGEST_BYTES, from_bytes, load, save, to_bytes
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.reading import from_bytes
 from nep_studio.blocks.text import sentence
-from nep_studio.blocks.writing import to_bytes
 
 
 def test_a_project_is_loaded_as_it_was_saved(language, tmp_path):
@@ -58,7 +56,7 @@ def test_saving_does_not_lose_the_old_file_when_it_fails(language, tmp_path, mon
     with pytest.raises(ProjectFileError, match="no space left on device") as refused:
         save(project, path)
 
-    assert "unchanged" in refused.value.sentence
+    assert "unchanged" in str(refused.value.sentence)
     assert path.read_bytes() == before and os.listdir(tmp_path) == ["karate.nep"]
 
 

@@ -9,8 +9,8 @@ from hostile import texts
 from hypothesis import given
 from hypothesis import strategies as st
 
+from nep_studio.blocks.generate.expressions import literal, show
 from nep_studio.blocks.generate.names import RESERVED, NameTable, python_name
-from nep_studio.blocks.generate.printing import literal, show
 
 NAMES = st.sampled_from(["a", "nao", "größe", "x_2"])
 LEAVES = (

@@ -194,7 +194,7 @@ def test_code_that_python_does_not_understand_is_a_problem_of_its_block(language
     editor = build(language, [B("event.started"), B("code.lines", {"code": code})])
     problem = next(p for p in check(editor.project, language) if p.kind == "wrong_python")
 
-    assert reason in problem.sentence and problem.severity == "error"
+    assert reason in str(problem.sentence) and problem.severity == "error"
     with pytest.raises(CodeRefused) as refused:
         generate_program(editor.project, language)
     assert refused.value.block == problem.block

@@ -5,8 +5,7 @@ from __future__ import annotations
 from block_building import B, build
 
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.operations.copying import copy
-from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.blocks.procedures import title
 from nep_studio.blocks.text import sentence
 

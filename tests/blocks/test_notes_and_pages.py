@@ -9,21 +9,13 @@ import pytest
 from block_building import B, build, karate
 from sound_programs import kinds
 
-from nep_studio.blocks.edits import (
-    AddNote,
-    AddPage,
-    ChangeNote,
-    MovePage,
-    RemovePage,
-    RenamePage,
-    SetCommentSize,
-)
+from nep_studio.blocks.edits.content import AddNote, ChangeNote, SetCommentSize
+from nep_studio.blocks.edits.project import AddPage, MovePage, RemovePage, RenamePage
 from nep_studio.blocks.errors import EditRefused, ProjectFileError
+from nep_studio.blocks.files import VERSION, from_bytes, to_bytes
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.places import NewStack
 from nep_studio.blocks.program import Note
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import VERSION, to_bytes
 
 EXAMPLES = sorted((Path(__file__).resolve().parents[2] / "resources" / "examples").glob("*.nep"))
 WITHOUT_OWN_BLOCKS = [path for path in EXAMPLES if not json.loads(path.read_bytes())["procedures"]]
@@ -184,4 +176,4 @@ def test_wrong_notes_pages_and_own_blocks_are_told(language, key, value, told):
     with pytest.raises(ProjectFileError) as refused:
         from_bytes(json.dumps(data).encode(), "x.nep", language)
 
-    assert told in refused.value.sentence
+    assert told in str(refused.value.sentence)

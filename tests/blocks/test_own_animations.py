@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused, ProjectFileError
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.animations import (
@@ -19,8 +20,7 @@ from nep_studio.blocks.operations.animations import (
     keep_animation,
     rename_animation,
 )
-from nep_studio.blocks.operations.copying import copy, from_text, to_text
-from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.operations.copying import copy, from_text, paste, to_text
 from nep_studio.blocks.own_animations import (
     JointKeys,
     OwnAnimation,
@@ -29,9 +29,7 @@ from nep_studio.blocks.own_animations import (
     why_not_animation,
 )
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.reading import from_bytes
 from nep_studio.blocks.text import sentence
-from nep_studio.blocks.writing import to_bytes
 from tests.blocks.block_building import B, build
 
 HOP = OwnAnimation("Big hop", {"HeadPitch": JointKeys((0.5, 1.0), (0.3, 0.0))})

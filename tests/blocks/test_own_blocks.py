@@ -7,18 +7,17 @@ from block_building import B, build
 from sound_programs import kinds
 
 from nep_studio.blocks.checks import check
+from nep_studio.blocks.edit_rules import why_not_delete_procedure
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import DeleteBlocks, RemoveProcedure, SetFlag
+from nep_studio.blocks.edits.content import RemoveProcedure, SetFlag
+from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.errors import CodeRefused, EditRefused
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
-from nep_studio.blocks.own_block_changes import why_not_delete_procedure
-from nep_studio.blocks.places import InInput, InStack
+from nep_studio.blocks.places import InInput, InStack, procedure_uses, variable_uses
 from nep_studio.blocks.procedures import OWN_CATEGORY
 from nep_studio.blocks.program import Parameter, Project
-from nep_studio.blocks.reading import from_bytes
 from nep_studio.blocks.text import sentence
-from nep_studio.blocks.uses import procedure_uses, variable_uses
-from nep_studio.blocks.writing import to_bytes
 
 GREETING = '''\
 """Untitled. Made with NEP Studio."""
@@ -212,7 +211,7 @@ def test_a_call_without_a_definition_and_one_of_itself_are_told(language, greeti
 
     editor.apply(SetFlag(header, "disabled", True))
     problem = next(p for p in check(editor.project, language) if p.kind == "no_definition")
-    assert problem.severity == "error" and "greet (who) (times) times" in problem.sentence
+    assert problem.severity == "error" and "greet (who) (times) times" in str(problem.sentence)
 
 
 def test_the_uses_of_a_variable_are_found(language):

@@ -11,7 +11,7 @@ import pytest
 import nep_studio.blocks.own_gestures as own_gestures_module
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import ProjectFileError
 from nep_studio.blocks.files import load, save
 from nep_studio.blocks.language import Language
@@ -20,6 +20,7 @@ from nep_studio.blocks.own_gestures import (
     OwnRecogniser,
     OwnRecording,
     OwnTake,
+    floats_of,
     free_gesture_name,
     keep_gesture,
     keep_recogniser,
@@ -27,11 +28,12 @@ from nep_studio.blocks.own_gestures import (
     own_gestures,
     own_recogniser,
     own_recordings,
+    packed_samples,
     trained_gestures,
     training_digest,
+    unpacked_samples,
 )
-from nep_studio.blocks.packed_samples import floats_of, packed_samples, unpacked_samples
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from tests.blocks.block_building import B, build
 
 ROWS = array("f", [0.0, 0.5, 1.0, 9.5, 0.25, -0.5, 2.0, 9.0, 0.5, 0.0, 1.5, 10.0])

@@ -8,7 +8,7 @@ import pytest
 from block_building import B, build
 
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.generate.reporter_places import ReporterPlaces
+from nep_studio.blocks.generate.source_map import ReporterPlaces
 
 
 def seen(gesture: str) -> B:

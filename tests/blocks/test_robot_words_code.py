@@ -115,7 +115,7 @@ def test_what_needs_a_real_robot_is_told_before_it_runs(language: Language) -> N
     problem = only(sound(language, [B("event.started"), B(needy.id)]), language)
 
     assert (problem.kind, problem.severity) == ("needs_real_robot", "warning")
-    assert "takes the picture" in problem.sentence and problem.checklist
+    assert "takes the picture" in str(problem.sentence) and problem.checklist
 
 
 def test_every_robot_may_take_pictures(language: Language) -> None:

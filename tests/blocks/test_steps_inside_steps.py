@@ -6,11 +6,10 @@ import pytest
 from block_building import B, build
 from msgspec.structs import replace
 
-from nep_studio.blocks.edits import AddNote, ChangeNote, SetField
+from nep_studio.blocks.edits.content import AddNote, ChangeNote, SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.program import Note, Project
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
 
 
 def test_what_fails_inside_a_step_is_taken_back_and_the_step_goes_on(language):

@@ -13,8 +13,8 @@ from website.page import Page
 from website.words import word
 from website.written import WrongPage, page_of
 
-from nep_studio.documentation import documentation_folder, first_page
-from nep_studio.ui.theme import load_theme
+from nep_studio.paths import documentation_folder, first_page
+from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.words import available_languages
 from tests.conftest import PROJECT
 from tests.ui.theme.colour_seeing import contrast

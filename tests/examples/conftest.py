@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.launcher import Launcher
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import Launcher
 from tests.examples.building import build
 from tests.node_running import NODES
 

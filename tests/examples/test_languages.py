@@ -14,17 +14,16 @@ from pathlib import Path
 import psutil
 import pytest
 
-from nep_core.broker import Broker
-from nep_core.broker_network import BrokerNetwork
-from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.manifest import NodeCatalog, Value
-from nep_core.master import Master
-from nep_core.master_probe import ask_master, ask_to_stop
-from nep_core.messages import HUMAN_BEHAVIOR, IMU, NODE_STATE, HumanBehavior, Imu, NodeState
-from nep_core.outcome import ASKED
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.broker import Broker, BrokerNetwork
+from nep_core.networks.master import Master
+from nep_core.networks.master_messages import ask_master, ask_to_stop
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.places import NODES_VARIABLE
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.processes.launcher import LaunchedNode, Launcher
+from nep_core.processes.manifest import NodeCatalog, Value
+from nep_core.processes.process import ASKED
+from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, NODE_STATE, HumanBehavior, Imu, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.node_running import until
 
 WAIT_S = 20.0
@@ -32,7 +31,7 @@ PROGRAM = Path(__file__).parent / "shaken.nep"
 RUN_LAUNCHER = """
 import sys
 from pathlib import Path
-from nep_core.launcher import Launcher
+from nep_core.processes.launcher import Launcher
 launcher = Launcher(folders=(Path(sys.argv[1]),), logs=Path(sys.argv[2]))
 launcher.start("sensory/board", "orphan").wait_ready(20)
 input()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 
-from nep_core.launcher import Launcher
-from nep_core.messages import HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior, NodeState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import Launcher
+from nep_core.wire.messages import HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior, NodeState
+from nep_core.wire.pubsub import Subscriber
 from tests.examples.raw_publisher import RawPublisher
 from tests.node_running import until
 

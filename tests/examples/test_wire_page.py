@@ -13,14 +13,14 @@ from typing import Any, get_args
 import msgspec
 import pytest
 
-from nep_core import frames, handshake
-from nep_core import master_messages as says
-from nep_core.manifest import read_manifest
-from nep_core.master import Master
-from nep_core.master_probe import ask_to_stop
-from nep_core.messages import BY_TOPIC, LATCHED, NodeEvent
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
+from nep_core.networks import master_messages as says
+from nep_core.networks.master import Master
+from nep_core.networks.master_messages import ask_to_stop
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.manifest import read_manifest
+from nep_core.wire import frames, outbox
+from nep_core.wire.messages import BY_TOPIC, LATCHED, NodeEvent
+from nep_core.wire.pubsub import Publisher
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "wire.md").read_text(encoding="utf-8")
 BLOCK = re.compile(r"^ *```(\w+) ?(.*)\n((?:.*\n)*?) *```$", re.MULTILINE)
@@ -101,14 +101,14 @@ def test_the_shared_frame_has_two_messages_with_the_numbers_that_the_page_says()
 
 def test_the_notices_are_byte_for_byte_ours() -> None:
     kept = joined(HUMAN, "shake", 6, 1767225599000000000, b'{"human_state":"calm"}', "5f0c1a2b")
-    private = handshake.private_subscription(HUMAN, "9c41d7")
+    private = outbox.private_subscription(HUMAN, "9c41d7")
 
-    seen = handshake.read_subscription(block("subscription"))
+    seen = outbox.read_subscription(block("subscription"))
 
     assert block("notice") == frames.mark(IMU, "watch", "77aa0100", 42)
     assert block("subscription") == b"\1" + private
-    assert seen == handshake.Seen(True, HUMAN, "9c41d7")
-    assert block("welcome") == handshake.private_frame(
+    assert seen == outbox.Seen(True, HUMAN, "9c41d7")
+    assert block("welcome") == outbox.private_frame(
         HUMAN, "9c41d7", "5f0c1a2b", frames.notice(kept, 7)
     )
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from nep_core import tasks
-from nep_core.launcher import Launcher
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import Launcher
+from nep_core.program import tasks
 from tests.nep_core.launching import WAIT, Ends
 from tests.nep_core.node_making import write_node
 from tests.nep_core.outside import Outside

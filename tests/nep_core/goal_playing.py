@@ -6,13 +6,13 @@ import queue
 import threading
 from collections.abc import Callable
 
-from nep_core import tasks
-from nep_core.behavior import Behavior
-from nep_core.human import human_listener
-from nep_core.messages import HUMAN_BEHAVIOR, PROGRAM_STATE, HumanBehavior, ProgramState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.tasks import wait
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program import tasks
+from nep_core.program.behavior import Behavior
+from nep_core.program.human import human_listener
+from nep_core.program.tasks import wait
+from nep_core.wire.messages import HUMAN_BEHAVIOR, PROGRAM_STATE, HumanBehavior, ProgramState
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
 LONG_S = 60.0

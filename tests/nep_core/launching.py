@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import queue
 
-from nep_core.launcher import LaunchedNode
-from nep_core.outcome import Outcome
+from nep_core.processes.launcher import LaunchedNode
+from nep_core.processes.process import Outcome
 
 Ends = queue.Queue[tuple[LaunchedNode, Outcome, bool]]
 """What the launcher told: which node ended, how, and whether it is started again."""

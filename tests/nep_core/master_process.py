@@ -11,8 +11,8 @@ from typing import Self
 import psutil
 import zmq
 
-from nep_core import master_messages as says
-from nep_core.master_probe import ask_master
+from nep_core.networks import master_messages as says
+from nep_core.networks.master_messages import ask_master
 
 TIMEOUT_S = 10.0
 

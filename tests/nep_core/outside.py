@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from nep_core.human import (
-    human_listener,
-    times_seen,
-)
-from nep_core.messages import HUMAN_BEHAVIOR, ROBOT_STATE, HumanBehavior, RobotState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
-from nep_core.robot import Robot
-from nep_core.tasks import wait_until
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program.human import human_listener, times_seen
+from nep_core.program.robot import Robot
+from nep_core.program.tasks import wait_until
+from nep_core.wire.messages import HUMAN_BEHAVIOR, ROBOT_STATE, HumanBehavior, RobotState
+from nep_core.wire.pubsub import Publisher
 from tests.nep_core.robot_playing import PlayedRobot
 
 Join = Callable[[str], PeerNetwork]

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import threading
 
-from nep_core.messages import (
+from nep_core.networks.network import Network
+from nep_core.wire.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
     ActionRequest,
     ActionResult,
     ActionState,
 )
-from nep_core.network import Network
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 
 class PlayedRobot:

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_core import backlog as backlog_module
-from nep_core import frames, tally
-from nep_core.backlog import Backlog
-from nep_core.frames import NUL, join, mark, notice, subscription
+from nep_core.wire import frames, inbox
+from nep_core.wire import inbox as backlog_module
+from nep_core.wire.frames import NUL, join, mark, notice, subscription
+from nep_core.wire.inbox import Backlog
 
 
 def frame(first: int, *payloads: bytes, run: str = "11111111", encoding: str = "json") -> bytes:
@@ -146,10 +146,10 @@ def test_bytes_with_nul_are_one_message() -> None:
 def test_a_topic_that_lives_for_weeks_remembers_a_bounded_number_of_publishers() -> None:
     backlog = Backlog("/t")
 
-    for start in range(tally.MOST_PUBLISHERS + 10):
+    for start in range(inbox.MOST_PUBLISHERS + 10):
         backlog.put(frame(1, run=f"{start:08}"))
 
-    assert len(backlog._tally._known) == tally.MOST_PUBLISHERS
+    assert len(backlog._tally._known) == inbox.MOST_PUBLISHERS
 
 
 @given(st.lists(st.binary(max_size=60) | st.binary(max_size=60).map(lambda b: b"/t\0" + b)))

@@ -8,18 +8,13 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from nep_core import human, tasks
-from nep_core.behavior import Again, Behavior
-from nep_core.human import human_state
-from nep_core.messages import (
-    HUMAN_BEHAVIOR,
-    PROGRAM_STATE,
-    HumanBehavior,
-    ProgramState,
-)
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.tasks import Cancelled, stop_program, wait, wait_until
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program import human, tasks
+from nep_core.program.behavior import Again, Behavior
+from nep_core.program.human import human_state
+from nep_core.program.tasks import Cancelled, stop_program, wait, wait_until
+from nep_core.wire.messages import HUMAN_BEHAVIOR, PROGRAM_STATE, HumanBehavior, ProgramState
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
 

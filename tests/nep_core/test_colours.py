@@ -2,7 +2,7 @@
 
 import pytest
 
-from nep_core.colours import colour_from, mix_colours
+from nep_core.program.robot import colour_from, mix_colours
 
 
 def test_a_colour_is_made_from_its_parts_within_their_limits():

@@ -14,13 +14,11 @@ import psutil
 import pytest
 import zmq
 
-from nep_core.broker import Broker
-from nep_core.broker_network import BrokerNetwork
 from nep_core.errors import NetworkError
-from nep_core.network import Network
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.zmq_network import DirectNetwork
+from nep_core.networks.broker import Broker, BrokerNetwork
+from nep_core.networks.network import Network
+from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
 Numbered = dict[str, int]
@@ -31,9 +29,9 @@ ALLOWANCE_BYTES = 30_000_000
 
 HEARER = """
 import sys
-from nep_core.broker_network import BrokerNetwork
-from nep_core.pubsub import Subscriber
-from nep_core.zmq_network import DirectNetwork
+from nep_core.networks.broker import BrokerNetwork
+from nep_core.wire.pubsub import Subscriber
+from nep_core.networks.zmq_networks import DirectNetwork
 
 kind, endpoint = sys.argv[1:]
 network = BrokerNetwork(endpoint) if kind == "broker" else DirectNetwork(endpoint)

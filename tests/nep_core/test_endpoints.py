@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from nep_core.broker import Broker
 from nep_core.cli import main
-from nep_core.endpoints import (
+from nep_core.errors import NetworkError
+from nep_core.networks.broker import Broker
+from nep_core.networks.endpoints import (
     BROKER_VARIABLE,
     MASTER_VARIABLE,
     NETWORK_VARIABLE,
@@ -16,8 +17,7 @@ from nep_core.endpoints import (
     fixed_endpoint,
     master_endpoint,
 )
-from nep_core.errors import NetworkError
-from nep_core.master_probe import ask_master
+from nep_core.networks.master_messages import ask_master
 
 GOOD = ("tcp://127.0.0.1:7100", "tcp://robot-1.local:1", "tcp://[::1]:65535", "tcp://127.0.0.1:*")
 WRONG = (
@@ -43,7 +43,7 @@ def test_what_is_no_endpoint_is_told_with_an_example(endpoint: str) -> None:
     for check in (check_endpoint, fixed_endpoint, ask_master):
         with pytest.raises(NetworkError, match="is not an endpoint") as raised:
             check(endpoint)
-        assert "tcp://127.0.0.1:7100" in raised.value.checklist[0]
+        assert "tcp://127.0.0.1:7100" in str(raised.value.checklist[0])
 
 
 def test_a_master_that_is_looked_for_needs_a_port(monkeypatch: pytest.MonkeyPatch) -> None:

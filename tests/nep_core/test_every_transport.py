@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from nep_core import backlog
 from nep_core.errors import NetworkError
-from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire import inbox
+from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.worlds import EVERY, NAMED, World, a_world
 
 only_named = pytest.mark.parametrize("world", NAMED, indirect=True)
@@ -180,7 +180,7 @@ def test_of_states_only_the_newest_is_kept_and_none_counts_as_lost(world: World)
 def test_who_cannot_keep_up_keeps_the_newest_and_knows_how_many_it_lost(
     world: World, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(backlog, "FRAMES", 10)
+    monkeypatch.setattr(inbox, "FRAMES", 10)
     publisher, subscriber = connect(world, "/n")
 
     for number in range(30):

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_core.errors import BadMessage, NetworkError
-from nep_core.frames import (
+from nep_core.networks.zmq_networks import DirectNetwork
+from nep_core.wire.frames import (
     NUL,
     Header,
     check_topic,
@@ -21,9 +22,8 @@ from nep_core.frames import (
     read_header,
     subscription,
 )
-from nep_core.messages import HumanBehavior
-from nep_core.pubsub import Subscriber
-from nep_core.zmq_network import DirectNetwork
+from nep_core.wire.messages import HumanBehavior
+from nep_core.wire.pubsub import Subscriber
 
 json_values = st.recursive(
     st.none()
@@ -69,7 +69,7 @@ def test_any_header_is_read_or_refused(data: bytes) -> None:
     try:
         read_header(data)
     except BadMessage as error:
-        assert error.sentence.endswith(".")
+        assert str(error.sentence).endswith(".")
 
 
 class Frames:

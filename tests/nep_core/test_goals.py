@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from nep_core import tasks
-from nep_core.p2p import PeerNetwork
-from nep_core.robot import Robot
-from nep_core.tasks import wait, wait_until
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program import tasks
+from nep_core.program.robot import Robot
+from nep_core.program.tasks import wait, wait_until
 from tests.nep_core.goal_playing import Join, Scene
 from tests.nep_core.robot_playing import PlayedRobot
 

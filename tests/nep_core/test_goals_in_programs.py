@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from nep_core.behavior import Behavior
 from nep_core.errors import NepError
-from nep_core.p2p import PeerNetwork
-from nep_core.tasks import wait
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program.behavior import Behavior
+from nep_core.program.tasks import wait
 from tests.nep_core.goal_playing import WAIT_S, Join, Scene
 
 
@@ -82,7 +82,7 @@ def test_what_hangs_on_a_goal_that_is_not_there_fails_with_its_name(scene: Scene
 
     scene.join()
 
-    assert isinstance(scene.error, NepError) and "chatt" in scene.error.sentence
+    assert isinstance(scene.error, NepError) and "chatt" in str(scene.error.sentence)
 
 
 def test_a_storm_of_states_runs_one_goal_at_a_time(scene: Scene) -> None:

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 import psutil
 import pytest
 
-from nep_core import lifeline
-from nep_core.process import program_command
+from nep_core.processes import lifeline
+from nep_core.processes.process import program_command
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are those of Unix")
 

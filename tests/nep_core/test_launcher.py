@@ -11,11 +11,11 @@ import psutil
 import pytest
 
 from nep_core.errors import NameTaken, NodeStartError, ParameterError
-from nep_core.launcher import Launcher
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.outcome import Outcome
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import Launcher
+from nep_core.processes.process import Outcome
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Subscriber
 from tests.nep_core.launching import WAIT, Ends, first_line
 from tests.nep_core.node_making import write_node
 
@@ -60,7 +60,7 @@ def test_a_killed_node_is_told_and_started_again(launcher: Launcher, ends: Ends)
 def test_a_node_that_always_crashes_is_given_up(
     launcher: Launcher, ends: Ends, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.launcher.FIRST_PAUSE_S", 0.01)
+    monkeypatch.setattr("nep_core.processes.launcher.FIRST_PAUSE_S", 0.01)
     write_node(tmp_path / "nodes", "weak", 'node.ready("")\nraise NepError("The lamp broke.")')
 
     launched = launcher.start("sensory/weak")

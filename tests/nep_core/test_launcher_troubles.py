@@ -13,8 +13,8 @@ import psutil
 import pytest
 
 from nep_core.errors import NodeStartError, ParameterError
-from nep_core.launcher import Launcher
-from nep_core.process import ChildProcess
+from nep_core.processes.launcher import Launcher
+from nep_core.processes.process import ChildProcess
 from tests.nep_core.launching import WAIT, Ends, first_line
 from tests.nep_core.node_making import write_node
 
@@ -72,7 +72,7 @@ def test_a_node_stopped_in_the_middle_of_a_restart_stays_stopped(
         go_on.wait(5)
         return ChildProcess(*words, **options)
 
-    monkeypatch.setattr("nep_core.launcher.ChildProcess", slow)
+    monkeypatch.setattr("nep_core.processes.launcher.ChildProcess", slow)
     os.kill(launched.pid, signal.SIGKILL)
     assert restarting.wait(5)
 

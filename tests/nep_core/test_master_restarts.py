@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from nep_core.master import Master
-from nep_core.master_feed import MasterFeed
-from nep_core.master_probe import ask_to_stop
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.registry import Registration
+from nep_core.networks.master import Master
+from nep_core.networks.master_client import MasterFeed
+from nep_core.networks.master_messages import ask_to_stop
+from nep_core.networks.registry import Registration
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.master_process import TIMEOUT_S, MasterProcess, nodes_of, until
 
 Join = Callable[[str], PeerNetwork]

@@ -9,11 +9,10 @@ import pytest
 import zmq
 
 from nep_core.errors import MasterNotFound, NameTaken, NetworkError, PortTaken
-from nep_core.frames import subscription
-from nep_core.handshake import read_subscription
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.zmq_network import DirectNetwork
+from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
+from nep_core.wire.frames import subscription
+from nep_core.wire.outbox import read_subscription
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.master_process import until
 
 Join = Callable[[str], PeerNetwork]
@@ -37,12 +36,12 @@ def test_what_is_no_endpoint_is_told(endpoint: str, free_port: int) -> None:
 def test_without_a_master_the_sentence_says_how_to_start_one(
     free_port: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.master_client.ANSWER_S", 0.2)
+    monkeypatch.setattr("nep_core.networks.master_client.ANSWER_S", 0.2)
     nobody = f"tcp://127.0.0.1:{free_port}"
     with PeerNetwork("lonely", master=nobody) as network, pytest.raises(MasterNotFound) as raised:
         Publisher("/x", network=network)
 
-    assert any("nep master" in step for step in raised.value.checklist)
+    assert any("nep master" in step for step in map(str, raised.value.checklist))
 
 
 def test_a_second_node_of_the_same_name_is_refused_and_nobody_is_killed(join: Join) -> None:

@@ -14,11 +14,11 @@ from pathlib import Path
 import pytest
 
 from nep_core.errors import NameTaken, NetworkError, ParameterError
-from nep_core.master import Master
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.node import Node
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.node import Node
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
 
@@ -149,7 +149,7 @@ def test_words_that_nobody_would_understand_are_told_at_once(join: Join) -> None
         threading.Timer(0.05, node.stop).start()
 
         assert node.wait(math.inf)
-    assert "sensory, perceptual" in error.value.checklist[0]
+    assert "sensory, perceptual" in str(error.value.checklist[0])
 
 
 def test_late_joiners_hear_that_a_node_is_ready(join: Join) -> None:

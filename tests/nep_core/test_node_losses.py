@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 import pytest
 
-from nep_core import backlog
-from nep_core import node as node_module
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.node import Node
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes import node as node_module
+from nep_core.processes.node import Node
+from nep_core.wire import inbox
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.master_process import until
 
 Join = Callable[[str], PeerNetwork]
@@ -31,7 +31,7 @@ def told_until(states: Subscriber[NodeState], event: str) -> list[NodeState]:
 def test_lost_messages_are_a_warning_until_the_node_keeps_up_again(
     join: Join, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(backlog, "FRAMES", 10)
+    monkeypatch.setattr(inbox, "FRAMES", 10)
     monkeypatch.setattr(node_module, "HEARTBEAT_S", 0.1)
     states = Subscriber(NODE_STATE, NodeState, network=join("watcher"))
     with Node("slow", "perceptual", network=join("slow")) as slow:

@@ -13,14 +13,13 @@ import msgspec
 import pytest
 import zmq
 
-from nep_core import frames, stream
-from nep_core.frames import Header
-from nep_core.master import Master
-from nep_core.network import Network
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.tally import MOST_PUBLISHERS, Tally
-from nep_core.zmq_network import DirectNetwork
+from nep_core.networks.master import Master
+from nep_core.networks.network import Network
+from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
+from nep_core.wire import frames, outbox
+from nep_core.wire.frames import Header
+from nep_core.wire.inbox import MOST_PUBLISHERS, Tally
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
 
@@ -29,7 +28,7 @@ posix = pytest.mark.skipif(sys.platform == "win32", reason="sends signals, forks
 FORKED = """
 import os, sys
 from nep_core.errors import NetworkError
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 publisher = Publisher("/x")
 hears = Subscriber("/y")
@@ -90,20 +89,20 @@ def test_what_waits_in_a_flood_goes_out_though_the_clock_is_set_back(
     subscriber = Subscriber[object]("/x", network=pair[0])
     publisher = Publisher("/x", network=pair[1], wait_for_subscribers=1)
     now_ns = time.time_ns()
-    monkeypatch.setattr(stream, "_now_ns", lambda: now_ns)
-    for number in range(stream.FLOOD + 1):
+    monkeypatch.setattr(outbox, "_now_ns", lambda: now_ns)
+    for number in range(outbox.FLOOD + 1):
         publisher.send([number])
 
-    monkeypatch.setattr(stream, "_now_ns", lambda: now_ns - 3600 * 10**9)
+    monkeypatch.setattr(outbox, "_now_ns", lambda: now_ns - 3600 * 10**9)
 
-    assert [subscriber.receive(5) for _ in range(stream.FLOOD + 1)][-1] == [stream.FLOOD]
+    assert [subscriber.receive(5) for _ in range(outbox.FLOOD + 1)][-1] == [outbox.FLOOD]
 
 
 @posix
 def test_a_handler_of_a_signal_may_send_though_it_interrupts_a_sending(
     pair: tuple[Network, Network], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stream, "HELD_S", 0.05)
+    monkeypatch.setattr(outbox, "HELD_S", 0.05)
     subscriber = Subscriber[object]("/x", network=pair[0])
     publisher = Publisher("/x", network=pair[1], wait_for_subscribers=1)
     way_out = publisher.network.outbox.stream("/x", None)
@@ -129,7 +128,7 @@ def test_a_handler_of_a_signal_may_send_though_it_interrupts_a_sending(
 def test_a_handler_of_a_signal_may_close_the_subscriber_that_waits(
     pair: tuple[Network, Network], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.inbox.LONGEST_WAIT_S", 0.1)
+    monkeypatch.setattr("nep_core.wire.inbox.LONGEST_WAIT_S", 0.1)
     subscriber = Subscriber[object]("/x", network=pair[0])
     main = threading.main_thread().ident or 0
     before = signal.signal(signal.SIGUSR1, lambda *_: subscriber.close())
@@ -180,7 +179,7 @@ def test_a_program_that_may_open_no_more_files_is_told_so(free_port: int) -> Non
     program = """
 import resource, sys
 from nep_core.errors import NetworkError
-from nep_core.zmq_network import DirectNetwork
+from nep_core.networks.zmq_networks import DirectNetwork
 
 resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40))
 with DirectNetwork(sys.argv[1]) as network:

@@ -15,10 +15,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from nep_core import lifeline, process_tree
-from nep_core.job import ExtendedLimits, Job
-from nep_core.p2p import PeerNetwork
-from nep_core.process import ChildProcess, program_command
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes import lifeline
+from nep_core.processes import process as process_tree
+from nep_core.processes.process import ChildProcess, ExtendedLimits, Job, program_command
 from tests.nep_core.launching import WAIT
 from tests.nep_core.node_making import write_node
 
@@ -133,7 +133,9 @@ def test_a_deaf_node_does_not_outlive_its_killed_guard() -> None:
 @LINUX
 def test_a_child_outlives_the_thread_that_asked_for_it(tmp_path: Path) -> None:
     outcomes: queue.Queue[object] = queue.Queue()
-    code = "from nep_core import lifeline\nlifeline.end_with_parent()\nprint(1, flush=True)"
+    code = (
+        "from nep_core.processes import lifeline\nlifeline.end_with_parent()\nprint(1, flush=True)"
+    )
     command = [sys.executable, "-c", f"{code}\ninput()"]
     log_file = tmp_path / "child.log"
     children: list[ChildProcess] = []
@@ -158,7 +160,9 @@ def test_a_child_outlives_the_thread_that_asked_for_it(tmp_path: Path) -> None:
 
 def test_an_orphan_has_time_for_a_last_word(tmp_path: Path) -> None:
     end = "lambda: (print('bye', flush=True), os._exit(0))"
-    child_code = f"import os, time\nfrom nep_core import lifeline\nlifeline.on_parent_end({end})\n"
+    child_code = (
+        f"import os, time\nfrom nep_core.processes import lifeline\nlifeline.on_parent_end({end})\n"
+    )
     child_code += "print(os.getpid(), flush=True)\ntime.sleep(60)"
     code = "import subprocess as s, sys\n"
     code += f"s.Popen([sys.executable, '-c', {child_code!r}], stdin=s.PIPE).wait()"

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.master import Master
-from nep_core.messages import HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior, NodeState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.robot_playing import PlayedRobot
 
 Join = Callable[[str], PeerNetwork]

@@ -11,11 +11,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from nep_core import process_tree
-from nep_core.node_log import KEPT_FILES, SEPARATOR, NodeLog, log_file_name
-from nep_core.outcome import Outcome
 from nep_core.places import log_folder
-from nep_core.process import LINE_BYTES, ChildProcess, program_command
+from nep_core.processes import process as process_tree
+from nep_core.processes.node_log import KEPT_FILES, SEPARATOR, NodeLog, log_file_name
+from nep_core.processes.process import LINE_BYTES, ChildProcess, Outcome, program_command
 
 Outcomes = queue.Queue[Outcome]
 
@@ -34,7 +33,7 @@ def start(code: str, log_file: Path, outcomes: Outcomes) -> ChildProcess:
 def test_a_line_without_an_end_fills_neither_memory_nor_disk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.node_log.LOG_BYTES", 100_000)
+    monkeypatch.setattr("nep_core.processes.node_log.LOG_BYTES", 100_000)
     outcomes: Outcomes = queue.Queue()
 
     child = start("print('x' * 1_000_000 + 'end')", tmp_path / "child.log", outcomes)
@@ -178,7 +177,7 @@ def test_the_log_of_a_node_that_was_started_again_goes_on(tmp_path: Path) -> Non
 def test_of_a_flood_the_newest_words_are_kept_and_files_in_their_order(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.node_log.LOG_BYTES", 100)
+    monkeypatch.setattr("nep_core.processes.node_log.LOG_BYTES", 100)
 
     with NodeLog(tmp_path / "child.log") as kept:
         for number in range(1000):
@@ -192,7 +191,7 @@ def test_of_a_flood_the_newest_words_are_kept_and_files_in_their_order(
 
 
 def test_many_crashes_do_not_fill_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("nep_core.node_log.LOG_BYTES", 1000)
+    monkeypatch.setattr("nep_core.processes.node_log.LOG_BYTES", 1000)
 
     for _ in range(9):
         with NodeLog(tmp_path / "child.log", goes_on=True) as kept:
@@ -206,11 +205,11 @@ def test_where_no_signal_can_be_sent_a_node_stops_because_its_life_line_is_let_g
 ) -> None:
     outcomes: Outcomes = queue.Queue()
     code = (
-        "import threading\nfrom nep_core import lifeline\nstopped = threading.Event()\n"
+        "import threading\nfrom nep_core.processes import lifeline\nstopped = threading.Event()\n"
         "lifeline.on_parent_end(stopped.set)\nstopped.wait()"
     )
     child = start(code, tmp_path / "child.log", outcomes)
-    monkeypatch.setattr("nep_core.process._can_send_signals", lambda: False)
+    monkeypatch.setattr("nep_core.processes.process._can_send_signals", lambda: False)
 
     child.ask_to_stop()
 

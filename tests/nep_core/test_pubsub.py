@@ -10,10 +10,10 @@ from collections.abc import Callable
 import pytest
 
 from nep_core.errors import NetworkError
-from nep_core.master import Master
-from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
 

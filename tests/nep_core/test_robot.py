@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from nep_core import actions
 from nep_core.errors import ActionFailed, RobotError, RobotNotAnswering
-from nep_core.p2p import PeerNetwork
-from nep_core.robot import Robot
-from nep_core.tasks import Cancelled, Part, Task
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program import actions
+from nep_core.program.robot import Robot
+from nep_core.program.tasks import Cancelled, Part, Task
 from tests.nep_core.robot_playing import PlayedRobot
 
 Join = Callable[[str], PeerNetwork]
@@ -92,7 +92,7 @@ def test_a_robot_that_does_not_answer_is_told_with_a_checklist(
     with pytest.raises(RobotNotAnswering, match="NAO2 does not answer") as raised:
         Robot(["NAO", "NAO2"]).say("Hello")
 
-    assert any("Robots page" in step for step in raised.value.checklist)
+    assert any("Robots page" in step for step in map(str, raised.value.checklist))
 
 
 def test_a_cancelled_part_stops_its_action(nao: PlayedRobot) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import threading
 
-from nep_core import tasks
-from nep_core.behavior import Behavior
-from nep_core.p2p import PeerNetwork
-from nep_core.tasks import wait, wait_until
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program import tasks
+from nep_core.program.behavior import Behavior
+from nep_core.program.tasks import wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
 

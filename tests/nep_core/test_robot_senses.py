@@ -6,9 +6,11 @@ import threading
 
 import pytest
 
-from nep_core import errors, human, robot_states
-from nep_core.choosing import in_turn, one_of
-from nep_core.human import (
+from nep_core import errors
+from nep_core.program import human
+from nep_core.program import robot as robot_states
+from nep_core.program.behavior import in_turn, one_of
+from nep_core.program.human import (
     heard_word,
     is_remembered,
     remember,
@@ -16,7 +18,7 @@ from nep_core.human import (
     until_state,
     was_seen,
 )
-from nep_core.tasks import wait, wait_until
+from nep_core.program.tasks import wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
 

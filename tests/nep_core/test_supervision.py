@@ -14,12 +14,11 @@ import psutil
 import pytest
 
 from nep_core.errors import NodeStartError
-from nep_core.launched import LaunchedNode
-from nep_core.launcher import Launcher
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.outcome import ASKED, Outcome
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import LaunchedNode, Launcher
+from nep_core.processes.process import ASKED, Outcome
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Subscriber
 from tests.nep_core.launching import WAIT, Ends
 from tests.nep_core.node_making import write_node
 
@@ -138,7 +137,7 @@ def test_a_node_has_as_long_to_be_ready_as_its_manifest_says(
 def test_a_node_that_is_stopped_before_its_next_life_stays_stopped_at_once(
     launcher: Launcher, ends: Ends, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.launcher.FIRST_PAUSE_S", 60.0)
+    monkeypatch.setattr("nep_core.processes.launcher.FIRST_PAUSE_S", 60.0)
     launched = launcher.start("sensory/waiter", "watch")
     launched.wait_ready()
     os.kill(launched.pid, signal.SIGKILL)
@@ -185,7 +184,7 @@ def test_an_odd_node_is_stopped_by_several_at_once(
 def test_many_lives_leave_neither_threads_nor_files(
     launcher: Launcher, ends: Ends, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.launcher.FIRST_PAUSE_S", 0.0)
+    monkeypatch.setattr("nep_core.processes.launcher.FIRST_PAUSE_S", 0.0)
     program = psutil.Process()
 
     def live(count: int) -> None:

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from nep_core.tasks import Task, together, wait
+from nep_core.program.tasks import Task, together, wait
 
 
 def test_together_waits_for_the_slowest() -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nep_core.registry import Registration
-from nep_core.topics import TopicEnds, topics_of
+from nep_core.networks.registry import Registration
+from nep_core.networks.transports import TopicEnds, topics_of
 
 
 def registration(node: str, publishes: list[str], *subscribes: str) -> Registration:

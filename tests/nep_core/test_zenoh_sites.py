@@ -17,16 +17,16 @@ import pytest
 
 from nep_core.cli import main
 from nep_core.errors import NameTaken, NetworkError, PortTaken, RouterNotFound
-from nep_core.over_zenoh.keys import (
+from nep_core.networks.zenoh_network import ZenohNetwork, zenoh_registrations
+from nep_core.networks.zenoh_session import (
+    ZenohRouter,
     frames_key,
     hears_token,
     node_token,
     registrations_of,
     says_token,
 )
-from nep_core.over_zenoh.network import ZenohNetwork, zenoh_registrations
-from nep_core.over_zenoh.router import ZenohRouter
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.certificates import make_certificates
 from tests.nep_core.relay import Relay
 
@@ -34,8 +34,8 @@ pytest.importorskip("zenoh")
 
 FROZEN = """
 import os, signal, sys
-from nep_core.pubsub import Subscriber
-from nep_core.over_zenoh.network import ZenohNetwork
+from nep_core.wire.pubsub import Subscriber
+from nep_core.networks.zenoh_network import ZenohNetwork
 subscriber = Subscriber("/x", network=ZenohNetwork("frozen", connect=[sys.argv[1]]))
 os.kill(os.getpid(), signal.SIGSTOP)
 """
@@ -120,7 +120,7 @@ def test_a_frozen_subscriber_takes_nothing_from_the_others(leaving: ExitStack, h
 def test_encrypted_sites_let_in_only_who_has_a_certificate_of_their_authority(
     leaving: ExitStack, free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.over_zenoh.session.CONNECT_MS", 300)
+    monkeypatch.setattr("nep_core.networks.zenoh_session.CONNECT_MS", 300)
     ours, theirs = (make_certificates(tmp_path / name) for name in ("ours", "theirs"))
     place = f"tls/127.0.0.1:{free_port}"
     monkeypatch.setenv("NEP_ZENOH_KEYS", str(ours))
@@ -193,7 +193,7 @@ def test_a_second_router_at_the_same_port_is_told(leaving: ExitStack, here: str)
 
 CARELESS = """
 import threading
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire.pubsub import Publisher, Subscriber
 heard = threading.Event()
 subscriber = Subscriber("/x", callback=lambda message: heard.set())
 Publisher("/x").send("hello")

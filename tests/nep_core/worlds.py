@@ -9,14 +9,12 @@ from typing import Protocol
 
 import pytest
 
-from nep_core.broker import Broker
-from nep_core.broker_network import BrokerNetwork
-from nep_core.master import Master
-from nep_core.network import Network
-from nep_core.over_zenoh.network import ZenohNetwork
-from nep_core.over_zenoh.router import ZenohRouter
-from nep_core.p2p import PeerNetwork
-from nep_core.zmq_network import DirectNetwork
+from nep_core.networks.broker import Broker, BrokerNetwork
+from nep_core.networks.master import Master
+from nep_core.networks.network import Network
+from nep_core.networks.zenoh_network import ZenohNetwork
+from nep_core.networks.zenoh_session import ZenohRouter
+from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
 
 WITH_ZENOH = pytest.param(
     "zenoh", marks=pytest.mark.skipif(find_spec("zenoh") is None, reason="zenoh is not installed")

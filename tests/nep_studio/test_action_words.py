@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from nep_core.messages import ActionRequest
-from nep_studio.action_words import action_words
-from nep_studio.studio_language import studio_language
-from nodes.action.naobody.body_actions import BODY_ACTIONS
-from nodes.action.naobody.sense_actions import SENSE_ACTIONS
+from nep_core.wire.messages import ActionRequest
+from nep_studio.run.installation import studio_language
+from nep_studio.run.timeline import action_words
+from robots.body.actions import BODY_ACTIONS, SENSE_ACTIONS
 
 
 @pytest.mark.parametrize(

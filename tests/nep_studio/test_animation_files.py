@@ -10,19 +10,18 @@ from pathlib import Path
 
 import pytest
 
-from nep_studio.animation_files import AnimationFiles, animation_files, to_toml
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.files import save
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.animations import keep_animation
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation
-from nep_studio.plan import Choices, plan
-from nep_studio.studio_language import studio_language
-from nodes.action.naobody.animations import load_animation, load_animations
-from nodes.action.naobody.body import Body, load_body
-from nodes.action.naobody.own_animations import with_own
+from nep_studio.project.kept_files import AnimationFiles, animation_files, to_toml
+from nep_studio.run.installation import studio_language
+from nep_studio.run.plan import Choices, plan
 from nodes.resources import resource_folder
+from robots.body.animations import load_animation, load_animations, with_own
+from robots.body.body import Body, load_body
 from tests.blocks.block_building import B, build
 
 NAO = resource_folder() / "robots" / "nao"

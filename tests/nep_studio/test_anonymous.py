@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from nep_studio.anonymous import Anonymous
+from nep_studio.support.anonymous import Anonymous
 
 ANNA = Anonymous(
     "/HOME/anna", ("anna", "Anna Schmidt", "Schmidt"), "annas-laptop.school.example", ("hunter22",)

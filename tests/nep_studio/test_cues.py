@@ -10,14 +10,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_core.words import state_of_thing, state_of_word
+from nep_core.program.human import state_of_thing, state_of_word
 from nep_studio import paths
-from nep_studio.blocks.edits import SetExtra
+from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import load, save
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.cues import KEY, Cue, arranged, cues_of, kept_cues, own_cue, to_keep
-from nep_studio.studio_language import studio_language
+from nep_studio.project.triggers import KEY, Cue, arranged, cues_of, kept_cues, own_cue, to_keep
+from nep_studio.run.installation import studio_language
 from tests.blocks.block_building import B, build
 
 LANGUAGE = studio_language()

@@ -11,7 +11,7 @@ import pytest
 from msgspec.structs import replace
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import (
     OwnGesture,
@@ -23,11 +23,11 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
     own_gestures,
     own_recordings,
+    packed_samples,
     training_digest,
 )
-from nep_studio.blocks.packed_samples import packed_samples
-from nep_studio.gesture_files import (
-    FOLDER,
+from nep_studio.project.kept_files import (
+    GESTURES_FOLDER,
     MOST_KEPT,
     RecogniserFile,
     TakeFiles,
@@ -36,10 +36,9 @@ from nep_studio.gesture_files import (
     spans_of,
     take_files,
 )
-from nep_studio.node_checks import all_problems
-from nep_studio.plan import Choices, PlannedNode, plan
-from nep_studio.studio_language import studio_language
-from nodes.perceptual.recognition.passages import takes_of
+from nep_studio.run.installation import all_problems, studio_language
+from nep_studio.run.plan import Choices, PlannedNode, plan
+from nodes.perceptual.recognition.streams import takes_of
 from nodes.recordings import read_recordings
 from tests.blocks.block_building import B, build
 
@@ -55,7 +54,7 @@ def language() -> Language:
 @pytest.fixture
 def editor(language: Language, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Editor:
     """A project whose rule waits for a wave, which it has learned."""
-    monkeypatch.setattr("nep_studio.gesture_files.cache_folder", lambda: tmp_path)
+    monkeypatch.setattr("nep_studio.project.kept_files.cache_folder", lambda: tmp_path)
     rows = array("f")
     for number in range(300):
         rows.extend([number / RATE_HZ, 0.1 * (number % 7), 0.0, 9.8])
@@ -102,7 +101,9 @@ def test_a_gesture_node_of_the_page_recognises_what_the_project_has_learned(edit
 
     assert (node.name, bool(node.parameters["model"])) == ("mine", True)
     assert not [
-        p for p in all_problems(editor.project, editor.language, Path()) if "mine" in p.sentence
+        p
+        for p in all_problems(editor.project, editor.language, Path())
+        if "mine" in str(p.sentence)
     ]
 
 
@@ -131,21 +132,21 @@ def test_a_damaged_recogniser_is_told_when_it_is_written(tmp_path):
 
 
 def test_only_the_newest_files_are_kept_in_the_cache(tmp_path, monkeypatch):
-    monkeypatch.setattr("nep_studio.gesture_files.cache_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr("nep_studio.project.kept_files.cache_folder", lambda: tmp_path / "cache")
     text = b64encode(MODEL).decode()
 
     for number in range(25):
-        for parent in (tmp_path / "cache" / FOLDER, tmp_path / "mine"):
+        for parent in (tmp_path / "cache" / GESTURES_FOLDER, tmp_path / "mine"):
             RecogniserFile(parent / f"{number}", text).write()
 
-    assert len(list((tmp_path / "cache" / FOLDER).iterdir())) == MOST_KEPT
+    assert len(list((tmp_path / "cache" / GESTURES_FOLDER).iterdir())) == MOST_KEPT
     assert len(list((tmp_path / "mine").iterdir())) == 25
 
 
 def test_a_model_that_is_used_again_is_not_forgotten_for_newer_ones(tmp_path, monkeypatch):
-    monkeypatch.setattr("nep_studio.gesture_files.cache_folder", lambda: tmp_path)
+    monkeypatch.setattr("nep_studio.project.kept_files.cache_folder", lambda: tmp_path)
     text = b64encode(MODEL).decode()
-    files = [RecogniserFile(tmp_path / FOLDER / f"{number}", text) for number in range(25)]
+    files = [RecogniserFile(tmp_path / GESTURES_FOLDER / f"{number}", text) for number in range(25)]
     for age, file in enumerate(files[:MOST_KEPT]):
         file.write()
         os.utime(file.folder, (1000 + age, 1000 + age))

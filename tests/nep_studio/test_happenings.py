@@ -8,9 +8,8 @@ import pytest
 
 from nep_studio import paths
 from nep_studio.blocks.files import load
-from nep_studio.cues import cues_of
-from nep_studio.happenings import Happening, happenings_of, of_state
-from nep_studio.studio_language import studio_language
+from nep_studio.project.triggers import Happening, cues_of, happenings_of, of_state
+from nep_studio.run.installation import studio_language
 from tests.blocks.block_building import B, build
 
 LANGUAGE = studio_language()

@@ -8,16 +8,15 @@ import pytest
 
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.files import load
+from nep_studio.blocks.files import load, to_bytes
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.operations.copying import paste
 from nep_studio.blocks.program import PAGES, Project
-from nep_studio.blocks.writing import to_bytes
-from nep_studio.help import examples as help_examples
 from nep_studio.help import notation
-from nep_studio.help.examples import Example, example_of, examples
+from nep_studio.help import texts as help_examples
 from nep_studio.help.notation import NotationError
-from nep_studio.studio_language import studio_language
+from nep_studio.help.texts import Example, example_of, examples
+from nep_studio.run.installation import studio_language
 
 LANGUAGE = studio_language()
 ALL = sorted(examples())

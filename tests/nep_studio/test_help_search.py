@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.help.index import Findable, Index, words_of
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.help.book import Book
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.words import use_language
 
 

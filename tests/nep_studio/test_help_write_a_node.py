@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.launcher import Launcher
-from nep_core.messages import HUMAN_BEHAVIOR, IMU, NODE_STATE, HumanBehavior, Imu, NodeState
 from nep_core.places import node_folders
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.processes.launcher import Launcher
+from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, NODE_STATE, HumanBehavior, Imu, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from nep_studio.help.texts import page_texts
 
 PAGE = page_texts("en")["write-a-node"]

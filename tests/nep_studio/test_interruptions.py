@@ -13,7 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from nep_core.endpoints import MASTER_VARIABLE
+from nep_core.networks.endpoints import MASTER_VARIABLE
 from nep_studio import __main__ as program
 from nep_studio import paths
 from tests.stories.playing import node_is, playing

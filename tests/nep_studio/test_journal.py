@@ -10,16 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from nep_studio import journal as journal_module
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetExtra, SetField
+from nep_studio.blocks.edits.content import SetExtra, SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.places import InBody
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
-from nep_studio.journal import Journal, recover
-from nep_studio.studio_language import studio_language
+from nep_studio.project import journal as journal_module
+from nep_studio.project.journal import Journal, recover
+from nep_studio.run.installation import studio_language
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
 
@@ -51,8 +50,8 @@ from pathlib import Path
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import SetField
 from nep_studio.blocks.program import Project
-from nep_studio.journal import Journal
-from nep_studio.studio_language import studio_language
+from nep_studio.project.journal import Journal
+from nep_studio.run.installation import studio_language
 
 editor = Editor(Project("Killed"), studio_language())
 journal = Journal(Path(sys.argv[1]), editor, Path("somewhere.nep"))

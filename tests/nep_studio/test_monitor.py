@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from nep_studio.monitor import LARGEST_BATCH, Monitor
+from nep_studio.run.node_board import LARGEST_BATCH, Monitor
 
 
 @pytest.fixture

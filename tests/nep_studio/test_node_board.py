@@ -5,8 +5,8 @@ from __future__ import annotations
 import msgspec
 import pytest
 
-from nep_core.messages import NodeEvent, NodeState
-from nep_studio.node_board import NodeBoard
+from nep_core.wire.messages import NodeEvent, NodeState
+from nep_studio.run.node_board import NodeBoard
 
 
 def state(event: NodeEvent, at_s: float = 0.0, *, pid: int = 7, description: str = "") -> NodeState:

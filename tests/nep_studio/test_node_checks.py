@@ -8,9 +8,8 @@ from typing import Any
 import pytest
 
 from nep_core.places import NODES_VARIABLE
-from nep_studio.blocks.checks import Problem
-from nep_studio.node_checks import all_problems
-from nep_studio.studio_language import studio_language
+from nep_studio.blocks.checks.problem import Problem
+from nep_studio.run.installation import all_problems, studio_language
 from tests.nep_studio.test_plan import project
 
 
@@ -39,8 +38,8 @@ def test_a_wrong_setting_is_told_with_its_node_and_block(
 ) -> None:
     (found,) = problems(tmp_path, {"node": node, "name": "mine", "parameters": settings})
 
-    assert found.sentence.startswith("The node “mine” cannot start.")
-    assert words in found.sentence
+    assert str(found.sentence).startswith("The node “mine” cannot start.")
+    assert words in str(found.sentence)
     assert found.checklist
     assert (found.severity, found.page, found.block) == ("error", "nodes", "b0")
 
@@ -60,7 +59,7 @@ def test_a_wrong_manifest_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
     (found,) = problems(tmp_path, {"node": "sensory/lamp", "name": "mine", "parameters": {}})
 
-    assert "lamp.toml" in found.sentence
+    assert "lamp.toml" in str(found.sentence)
 
 
 @pytest.mark.parametrize("name", ["program", "studio", "master"])
@@ -69,10 +68,10 @@ def test_names_of_the_session_are_refused(tmp_path: Path, name: str) -> None:
 
     (found,) = problems(tmp_path, robots=(robot,))
 
-    assert name in found.sentence
+    assert name in str(found.sentence)
 
 
 def test_a_real_robot_needs_an_address(tmp_path: Path) -> None:
     (found,) = problems(tmp_path, robots=({"name": "NAO", "driver": "naoqi", "address": " "},))
 
-    assert "NAO" in found.sentence
+    assert "NAO" in str(found.sentence)

@@ -8,11 +8,11 @@ from typing import Any
 import msgspec
 import pytest
 
+from nep_studio.blocks.files import from_bytes
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.plan import Choices, PlannedNode, plan
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
+from nep_studio.run.plan import Choices, PlannedNode, plan
 
 
 @pytest.fixture(scope="module")

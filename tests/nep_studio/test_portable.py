@@ -13,19 +13,19 @@ import pytest
 
 from nep_core import places
 from nep_core.places import PORTABLE_VARIABLE, ROBOT_FILES_VARIABLE
-from nep_studio import portable
 from nep_studio.settings import Settings, log_file, usual_folder
-from nodes.action.naoqi.logins import logins_file
-from nodes.sensory.phone_page.certificate import certificate_folder
+from nep_studio.support import portable
+from nodes.sensory.phone_page.server import certificate_folder
+from robots.naoqi.discovery import logins_file
 
-PROJECT = Path(portable.__file__).parent.parent
+PROJECT = Path(portable.__file__).parents[2]
 VARIABLES = (PORTABLE_VARIABLE, ROBOT_FILES_VARIABLE, portable.SETTINGS_VARIABLE)
 
 USE = """
 import runpy, sys
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-from nep_studio.ui import app
+from nep_studio.ui.shell import app
 
 make, timers = app.make_application, []
 
@@ -67,9 +67,11 @@ def stick(tmp_path: Path) -> Path:
     for path in (PROJECT / "nep_studio").iterdir():
         if path.is_file():
             shutil.copy2(path, folder / "nep_studio")
+        elif path.name == "support":  # it finds the stick by where it is itself
+            shutil.copytree(path, folder / "nep_studio" / path.name)
         elif path.name != "__pycache__":
             (folder / "nep_studio" / path.name).symlink_to(path)
-    for name in ("nep_core", "nodes", "resources"):
+    for name in ("faults", "nep_core", "nodes", "robots", "resources"):
         (folder / name).symlink_to(PROJECT / name)
     return folder
 
@@ -166,7 +168,7 @@ def test_where_the_folder_cannot_be_made_nothing_is_kept_and_nothing_is_left(
 ) -> None:
     (tmp_path / portable.NAME).write_text("a file is in the way")
     script = (
-        "from nep_studio import portable; from nep_core.places import log_folder; "
+        "from nep_studio.support import portable; from nep_core.places import log_folder; "
         "from pathlib import Path; import sys; "
         "portable.begin(is_asked=True, beside=Path(sys.argv[1])); "
         "log_folder().mkdir(parents=True); print(log_folder().parent); print(portable.not_kept())"

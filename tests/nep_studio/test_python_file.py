@@ -10,14 +10,14 @@ from pathlib import Path
 import psutil
 import pytest
 
-from nep_core.endpoints import MASTER_VARIABLE
-from nep_core.messages import ACTION_REQUEST, NODE_STATE, ActionRequest, NodeState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import ACTION_REQUEST, NODE_STATE, ActionRequest, NodeState
+from nep_core.wire.pubsub import Subscriber
 from nep_studio import paths
 from nep_studio.blocks.files import load
-from nep_studio.python_file import python_file, write_kept
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
+from nep_studio.run.python_file import python_file, write_kept
 from tests.blocks.block_building import B, build
 from tests.node_running import until
 

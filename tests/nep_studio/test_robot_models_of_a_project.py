@@ -8,13 +8,12 @@ from pathlib import Path
 import pytest
 
 from nep_studio.blocks.deployment import robot_entries
-from nep_studio.blocks.generate.launch import generate_launch
+from nep_studio.blocks.generate.program import generate_launch
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.loading import load_language
 from nep_studio.blocks.program import Project
 from nep_studio.paths import resources
-from nep_studio.plan import Choices, plan
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import load_language, studio_language
+from nep_studio.run.plan import Choices, plan
 from tests.blocks.block_building import B, build
 
 

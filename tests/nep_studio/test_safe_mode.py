@@ -11,15 +11,16 @@ from pathlib import Path
 import pytest
 
 from nep_core.places import NODES_VARIABLE, node_folders
-from nep_studio import paths, safe_mode
+from nep_studio import paths
 from nep_studio.__main__ import main
-from nep_studio.safe_mode import NOTE, StartNote
-from nep_studio.support_logs import crash_part
+from nep_studio.support import safe_mode
+from nep_studio.support.report import crash_part
+from nep_studio.support.safe_mode import NOTE, StartNote
 
 CRASH = """
 import ctypes, sys
-from nep_studio.ui import app
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell import app
+from nep_studio.ui.shell.main_window import MainWindow
 
 MainWindow.start = lambda window, path: ctypes.string_at(0)
 app.main([])
@@ -29,7 +30,7 @@ CHOOSE = """
 import os, sys
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-from nep_studio.ui import app
+from nep_studio.ui.shell import app
 
 make, timers = app.make_application, []
 
@@ -57,8 +58,8 @@ sys.exit(app.main([]))
 LOG_OUT = """
 import os, signal, sys
 from PySide6.QtCore import QTimer
-from nep_studio.ui import app
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell import app
+from nep_studio.ui.shell.main_window import MainWindow
 
 class Window(MainWindow):
     def start(self, path):
@@ -70,8 +71,8 @@ class Window(MainWindow):
         self.files.document.editor.add_variable("kept")
         QTimer.singleShot(0, self, lambda: os.kill(os.getpid(), signal.SIGTERM))
 
-import nep_studio.ui.main_window
-nep_studio.ui.main_window.MainWindow = Window
+import nep_studio.ui.shell.main_window
+nep_studio.ui.shell.main_window.MainWindow = Window
 sys.exit(app.main([]))
 """
 
@@ -164,8 +165,8 @@ def test_settings_set_aside_stay_beside(tmp_path: Path) -> None:
 
 def test_safe_settings_go_with_the_program(tmp_path: Path) -> None:
     script = (
-        "from nep_studio import safe_mode; s = safe_mode.passing_settings(); s.theme = 'dark'; "
-        "s.write(); print(s.folder, s.tour_done)"
+        "from nep_studio.support import safe_mode; s = safe_mode.passing_settings(); "
+        "s.theme = 'dark'; s.write(); print(s.folder, s.tour_done)"
     )
 
     folder, tour_done = run(script, tmp_path).stdout.split()

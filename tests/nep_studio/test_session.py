@@ -12,14 +12,14 @@ import msgspec
 import psutil
 import pytest
 
-from nep_core import launched
-from nep_core import messages as m
-from nep_core.outcome import Outcome
-from nep_studio import session as sessions
-from nep_studio.own_master import free_endpoint
-from nep_studio.plan import REPLAY, PlannedNode
+from nep_core.processes import launcher
+from nep_core.processes.process import Outcome
+from nep_core.wire import messages as m
 from nep_studio.problems import Problem
-from nep_studio.session import PROGRAM, Ending, Session
+from nep_studio.run import session as sessions
+from nep_studio.run.local_network import free_endpoint
+from nep_studio.run.plan import REPLAY, PlannedNode
+from nep_studio.run.session import PROGRAM, Ending, Session
 
 WAIT_S = 20.0
 FOR_EVER = "from nep_core import wait\nwait(600)"
@@ -73,8 +73,8 @@ def test_only_the_programs_own_failure_is_its_problem(tmp_path: Path) -> None:
     program = """
 import os
 from nep_core import Publisher
-from nep_core.default_network import default_network
-from nep_core.messages import PROGRAM_STATE, ProgramState
+from nep_core.networks.transports import default_network
+from nep_core.wire.messages import PROGRAM_STATE, ProgramState
 Publisher(PROGRAM_STATE).send(ProgramState(program="another", event="failed", description="No."))
 default_network().close()
 os._exit(3)
@@ -83,7 +83,7 @@ os._exit(3)
         ending = running.wait(WAIT_S)
 
     assert ending.problem is not None
-    assert ending.problem.sentence == "program ended with an error: exit code 3."
+    assert str(ending.problem.sentence) == "program ended with an error: exit code 3."
 
 
 def test_a_failure_that_comes_after_the_programs_end_still_names_its_line(tmp_path: Path) -> None:
@@ -105,7 +105,7 @@ def test_a_failure_that_comes_after_the_programs_end_still_names_its_line(tmp_pa
 def test_a_recording_that_is_given_up_is_a_problem(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(launched, "MOST_RESTARTS", 0)
+    monkeypatch.setattr(launcher, "MOST_RESTARTS", 0)
     monkeypatch.setattr(sessions, "LAST_RULES_S", 0.0)
     table = "t,ax,ay,az\n" + "".join(f"{i / 50},0.1,0.2,9.8\n" for i in range(3000))
     (tmp_path / "mine.csv").write_text(table, encoding="utf-8")

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.master import Master
-from nep_core.master_probe import ask_master
-from nep_core.p2p import PeerNetwork
-from nep_studio.local_network import STUDIO, LocalNetwork
+from nep_core.networks.master import Master
+from nep_core.networks.master_messages import ask_master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_studio.run.local_network import STUDIO, LocalNetwork
 
 
 @pytest.fixture
@@ -18,7 +18,7 @@ def usual_place(free_port: int, monkeypatch: pytest.MonkeyPatch) -> str:
     """Where masters are looked for on this computer."""
     place = f"tcp://127.0.0.1:{free_port}"
     monkeypatch.delenv("NEP_MASTER", raising=False)
-    monkeypatch.setattr("nep_core.endpoints.DEFAULT_MASTER", place)
+    monkeypatch.setattr("nep_core.networks.endpoints.DEFAULT_MASTER", place)
     return place
 
 
@@ -81,7 +81,7 @@ def test_a_session_that_comes_second_by_a_moment_has_a_master_of_its_own(
     shared = Master(usual_place, is_shared=True)
     first = PeerNetwork(STUDIO, master=usual_place)
     first.join()
-    monkeypatch.setattr("nep_studio.local_network.shared_master", lambda studio: usual_place)
+    monkeypatch.setattr("nep_studio.run.local_network.shared_master", lambda studio: usual_place)
 
     local.open()
     place = local.launcher.master

@@ -12,16 +12,14 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_core import transports
 from nep_core.errors import NepError, PairingError
-from nep_core.security import KEYS_VARIABLE
-from nep_core.security.addresses import HOST_VARIABLE
-from nep_core.security.refusals import Refusals
-from nep_studio.local_network import STUDIO, LocalNetwork
-from nep_studio.other_network import door_at
-from nep_studio.plan import PlannedNode
-from nep_studio.refusals import refusals_in
-from nep_studio.sharing import Sharing
+from nep_core.networks import transports
+from nep_core.networks.security import KEYS_VARIABLE
+from nep_core.networks.security.addresses import HOST_VARIABLE
+from nep_core.networks.security.curve import Refusals
+from nep_studio.run.local_network import STUDIO, LocalNetwork, door_at
+from nep_studio.run.plan import PlannedNode
+from nep_studio.sharing import Sharing, refusals_in
 
 HOST = "127.0.0.1"
 WAIT_MS = 20_000

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.startup import NAME, Place, remove, startup_files, write
+from nep_studio.support.startup import NAME, Place, remove, startup_files, write
 
 COMMAND = ["/opt/nep studio/python", "-m", "nep_studio", "show", '/srv/ü/50 % "a\\b" $x `y`.nep']
 WORDS = st.text(

@@ -8,12 +8,11 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from nep_core import transports
 from nep_core.errors import MasterNotFound
-from nep_core.messages import NodeState
+from nep_core.networks import transports
 from nep_core.places import NODES_VARIABLE
-from nep_studio.local_network import STUDIO, LocalNetwork
-from nep_studio.own_master import MASTER
+from nep_core.wire.messages import NodeState
+from nep_studio.run.local_network import MASTER, STUDIO, LocalNetwork
 from tests.nep_core.launching import WAIT
 from tests.nep_core.node_making import write_node
 from tests.nep_core.worlds import WITH_ZENOH, a_world
@@ -48,11 +47,11 @@ def test_a_session_joins_the_central_service_and_starts_no_master(
 def test_a_session_without_its_central_service_says_how_to_start_it(
     free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_core.master_client.ANSWER_S", 0.1)
+    monkeypatch.setattr("nep_core.networks.master_client.ANSWER_S", 0.1)
     monkeypatch.setenv("NEP_NETWORK", "broker")
     monkeypatch.setenv("NEP_BROKER", f"tcp://127.0.0.1:{free_port}")
 
     with pytest.raises(MasterNotFound) as raised:
         LocalNetwork(logs=tmp_path).open()
 
-    assert raised.value.checklist[0].endswith("nep broker")
+    assert str(raised.value.checklist[0]).endswith("nep broker")

@@ -7,8 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from nep_studio.study.records import Event, Reply, Sitting, StudyFolder
-from nep_studio.study.tables import FORMULA_SIGNS, write_events, write_replies
+from nep_studio.study.records import (
+    FORMULA_SIGNS,
+    Event,
+    Reply,
+    Sitting,
+    StudyFolder,
+    write_events,
+    write_replies,
+)
 
 ANSWERS: list[int | None] = [6, 2, 7, None, 5, 2, 6, 2, 5, 1]
 

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.study.records import Reply
-from nep_studio.study.summary import summarize
+from nep_studio.study.records import Reply, summarize
 from nep_studio.study.sus import (
     BROOKE,
     PAPER,

@@ -11,12 +11,17 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.cli.doctor import _found
-from nep_core.cli.finding import Finding
-from nep_studio.anonymous import Anonymous
-from nep_studio.support_logs import last_lines, log_part
-from nep_studio.support_parts import setting_lines
-from nep_studio.support_report import FILE, Part, Report, report_of
+from nep_core.cli.doctor import Finding, _found
+from nep_studio.support.anonymous import Anonymous
+from nep_studio.support.report import (
+    FILE,
+    Part,
+    Report,
+    last_lines,
+    log_part,
+    report_of,
+    setting_lines,
+)
 
 SETTINGS = """[look]
 theme=dark

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_core.messages import Thing
+from nep_core.wire.messages import Thing
 from nep_studio.blocks.program import Project
-from nep_studio.surroundings import (
+from nep_studio.project.surroundings import (
     FARTHEST_M,
     KEY,
     MOST_THINGS,

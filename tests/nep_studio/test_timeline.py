@@ -7,13 +7,12 @@ from collections.abc import Iterator
 
 import pytest
 
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
-from nep_studio.commands.printer import Printer
-from nep_studio.plain_words import plain
-from nep_studio.problems import Problem
-from nep_studio.studio_language import studio_language
-from nep_studio.timeline import MOST_ACTIONS, Timeline
+from nep_studio.commands.run import Printer
+from nep_studio.problems import Problem, plain
+from nep_studio.run.installation import studio_language
+from nep_studio.run.timeline import MOST_ACTIONS, Timeline
 
 
 @pytest.fixture(scope="module")

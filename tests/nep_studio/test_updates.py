@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from nep_studio import __version__, updates
+from nep_studio import __version__
 from nep_studio.settings import Settings
-from nep_studio.updates import DAY_S, Newest, UpdateChoice, ask, newest_in, numbers
+from nep_studio.support import updates
+from nep_studio.support.updates import DAY_S, Newest, UpdateChoice, ask, newest_in, numbers
 
 
 @dataclass

@@ -47,4 +47,4 @@ def test_the_variable_goes_first_and_a_wrong_one_is_told(
     assert found == tmp_path
     with pytest.raises(NodeStartError, match="resources folder") as told:
         resource_folder()
-    assert OVERRIDE in told.value.checklist[1]
+    assert OVERRIDE in str(told.value.checklist[1])

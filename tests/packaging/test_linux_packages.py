@@ -14,7 +14,8 @@ import linux_files
 import parts
 import pytest
 
-from nep_studio import __version__, safe_mode
+from nep_studio import __version__
+from nep_studio.support import safe_mode
 
 DESKTOP = linux_files.LINUX / "nep-studio.desktop"
 MIME = linux_files.LINUX / "nep-studio.xml"

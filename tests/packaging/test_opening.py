@@ -13,7 +13,7 @@ ASKED = """
 import sys
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import QFileOpenEvent
-from nep_studio.ui.application import Application
+from nep_studio.ui.shell.app import Application
 
 app = Application(sys.argv)
 app.file_asked_for.connect(print)

@@ -12,7 +12,7 @@ import licences
 import parts
 import pytest
 
-from nep_core.manifest import NodeCatalog
+from nep_core.processes.manifest import NodeCatalog
 from nep_studio import paths
 
 

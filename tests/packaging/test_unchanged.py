@@ -33,7 +33,7 @@ def git(root: Path, *words: str, date: str = "") -> None:
 def test_it_is_frozen_after_a_change_of_packaging_for_a_day(tmp_path: Path) -> None:
     git(tmp_path, "init", "--quiet")
     commit(tmp_path, "packaging/deb.py", NOON_S)
-    commit(tmp_path, "nep_core/node.py", NOON_S + 20 * HOUR_S)
+    commit(tmp_path, "nep_core/processes/node.py", NOON_S + 20 * HOUR_S)
 
     assert not unchanged.is_unchanged(tmp_path, "", NOON_S + 23 * HOUR_S)
     assert unchanged.is_unchanged(tmp_path, "", NOON_S + 25 * HOUR_S)

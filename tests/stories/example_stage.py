@@ -10,16 +10,16 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.messages import ActionRequest, ProgramState
-from nep_core.pubsub import Publisher
+from nep_core.wire.messages import ActionRequest, ProgramState
+from nep_core.wire.pubsub import Publisher
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.files import load
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.examples import Example, Try, examples
-from nep_studio.local_network import LocalNetwork
-from nep_studio.plan import Choices, plan
-from nep_studio.session import Session
-from nep_studio.studio_language import studio_language
+from nep_studio.project.examples import Example, Try, examples
+from nep_studio.run.installation import studio_language
+from nep_studio.run.local_network import LocalNetwork
+from nep_studio.run.plan import Choices, plan
+from nep_studio.run.session import Session
 
 WAIT_S = 20.0
 FAST = 50.0

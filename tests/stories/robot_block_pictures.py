@@ -8,8 +8,8 @@ from pathlib import Path
 
 from PySide6.QtGui import QImage
 
-from nep_core.messages import RobotState, Thing
 from nep_core.places import robot_folder
+from nep_core.wire.messages import RobotState, Thing
 from tests.stories.robot_block_seen import Seen
 
 BALL = Thing(id="ball", kind="ball", place=(0.7, 0.0, 0.3), size=(0.12, 0.12, 0.12))

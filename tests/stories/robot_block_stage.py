@@ -12,13 +12,15 @@ from typing import Any
 
 import pytest
 
-from nep_core import tasks
-from nep_core.default_network import set_default_network
-from nep_core.endpoints import MASTER_VARIABLE
 from nep_core.errors import NepError
-from nep_core.human import human_listener
-from nep_core.master import Master
-from nep_core.messages import (
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.master import Master
+from nep_core.networks.transports import set_default_network
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.places import ROBOT_FILES_VARIABLE
+from nep_core.program import tasks
+from nep_core.program.human import human_listener
+from nep_core.wire.messages import (
     HUMAN_BEHAVIOR,
     ROBOT_STATE,
     SENSE_REQUEST,
@@ -29,12 +31,10 @@ from nep_core.messages import (
     Surroundings,
     Thing,
 )
-from nep_core.p2p import PeerNetwork
-from nep_core.places import ROBOT_FILES_VARIABLE
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire.pubsub import Publisher, Subscriber
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from tests.node_running import NodeRunner
 from tests.stories.robot_block_looks import ANSWERED, LOOKS
 from tests.stories.robot_block_pictures import before

@@ -6,9 +6,10 @@ import sys
 import threading
 from pathlib import Path
 
-from nep_core import tasks
-from nep_core.human import human_listener
-from nep_core.messages import (
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program import tasks
+from nep_core.program.human import human_listener
+from nep_core.wire.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
     HUMAN_BEHAVIOR,
@@ -20,11 +21,10 @@ from nep_core.messages import (
     RobotState,
     SenseRequest,
 )
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire.pubsub import Publisher, Subscriber
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from tests.node_running import NodeRunner
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blocks"))

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from nep_core.p2p import PeerNetwork
-from nep_core.tasks import wait_until
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program.tasks import wait_until
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from tests.stories.robot_theatre import B, RobotTheatre
 
 LANGUAGE = studio_language()

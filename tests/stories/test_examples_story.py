@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from nep_studio.local_network import LocalNetwork
+from nep_studio.run.local_network import LocalNetwork
 from tests.stories.example_stage import EXAMPLES, Stage, staged
 
 SLOWER = 8.0

@@ -21,15 +21,15 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import dev
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.trainer.page import TrainerPage
-from nep_studio.ui.trainer.panel import TrainerPanel
-from nep_studio.ui.watches.dialog import WatchDialog
-from nodes.perceptual.recognition.passages import takes_of
+from nep_studio.ui.plugins.gestures.page import TrainerPage
+from nep_studio.ui.plugins.gestures.panel import TrainerPanel
+from nep_studio.ui.plugins.watches.dialog import WatchDialog
+from nep_studio.ui.shell.main_window import MainWindow
+from nodes.perceptual.recognition.streams import takes_of
 from nodes.recordings import Recording, read_recording
-from nodes.sensory.arm.simulate import perform
+from nodes.sensory.arm.people import perform
 from tests.stories.test_window_story import Newcomer
 from tests.ui.checklist.conftest import home, studio, window
 from tests.ui.checklist.person import Key

@@ -18,13 +18,15 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QApplication
 
-from nep_core.messages import ROBOT_STATE, RobotState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import ROBOT_STATE, RobotState
+from nep_core.wire.pubsub import Subscriber
 from nep_studio.ui.robot_view.camera import Camera
-from nep_studio.ui.robot_view.room_picture import RoomPicture
-from nep_studio.ui.theme import Look
-from nodes.action.naoqi.client import Login, LoginRefused, NoConnection, Session
+from nep_studio.ui.robot_view.view import RoomPicture
+from nep_studio.ui.theme.look import Look
+from robots.naoqi.client.session import Session
+from robots.naoqi.wire.errors import LoginRefused, NoConnection
+from robots.naoqi.wire.frames import Login
 from tests.node_running import until
 
 GREETER = Path(__file__).parent.parent / "nodes" / "action" / "naoqi" / "greeter.py"

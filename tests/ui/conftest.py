@@ -10,7 +10,8 @@ from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.theme import Fonts, Theme, load_fonts, load_theme, themes
+from nep_studio.ui.theme.colours import Theme, load_theme, themes
+from nep_studio.ui.theme.look import Fonts, load_fonts
 
 PATIENCE_MS = 20_000
 

@@ -15,7 +15,7 @@ ROOMS = ("nep_core", "nodes", "nep_studio")
 NOT_SHOWN = (
     "nep_core/cli/",
     "nep_core/gateway/",
-    "nep_core/security/zap.py",
+    "nep_core/networks/security/curve.py",
     "nep_studio/commands/",
     "nodes/perceptual/recognition/command.py",
 )
@@ -132,7 +132,7 @@ def _arguments(
         return "warning", [_argument(call, 0, "reason")], _argument(call, 1, "checklist")
     if name == "confirm" and "essages" in ast.unparse(call.func):
         return "success", [_argument(call, 0, "title")], None
-    if name == "Told" and len(call.args) == 4:  # of nodes/cognitive/failure_sentences.py
+    if name == "Told" and len(call.args) == 4:  # of nodes/cognitive/failures.py
         return "error", [call.args[2]], call.args[3]
     return None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 PARTS = {
     "nep_studio/__main__.py": ["A file could not be read or written"],
     "nep_studio/commands/run.py": ["This project cannot be played like that"],
-    "nep_studio/blocks/values.py": [
+    "nep_studio/blocks/slots.py": [
         "nothing",
         "the number {value}",
         "a very large number",
@@ -23,22 +23,23 @@ PARTS = {
         "at {place}: this is not what belongs here.",
         "at {place}: {wanted} belongs here, not {told}.",
     ],
-    "nep_studio/blocks/reading.py": ["in no stack", "inside itself"],
     "nep_studio/blocks/files.py": [
+        "in no stack",
+        "inside itself",
         "the system gives no reason",
         "a text in it cannot be written",
     ],
-    "nep_studio/blocks/own_block_changes.py": ["1 place", "{count} places"],
+    "nep_studio/blocks/edit_rules.py": ["1 place", "{count} places"],
     "nep_studio/blocks/operations/copying.py": ["The clipboard"],
     "nep_studio/blocks/checks/flow.py": ["A robot cannot walk after the posture “{label}”."],
-    "nep_studio/cues.py": ["A letter or a digit is needed."],
-    "nep_studio/plan.py": [
+    "nep_studio/project/triggers.py": ["A letter or a digit is needed."],
+    "nep_studio/run/plan.py": [
         "a rule waits for this gesture",
         "it was asked for",
         "somebody must make the gestures",
     ],
-    "nep_studio/voice.py": ["{outcome}; it is started again"],
-    "nep_core/manifest.py": [
+    "nep_studio/run/local_network.py": ["{outcome}; it is started again"],
+    "nep_core/processes/manifest.py": [
         'a text, such as "karate"',
         "a number, such as 0.5",
         "a whole number, such as 50",
@@ -54,7 +55,7 @@ PARTS = {
         'the setting "{name}" has a minimum above its maximum',
         'the setting "{name}" has no choices',
     ],
-    "nep_core/outcome.py": [
+    "nep_core/processes/process.py": [
         "{node} was killed",
         "{node} was asked to stop before it could answer",
         "{node} was interrupted",
@@ -68,7 +69,7 @@ PARTS = {
         "{node} ended with an error: {reason}",
         "exit code {code}",
     ],
-    "nodes/cognitive/failing_line.py": [
+    "nodes/cognitive/failures.py": [
         "a number",
         "a text",
         "a list",
@@ -78,29 +79,29 @@ PARTS = {
         "a block",
         "something else",
     ],
-    "nodes/action/naobody/animations.py": ["animation"],
-    "nodes/action/naobody/repertoire.py": ["animal"],
-    "nodes/action/naobody/gaze.py": [
+    "robots/body/animations.py": ["animation"],
+    "robots/body/repertoire.py": ["animal"],
+    "robots/body/gaze.py": [
         "a face",
         "a mark",
         "the red ball",
         "the face {name}",
         "the mark {name}",
     ],
-    "nodes/action/naobody/obstacles.py": ["a person", "a ball", "a wall"],
-    "nodes/action/naoqi/driver/moving.py": ["locked", "released"],
-    "nodes/action/naoqi/client/entrance.py": [
+    "robots/body/surroundings.py": ["a person", "a ball", "a wall"],
+    "robots/naoqi/driver/moving.py": ["locked", "released"],
+    "robots/naoqi/client/reaching.py": [
         "does not accept this user and password",
         "wants a user and a password",
     ],
-    "nodes/action/naobody/parts.py": [
+    "robots/body/body.py": [
         "head",
         "left arm",
         "right arm",
         "left leg",
         "right leg",
     ],
-    "nodes/action/naobody/tasks.py": [
+    "robots/body/tasks.py": [
         "gesture",
         "standing",
         "sitting",
@@ -124,21 +125,25 @@ PARTS = {
         "Checking what it learned…",
         "Keeping what it learned…",
     ],
-    "nodes/recording_table.py": [
+    "nodes/recordings.py": [
         "Line {line_number} of {name}",
         "about {samples}",
         "more than {samples}",
         "nothing",
     ],
     "nodes/sensory/line_reader.py": ['{sender} sends a line that cannot be read: "{unreadable}"'],
-    "nodes/sensory/ways/way.py": ["from this computer only", "from the network"],
-    "nodes/sensory/ways/udp.py": ["waits for a watch on UDP port {port} ({where})"],
-    "nodes/sensory/ways/tcp.py": ["waits for a watch on TCP port {port} ({where})"],
-    "nodes/sensory/ways/sensor_logger.py": [
+    "nodes/sensory/connectors/connector.py": ["from this computer only", "from the network"],
+    "nodes/sensory/connectors/lines.py": [
+        "waits for a watch on UDP port {port} ({where})",
+        "waits for a watch on TCP port {port} ({where})",
+    ],
+    "nodes/sensory/connectors/sensor_logger.py": [
         "waits for Sensor Logger on HTTP port {port} ({where})"
     ],
-    "nodes/sensory/ways/phyphox.py": ["asks phyphox at {host}, port {port}"],
-    "nodes/sensory/ways/sensor_server.py": ["connects to SensorServer at {host}, port {port}"],
+    "nodes/sensory/connectors/phyphox.py": ["asks phyphox at {host}, port {port}"],
+    "nodes/sensory/connectors/sensor_server.py": [
+        "connects to SensorServer at {host}, port {port}"
+    ],
     "nodes/sensory/virtual_watch.py": [
         "simulated person {number}",
         "makes the gesture {gesture} (simulated person {number})",

@@ -28,35 +28,35 @@ SOURCES = (
 
 LEFT_OUT = (
     # Errors of those who write block packs, translations and themes: these are told in English.
-    "nep_studio/blocks/definition_call.py",
+    "nep_studio/blocks/definitions.py",
     "nep_studio/blocks/definition_files.py",
     "nep_studio/blocks/definitions.py",
     "nep_studio/blocks/edits/history.py",
-    "nep_studio/blocks/history.py",
-    "nep_studio/blocks/profile.py",
+    "nep_studio/blocks/editor.py",
+    "nep_studio/blocks/definition_files.py",
     "nep_studio/blocks/sentence.py",
-    "nep_studio/blocks/translation.py",
+    "nep_studio/blocks/language.py",
     "nep_studio/ui/theme/colours.py",
     "nep_studio/ui/theme/icons.py",
 )
 NOT_SHOWN = (
     # What is written into files and terminals.
     "nep_studio/__main__.py",
-    "nep_studio/python_file.py",
-    "nep_studio/support_logs.py",
-    "nep_studio/support_parts.py",
-    "nep_studio/support_report.py",
-    "nep_studio/ui/show/command.py",
-    "nep_studio/ui/window_picture.py",
-    "nep_core/over_zenoh/router.py",
+    "nep_studio/run/python_file.py",
+    "nep_studio/support/report.py",
+    "nep_studio/support/report.py",
+    "nep_studio/support/report.py",
+    "nep_studio/ui/plugins/show/command.py",
+    "nep_studio/ui/shell/window_picture.py",
+    "nep_core/networks/zenoh_session.py",
     "nep_core/recordings/file.py",
     "nep_core/recordings/player.py",
     "nep_core/recordings/recorder.py",
     "nodes/perceptual/recognition/command.py",
-    "nodes/perceptual/recognition/report.py",
+    "nodes/perceptual/recognition/training.py",
     # What the robot on the screen answers to programs of others, in the language of NAOqi.
-    "nodes/action/naoqi/server/directory.py",
-    "nodes/action/naoqi/wire/bound.py",
+    "robots/naoqi/server/directory.py",
+    "robots/naoqi/wire/service.py",
 )
 STILL_SAID = {"This place takes {noun}, not a value that is typed."}
 """What of these a person can meet."""

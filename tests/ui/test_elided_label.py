@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.elided_label import ElidedLabel
+from nep_studio.ui.widgets.labels import ElidedLabel
 
 WORDS = "Made from the blocks of this program"
 

@@ -15,13 +15,13 @@ from test_translation_tables import window_words
 from nep_core.errors import NepError
 from nep_studio.blocks.checks.problem import Problem as BlockProblem
 from nep_studio.blocks.errors import BlocksError
-from nep_studio.node_board import NodeStatus
-from nep_studio.ui.panels.nodes.notices import Circumstances, notice_of
-from nodes.cognitive.failure_sentences import OTHER, SENTENCES
+from nep_studio.run.node_board import NodeStatus
+from nep_studio.ui.plugins.nodes.notices import Circumstances, notice_of
+from nodes.cognitive.failures import OTHER, SENTENCES
 
 NO_HAND = "an edit checks itself; no gesture of the window asks for what is refused here"
 PASSED_ON = "the reason of another message; that one tells what to try"
-OF_A_ROBOT = "told as “NAO could not ...” by nep_core/actions.py, which adds what to try"
+OF_A_ROBOT = "told as “NAO could not ...” by nep_core/program/actions.py, which adds what to try"
 OF_A_PROGRAM = "told by the master to a program that somebody wrote with the page docs/wire.md"
 FOR_AUTHORS = "told to those who write descriptions of blocks; the sentence names the place"
 SAYS_WHY = "why a place refuses blocks that are dragged or typed; the program stays as it was"
@@ -30,9 +30,8 @@ ALL_IS_WELL = "it tells that something is well again, or done as it was asked"
 WITHOUT_IN = {
     "nep_studio/blocks/edits/": NO_HAND,
     "nep_studio/blocks/definition_files.py": FOR_AUTHORS,
-    "nep_studio/blocks/profile.py": FOR_AUTHORS,
-    "nodes/action/naobody/": OF_A_ROBOT,
-    "nodes/action/naoqi/": OF_A_ROBOT,
+    "robots/body/": OF_A_ROBOT,
+    "robots/naoqi/": OF_A_ROBOT,
 }
 """Where messages need no checklist, and why."""
 
@@ -129,7 +128,7 @@ def test_every_step_of_a_checklist_is_a_whole_sentence() -> None:
 
 @pytest.mark.parametrize("root", [NepError, BlocksError])
 def test_every_error_has_a_title_of_its_own_or_of_its_family(root: type) -> None:
-    for place in ("nep_studio.blocks.from_python.made", "nodes.cognitive.failures"):
+    for place in ("nep_studio.blocks.from_python.learning", "nodes.cognitive.failures"):
         importlib.import_module(place)
     titles = {one.__name__: one.title for one in _family(root)}
 

@@ -14,21 +14,19 @@ from PySide6.QtWidgets import QApplication
 
 from nep_studio import paths
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import AddGroup, SetField
+from nep_studio.blocks.edits.content import AddGroup, SetField
 from nep_studio.blocks.files import load
-from nep_studio.blocks.language import Language
+from nep_studio.blocks.language import Language, translated
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.sentence import Group, Part
-from nep_studio.blocks.translation import translated
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.boxes import Box, Piece
-from nep_studio.ui.canvas.index import Rect
-from nep_studio.ui.canvas.measures import Measures
-from nep_studio.ui.canvas.page import PageLayout, Placed
-from nep_studio.ui.canvas.pieces import HINT_SIZE
-from nep_studio.ui.canvas.scrolling import ScrollingView
-from nep_studio.ui.canvas.texts import TextWidths
-from nep_studio.ui.theme import load_theme, text_font, themes
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, TextWidths
+from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.canvas.layout.page import PageLayout, Placed
+from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
+from nep_studio.ui.canvas.view import ScrollingView
+from nep_studio.ui.theme.colours import load_theme, themes
+from nep_studio.ui.theme.look import text_font
 from nep_studio.ui.words import PSEUDO, use_language
 
 BLOCK_FONT_POINTS = 10.5

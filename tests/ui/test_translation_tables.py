@@ -15,10 +15,10 @@ from message_sources import OF_THE_SYSTEM, PARTS, ROOT, last_name, parsed, templ
 
 from nep_studio import paths
 from nep_studio.blocks.slots import KINDS
-from nep_studio.examples import examples
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.fields.titles import slot_name
-from nep_studio.ui.theme import load_theme, themes
+from nep_studio.project.examples import examples
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.fields.editors import slot_name
+from nep_studio.ui.theme.colours import load_theme, themes
 
 TABLES = sorted((paths.resources() / "translations").glob("*.toml"))
 STUDIO = Path(paths.__file__).parent

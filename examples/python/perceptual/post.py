@@ -1,6 +1,6 @@
 """Tells that somebody has brought a letter."""
 
-from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
 
 
 def run(node):

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from ..language import Language
 from ..program import Project
-from .blocks import check_blocks
-from .deployment import check_deployment
-from .flow import check_flow
-from .inside import check_inside
-from .limits import check_limits
-from .own_blocks import check_own_blocks
+from .blocks import check_blocks, check_inside, check_own_blocks
+from .deployment import check_deployment, check_real_robots, check_rules
+from .flow import check_flow, check_limits
 from .problem import Fix, Problem
-from .real_robots import check_real_robots
-from .rules import check_rules
 
 _CHECKS = (
     check_rules,

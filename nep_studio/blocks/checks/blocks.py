@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
-from ..arithmetic import number_of
-from ..definitions import Definition
-from ..language import Language
-from ..procedures import procedure_of
-from ..program import Block, Project
-from ..sentence import Slot
-from ..text import sentence
-from ..values import FieldValue
-from .problem import Problem
+from faults import Text, text_of
+from nep_studio.blocks.arithmetic import number_of
+from nep_studio.blocks.code_text import CodeTextRefused, read_lines, read_value
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.deployment import chains
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER, RETURN, procedure_of, title
+from nep_studio.blocks.program import Block, Project
+from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.slots import FieldValue
+from nep_studio.blocks.text import sentence
+
+from .problem import Problem, Severity, page_of
 
 
 def check_blocks(project: Project, language: Language) -> Iterator[Problem]:
@@ -42,9 +47,17 @@ def _unknown(page: str, block: Block) -> Problem:
         "unknown_block",
         page,
         block.id,
-        f"This version does not know the block “{block.type}”. It is kept as it is.",
+        text_of(
+            "This version does not know the block “{type}”. It is kept as it is.", type=block.type
+        ),
         ("Update NEP Studio.", "Is a block pack missing?", "Or take the block out."),
     )
+
+
+_Wrong = tuple[str, Text, str]
+"""The kind, the sentence and the remedy of what is wrong with a block."""
+_Misplaced = tuple[Severity, str, Text, str]
+"""The same, and before it how bad it is."""
 
 
 def _check_block(
@@ -56,17 +69,25 @@ def _check_block(
             "wrong_page",
             page,
             block.id,
-            f"This block belongs on the page {definition.page.title()}.",
-            (f"Move it to the page {definition.page.title()}.",),
+            text_of("This block belongs on the page {page}.", page=Text(definition.page.title())),
+            (text_of("Move it to the page {page}.", page=Text(definition.page.title())),),
         )
     for key, slot in definition.keys(block.groups):
         plugged = project.blocks.get(block.inputs.get(key, ""))
         if slot.kind.name == "body" or (plugged is not None and not plugged.disabled):
             continue
-        reason = _why_not_filled(project, language, block, definition, key, slot)
-        if reason is not None:
+        wrong = _why_not_filled(project, language, block, definition, key, slot)
+        if wrong is not None:
+            kind, reason, remedy = wrong
             told = sentence(project, language, block.id)
-            yield Problem("error", reason[0], page, block.id, f"“{told}”: {reason[1]}", reason[2:])
+            yield Problem(
+                "error",
+                kind,
+                page,
+                block.id,
+                text_of("“{told}”: {reason}", told=told, reason=reason),
+                (remedy,),
+            )
 
 
 def _why_not_filled(
@@ -76,34 +97,252 @@ def _why_not_filled(
     definition: Definition,
     key: str,
     slot: Slot,
-) -> tuple[str, ...] | None:
+) -> _Wrong | None:
     """The kind, the sentence and the checklist of what is wrong with a slot, or None."""
     value, kind = definition.value(block, key), slot.kind.name
     if kind == "boolean":
-        return ("empty_slot", "a question is missing.", "Put a six-sided block into the slot.")
+        return (
+            "empty_slot",
+            Text("a question is missing."),
+            "Put a six-sided block into the slot.",
+        )
     if kind == "list":
-        return ("empty_slot", "a list is missing.", "Put a list or a variable into the slot.")
+        return ("empty_slot", Text("a list is missing."), "Put a list or a variable into the slot.")
     if kind == "variable" and project.variable(str(value)) is None:
-        return ("no_variable", "no variable is chosen.", "Choose a variable, or make a new one.")
+        return (
+            "no_variable",
+            Text("no variable is chosen."),
+            "Choose a variable, or make a new one.",
+        )
     if kind in ("state", "gesture", "robot") and not str(value).strip():
-        return ("empty_slot", f"{slot.kind.noun} is missing.", "Choose or type one.")
+        return (
+            "empty_slot",
+            text_of("{noun} is missing.", noun=Text(slot.kind.noun)),
+            "Choose or type one.",
+        )
     reason = language.why_not_choice(slot, value, block, key)
     if reason is not None:
         return ("unknown_choice", reason, "Choose another one.")
     return _why_not_number(definition, slot, value)
 
 
-def _why_not_number(
-    definition: Definition, slot: Slot, value: FieldValue | None
-) -> tuple[str, ...] | None:
+def _why_not_number(definition: Definition, slot: Slot, value: FieldValue | None) -> _Wrong | None:
     """What is wrong with a number as it is typed, for what it is meant."""
     if slot.kind.name == "duration" and number_of(value) < 0:
-        return ("negative", "a time cannot be less than 0 seconds.", "Write a time of 0 or more.")
+        return (
+            "negative",
+            Text("a time cannot be less than 0 seconds."),
+            "Write a time of 0 or more.",
+        )
     if "loop" not in definition.flags or slot.kind.name != "number":
         return None
     number = number_of(value)
     if slot.name == "times" and number < 0:
-        return ("negative", "this cannot be done less than 0 times.", "Write 0 or more.")
+        return ("negative", Text("this cannot be done less than 0 times."), "Write 0 or more.")
     if slot.name == "step" and int(number) == 0:
-        return ("no_step", "counting in steps of 0 never ends.", "Write a whole number but 0.")
+        return (
+            "no_step",
+            Text("counting in steps of 0 never ends."),
+            "Write a whole number but 0.",
+        )
     return None
+
+
+# Checks of what a block must be inside of: a loop, the definition of an own block, good Python.
+
+CODE_LINES, CODE_VALUE, STOP_RULE = "code.lines", "code.value", "control.stop_rule"
+
+
+class _Place(NamedTuple):
+    """What a block is inside of: an own block, a loop, a part that runs beside others."""
+
+    procedure: str
+    loop: bool = False
+    apart: bool = False
+
+
+def check_inside(project: Project, language: Language) -> Iterator[Problem]:
+    """Blocks that mean nothing where they are."""
+    for chain in chains(project, language):
+        hat = project.blocks[chain[0]]
+        start = _Place(procedure_of(hat.type) if hat.type.startswith(DEFINE) else "")
+        waiting = [(block_id, start) for block_id in reversed(chain)]
+        while waiting:
+            block_id, place = waiting.pop()
+            block = project.blocks[block_id]
+            definition = language.definitions.get(block.type)
+            if block.disabled or definition is None:
+                continue
+            yield from _misplaced(project, language, block, definition, place)
+            if block.inputs or block.bodies:
+                inner = _inner(definition, place)
+                waiting += [(child, inner) for child in block.children()]
+
+
+def _inner(definition: Definition, place: _Place) -> _Place:
+    if "apart" in definition.flags:
+        return _Place(place.procedure, loop=False, apart=True)
+    return place._replace(loop=True) if "loop" in definition.flags else place
+
+
+def _misplaced(
+    project: Project, language: Language, block: Block, definition: Definition, place: _Place
+) -> Iterator[Problem]:
+    told = _told(block, definition, place)
+    if told is None:
+        return
+    severity, kind, reason, remedy = told
+    yield Problem(
+        severity,
+        kind,
+        page_of(project, block.id),
+        block.id,
+        text_of("“{block}”: {reason}", block=sentence(project, language, block.id), reason=reason),
+        (remedy,),
+    )
+
+
+def _told(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
+    """How bad it is, the kind, the sentence and the remedy of what is wrong, or None."""
+    if "in_loop" in definition.flags and not place.loop:
+        return ("error", "outside_loop", Text("it is in no loop."), "Put it into a “repeat” block.")
+    if block.type == STOP_RULE and place.apart:
+        reason = Text("only the part in which it is stops, not the whole rule.")
+        return ("info", "stops_part", reason, "Is that meant? Then leave it as it is.")
+    if block.type == RETURN and (not place.procedure or place.apart):
+        reason = Text("only the definition of an own block gives a value back.")
+        remedy = "Put it under a “define” block, and not into “do together”."
+        return ("error", "outside_own_block", reason, remedy)
+    if block.type.startswith(PARAMETER) and procedure_of(block.type) != place.procedure:
+        reason = Text("this value is known only inside the definition of its own block.")
+        remedy = "Move it under the “define” block that it comes from."
+        return ("error", "parameter_outside", reason, remedy)
+    if block.type in (CODE_LINES, CODE_VALUE):
+        return _wrong_python(block, definition, place)
+    return None
+
+
+def _wrong_python(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
+    text = str(definition.value(block, "code"))
+    try:
+        if block.type == CODE_VALUE:
+            read_value(text)
+        else:
+            read_lines(text, in_loop=place.loop)
+    except CodeTextRefused as refused:
+        return ("error", "wrong_python", refused.sentence, "Change the code.")
+    return None
+
+
+# Checks of own blocks: called without a definition, defined twice, giving nothing, in circles.
+
+
+def check_own_blocks(project: Project, language: Language) -> Iterator[Problem]:
+    """Problems of own blocks; nothing is looked at where there are none."""
+    if not project.procedures:
+        return
+    headers: dict[str, str] = {}
+    calls: dict[str, dict[str, str]] = {}
+    for chain in chains(project, language):
+        header = project.blocks[chain[0]]
+        owner = procedure_of(header.type) if header.type.startswith(DEFINE) else ""
+        blocks = list(project.within(chain, enabled=True))
+        called = calls.setdefault(owner, {})
+        for block in blocks:
+            if block.type.startswith(CALL):
+                called.setdefault(procedure_of(block.type), block.id)
+        if not owner:
+            continue
+        if headers.setdefault(owner, header.id) != header.id:
+            yield _twice(project, header)
+        if project.procedures[owner].gives_value and not _gives_back(blocks):
+            yield _gives_nothing(project, header)
+    yield from _undefined(project, headers, calls)
+    yield from _circles(project, headers, calls)
+
+
+def _gives_back(blocks: list[Block]) -> bool:
+    return any(block.type == RETURN for block in blocks)
+
+
+def _twice(project: Project, header: Block) -> Problem:
+    return Problem(
+        "error",
+        "defined_twice",
+        page_of(project, header.id),
+        header.id,
+        text_of(
+            "The block “{own_block}” is defined twice.",
+            own_block=_name(project, procedure_of(header.type)),
+        ),
+        ("Take one of the two definitions out.",),
+    )
+
+
+def _gives_nothing(project: Project, header: Block) -> Problem:
+    return Problem(
+        "warning",
+        "gives_nothing",
+        page_of(project, header.id),
+        header.id,
+        text_of(
+            "“{own_block}” gives a value, but there is no “give back” block in it.",
+            own_block=_name(project, procedure_of(header.type)),
+        ),
+        ("Put “give back” at its end.", "Or let the block give no value."),
+    )
+
+
+def _undefined(
+    project: Project, headers: dict[str, str], calls: dict[str, dict[str, str]]
+) -> Iterator[Problem]:
+    missing = {p: block for called in calls.values() for p, block in called.items()}
+    for procedure, block in missing.items():
+        if procedure in project.procedures and procedure not in headers:
+            yield Problem(
+                "error",
+                "no_definition",
+                page_of(project, block),
+                block,
+                text_of(
+                    "Nothing says what “{own_block}” does: its “define” block is on no page, or it "
+                    "is switched off.",
+                    own_block=_name(project, procedure),
+                ),
+                ("Put its “define” block onto a page again.", "Or take this block out."),
+            )
+
+
+def _circles(
+    project: Project, headers: dict[str, str], calls: dict[str, dict[str, str]]
+) -> Iterator[Problem]:
+    for procedure, header in headers.items():
+        if _reaches(procedure, calls):
+            yield Problem(
+                "info",
+                "calls_itself",
+                page_of(project, header),
+                header,
+                text_of(
+                    "“{own_block}” calls itself, at once or through another block.",
+                    own_block=_name(project, procedure),
+                ),
+                ("Make sure that it comes to an end: some way through it must not call it.",),
+            )
+
+
+def _reaches(procedure: str, calls: dict[str, dict[str, str]]) -> bool:
+    """Whether an own block is called, however indirectly, by itself."""
+    waiting, seen = list(calls.get(procedure, ())), set[str]()
+    while waiting:
+        called = waiting.pop()
+        if called == procedure:
+            return True
+        if called not in seen:
+            seen.add(called)
+            waiting += calls.get(called, ())
+    return False
+
+
+def _name(project: Project, procedure: str) -> str:
+    return title(project.procedures[procedure])

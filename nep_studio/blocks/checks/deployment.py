@@ -4,17 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..deployment import (
+from faults import Text, text_of
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.deployment import (
+    GESTURE_STATE,
     gestures_used,
     is_recognised,
     node_entries,
     robot_entries,
     robots_used,
+    rules,
 )
-from ..language import Language
-from ..own_gestures import own_gestures, trained_gestures
-from ..program import ALL_ROBOTS, Project
-from ..values import why_not_name
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
+from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
+from nep_studio.blocks.slots import why_not_name
+from nep_studio.blocks.text import sentence
+
 from .problem import Fix, Problem, page_of
 
 
@@ -29,11 +35,11 @@ def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
     listed = {entry.name for entry in robot_entries(project, language)}
     for name, block in robots_used(project, language).items():
         if name == ALL_ROBOTS and not listed:
-            sentence = "There is no robot on the Robots page."
+            sentence = Text("There is no robot on the Robots page.")
         elif name == ALL_ROBOTS or name in listed or not name.strip():
             continue
         else:
-            sentence = f"{name} is not on the Robots page."
+            sentence = text_of("{name} is not on the Robots page.", name=name)
         robot = language.profile.title if name == ALL_ROBOTS else name
         yield Problem(
             "error",
@@ -42,7 +48,7 @@ def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
             block,
             sentence,
             ("Add the robot to the Robots page.", "Or choose another robot in this block."),
-            Fix("add_robot", f"Add {robot}", {"name": robot}),
+            Fix("add_robot", text_of("Add {robot}", robot=robot), {"name": robot}),
         )
 
 
@@ -60,9 +66,15 @@ def _unrecognised_gestures(project: Project, language: Language) -> Iterator[Pro
                 "gesture_unrecognised",
                 page_of(project, block),
                 block,
-                f"No node of the Nodes page recognises the gesture “{gesture}”.",
+                text_of(
+                    "No node of the Nodes page recognises the gesture “{gesture}”.", gesture=gesture
+                ),
                 ("Launch a gesture node for it on the Nodes page.",),
-                Fix("add_gesture_node", f"Recognise “{gesture}”", {"gesture": gesture}),
+                Fix(
+                    "add_gesture_node",
+                    text_of("Recognise “{gesture}”", gesture=gesture),
+                    {"gesture": gesture},
+                ),
             )
 
 
@@ -72,7 +84,7 @@ def _untrained(title: str, page: str, block: str) -> Problem:
         "gesture_untrained",
         page,
         block,
-        f"The gesture “{title}” is not learned yet.",
+        text_of("The gesture “{title}” is not learned yet.", title=title),
         ("Record it five times in the panel Gestures.", "Press Train there."),
     )
 
@@ -85,7 +97,10 @@ def _names(project: Project, language: Language) -> Iterator[Problem]:
     for page, name, block in [*robots, *nodes]:
         reason = why_not_name(name)
         if name == ALL_ROBOTS:
-            reason = f"“{ALL_ROBOTS}” stands for all robots, and cannot be the name of one."
+            reason = text_of(
+                "“{all_robots}” stands for all robots, and cannot be the name of one.",
+                all_robots=ALL_ROBOTS,
+            )
         if reason is not None:
             yield Problem("error", "bad_name", page, block, reason, ("Give it another name.",))
         elif name in seen:
@@ -94,7 +109,112 @@ def _names(project: Project, language: Language) -> Iterator[Problem]:
                 "same_name",
                 page,
                 block,
-                f"Two robots or nodes are called “{name}”.",
+                text_of("Two robots or nodes are called “{name}”.", name=name),
                 ("Give each a name of its own.",),
             )
         seen.add(name)
+
+
+# Checks of what the robot on the screen cannot do: it has no camera and no files.
+
+
+def check_real_robots(project: Project, language: Language) -> Iterator[Problem]:
+    """Blocks that need a real robot, and name a virtual one."""
+    virtual = {e.name for e in robot_entries(project, language) if e.driver == "virtual"}
+    for chain in rules(project, language):
+        for block in project.within(chain, enabled=True):
+            definition = language.definitions.get(block.type)
+            if definition is None or "needs_real_robot" not in definition.flags:
+                continue
+            robot = str(definition.value(block, "robot"))
+            if robot not in virtual and not (robot == ALL_ROBOTS and virtual):
+                continue
+            yield Problem(
+                "warning",
+                "needs_real_robot",
+                "behaviour",
+                block.id,
+                text_of(
+                    "“{block}” needs a real robot: the program would stop here with the robot on "
+                    "this screen.",
+                    block=sentence(project, language, block.id),
+                ),
+                (
+                    "Give the robot the address of a real one, on the page Robots.",
+                    "Or switch this block off for now.",
+                ),
+            )
+
+
+# Checks of rules: nothing starts, two rules for the same thing, blocks under no rule.
+
+
+def check_rules(project: Project, language: Language) -> Iterator[Problem]:
+    """Problems of how stacks begin."""
+    chains = list(rules(project, language))
+    if not chains:
+        yield Problem(
+            "error",
+            "no_rule",
+            "behaviour",
+            "",
+            "Nothing starts this program: it has no “when” block.",
+            ("Drag a “when” block from the palette onto the page Behaviour.",),
+        )
+    yield from _same_trigger(project, language, chains)
+    yield from _loose(project, language)
+
+
+def _same_trigger(
+    project: Project, language: Language, chains: list[list[str]]
+) -> Iterator[Problem]:
+    first: dict[str, str] = {}
+    for chain in chains:
+        hat = project.blocks[chain[0]]
+        if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
+            yield Problem(
+                "warning",
+                "same_trigger",
+                page_of(project, hat.id),
+                hat.id,
+                text_of(
+                    "Two rules begin with “{block}”. Both will run.",
+                    block=sentence(project, language, hat.id),
+                ),
+                ("Put the blocks of both rules under one.", "Or let one wait for something else."),
+            )
+
+
+def _trigger(language: Language, hat: Block) -> str:
+    """What a rule waits for; a gesture is the human state that its node tells."""
+    definition = language.definitions[hat.type]
+    for slot in definition.slots.values():
+        if slot.kind.name == "gesture":
+            return f"{GESTURE_STATE}{definition.value(hat, slot.name)}"
+        if slot.kind.name == "state":
+            return f"{definition.value(hat, slot.name)}{_goal_name(definition, hat)}"
+    values = [str(definition.value(hat, key)) for key, _ in definition.keys(hat.groups)]
+    return f"block {hat.type} {values}"
+
+
+def _goal_name(definition: Definition, hat: Block) -> str:
+    """What tells goals that begin alike from each other, and from rules: their name."""
+    return f" goal {definition.value(hat, 'name')}" if "name" in definition.slots else ""
+
+
+def _loose(project: Project, language: Language) -> Iterator[Problem]:
+    for page, stack in project.stacks_of_kind("behaviour"):
+        first = project.blocks[stack.body[0]]
+        definition = language.definitions.get(first.type)
+        if definition is not None and definition.shape != "hat" and definition.page == "behaviour":
+            yield Problem(
+                "info",
+                "loose_block",
+                page,
+                first.id,
+                text_of(
+                    "“{block}” is under no “when” block and will not run.",
+                    block=sentence(project, language, first.id),
+                ),
+                ("Drag it under a “when” block, or leave it here for later.",),
+            )

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
+from typing import NamedTuple
 
-from ..definitions import Definition
-from ..deployment import chains
-from ..language import Language
-from ..program import ALL_ROBOTS, Block, Project
-from ..text import sentence
+from faults import text_of
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.deployment import chains
+from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
+from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
+from nep_studio.blocks.text import sentence
+
 from .problem import Fix, Problem, page_of
 
 _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
@@ -41,8 +46,10 @@ def _loops_without_pause(
                 "no_pause",
                 page_of(project, block.id),
                 block.id,
-                f"“{sentence(project, language, block.id)}” never pauses: "
-                "the computer would do nothing else.",
+                text_of(
+                    "“{block}” never pauses: the computer would do nothing else.",
+                    block=sentence(project, language, block.id),
+                ),
                 ("Put a “wait” block inside.", "Or let the robot do something inside."),
                 Fix("add_wait", "Add a pause", {"block": block.id, "slot": "do"}),
             )
@@ -68,8 +75,11 @@ def _never_reached(
                     "never_reached",
                     page_of(project, lower.id),
                     lower.id,
-                    f"“{sentence(project, language, lower.id)}” is never reached: it comes after "
-                    f"“{sentence(project, language, upper.id)}”.",
+                    text_of(
+                        "“{block}” is never reached: it comes after “{block_2}”.",
+                        block=sentence(project, language, lower.id),
+                        block_2=sentence(project, language, upper.id),
+                    ),
                     ("Move it above, or take it out.",),
                 )
 
@@ -99,7 +109,7 @@ def _walking_unready(
                 "not_standing",
                 page_of(project, block.id),
                 block.id,
-                f"{name} cannot walk after the posture “{label}”.",
+                text_of("{name} cannot walk after the posture “{label}”.", name=name, label=label),
                 ("Let the robot stand first.",),
                 Fix("stand_first", "Stand first", {"block": block.id, "robot": robot}),
             )
@@ -115,3 +125,60 @@ def _posture_taken(definition: Definition, block: Block) -> str:
 def _flags(language: Language, block: Block) -> frozenset[str]:
     definition = language.definitions.get(block.type)
     return definition.flags if definition is not None else frozenset()
+
+
+# Checks of what Python itself cannot take: loops in loops in loops, values in values.
+
+
+class _Depth(NamedTuple):
+    """How deep a block is: in loops of its function, in bodies, in values."""
+
+    loops: int
+    indent: int
+    values: int
+
+
+def check_limits(project: Project, language: Language) -> Iterator[Problem]:
+    """The blocks that are nested too deep, the outermost of each chain of them."""
+    for chain in chains(project, language):
+        waiting = [(block_id, _Depth(0, 1, 0)) for block_id in reversed(chain)]
+        while waiting:
+            block_id, depth = waiting.pop()
+            block = project.blocks[block_id]
+            definition = language.definitions.get(block.type)
+            if block.disabled or definition is None:
+                continue
+            inside = _inside(block, definition, depth)
+            if not _is_too_deep(inside, definition):
+                waiting += [(child, inside) for child in block.children()]
+                continue
+            yield Problem(
+                "error",
+                "too_deep",
+                page_of(project, block_id),
+                block_id,
+                text_of(
+                    "Blocks are nested too deep here: {deepest_loop} loops, {deepest_indent} "
+                    "blocks or {deepest_value} values at most.",
+                    deepest_loop=DEEPEST_LOOP,
+                    deepest_indent=DEEPEST_INDENT,
+                    deepest_value=DEEPEST_VALUE,
+                ),
+                ("Take the inner blocks out into a rule of their own, or into a variable.",),
+            )
+
+
+def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth:
+    """How deep the blocks inside a block are."""
+    if definition.is_value:
+        return depth._replace(values=depth.values + value_cost(block))
+    if definition.shape != "c":
+        return depth
+    loops = 0 if "apart" in definition.flags else depth.loops + ("loop" in definition.flags)
+    return _Depth(loops, depth.indent + 1, 0)
+
+
+def _is_too_deep(inside: _Depth, definition: Definition) -> bool:
+    if definition.is_value:
+        return inside.values > DEEPEST_VALUE
+    return inside.loops > DEEPEST_LOOP or inside.indent > DEEPEST_INDENT

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from faults import Words
+
 from ..program import Project
 
 Severity = Literal["error", "warning", "info"]
@@ -16,7 +18,7 @@ class Fix:
     """Something that the studio can do about a problem: its name, its button, what it needs."""
 
     name: str
-    label: str
+    label: Words
     data: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -32,8 +34,8 @@ class Problem:
     kind: str
     page: str
     block: str
-    sentence: str
-    checklist: tuple[str, ...] = ()
+    sentence: Words
+    checklist: tuple[Words, ...] = ()
     fix: Fix | None = None
 
 

@@ -7,13 +7,33 @@ editor.py. All edits can be written as JSON: a journal of them is a crash-safe a
 
 from __future__ import annotations
 
-from .content import AddGroup, RemoveGroup, SetComment, SetField, SetFlag
-from .kept import SetExtra
-from .notes import AddNote, ChangeNote, RemoveNote, SetCommentSize
-from .own_blocks import AddProcedure, ChangeProcedure, RemoveProcedure
-from .pages import AddPage, MovePage, RemovePage, RenamePage
+from .content import (
+    AddGroup,
+    AddNote,
+    AddProcedure,
+    ChangeNote,
+    ChangeProcedure,
+    RemoveGroup,
+    RemoveNote,
+    RemoveProcedure,
+    SetComment,
+    SetCommentSize,
+    SetExtra,
+    SetField,
+    SetFlag,
+)
 from .placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from .whole import AddVariable, MoveStack, RemoveVariable, RenameProject, RenameVariable
+from .project import (
+    AddPage,
+    AddVariable,
+    MovePage,
+    MoveStack,
+    RemovePage,
+    RemoveVariable,
+    RenamePage,
+    RenameProject,
+    RenameVariable,
+)
 
 Edit = (
     CreateBlocks

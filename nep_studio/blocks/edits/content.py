@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import msgspec
 
-from ..errors import EditRefused
-from ..program import Block, Parent, Project
-from ..values import FieldValue
+from faults import Text
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.file_text import is_deeper
+from nep_studio.blocks.program import Block, Note, Parameter, Parent, Procedure, Project
+from nep_studio.blocks.slots import FieldValue
+
 from .placing import require_block
 
 
@@ -129,3 +132,227 @@ def _renumber(project: Project, block: Block, old: str, new: str) -> None:
         block.bodies[new] = block.bodies.pop(old)
         for child in block.bodies[new]:
             project.parents[child] = Parent(block.id, new)
+
+
+# Edits of the notes on pages, and of the room that the comment of a block takes.
+
+
+class AddNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Put a note on a page."""
+
+    label: ClassVar[str] = "add a note"
+    note: Note
+
+    def apply(self, project: Project) -> RemoveNote:
+        """Add the note."""
+        if self.note.id in project.notes:
+            raise EditRefused("A note with this id is already there.")
+        _require_page(project, self.note.page)
+        project.notes[self.note.id] = _in_floats(self.note)
+        project.id_seen(self.note.id)
+        project.touch_note(self.note.id)
+        return RemoveNote(self.note.id)
+
+
+class RemoveNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Delete a note."""
+
+    label: ClassVar[str] = "delete a note"
+    note: str
+
+    def apply(self, project: Project) -> AddNote:
+        """Delete the note."""
+        old = _require_note(project, self.note)
+        del project.notes[self.note]
+        project.touch_note(self.note)
+        return AddNote(old)
+
+
+class ChangeNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Move a note, make it larger or smaller, write in it: all that it is is said again."""
+
+    label: ClassVar[str] = "change a note"
+    note: Note
+
+    def apply(self, project: Project) -> ChangeNote:
+        """Change the note."""
+        old = _require_note(project, self.note.id)
+        _require_page(project, self.note.page)
+        project.notes[self.note.id] = _in_floats(self.note)
+        project.touch_note(self.note.id)
+        return ChangeNote(old)
+
+
+class SetCommentSize(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Make the comment of a block larger or smaller; 0 is as large as it needs to be."""
+
+    label: ClassVar[str] = "change the size of a comment"
+    block: str
+    width: float
+    height: float
+
+    def apply(self, project: Project) -> SetCommentSize:
+        """Set the size."""
+        block = require_block(project, self.block)
+        old = SetCommentSize(self.block, block.comment_width, block.comment_height)
+        block.comment_width, block.comment_height = float(self.width), float(self.height)
+        project.touch(project.stack_of(self.block).id, self.block)
+        return old
+
+
+def _in_floats(note: Note) -> Note:
+    """A note as it is read from a file: places and sizes are no whole numbers there."""
+    x, y = float(note.x), float(note.y)
+    return Note(note.id, note.page, x, y, float(note.width), float(note.height), note.text)
+
+
+def _require_note(project: Project, note_id: str) -> Note:
+    note = project.notes.get(note_id)
+    if note is None:
+        raise EditRefused("This note is not there any more.")
+    return note
+
+
+def _require_page(project: Project, page: str) -> None:
+    if page not in project.pages:
+        raise EditRefused("This page is not there any more.")
+
+
+# An edit of what a project keeps besides its program, such as the cues of its operator.
+
+FILE_KEYS = frozenset(
+    (
+        "format",
+        "version",
+        "name",
+        "pages",
+        "blocks",
+        "variables",
+        "procedures",
+        "notes",
+        "page_order",
+    )
+)
+"""The keys of the program itself, which nothing else may be kept under."""
+
+LONGEST_KEY = 64
+LARGEST_BYTES = 200_000
+ANIMATION = "animation_"
+"""What the keys of the project's animations begin with: a dance has many numbers."""
+GESTURE = "gesture_"
+RECORDING = "recording_"
+RECOGNISER = "recogniser"
+"""The keys of what the project knows of gestures: gestures, recordings, and what was learned."""
+_LARGEST_OF = {
+    ANIMATION: 1_000_000,
+    GESTURE: 1_000_000,
+    RECORDING: 12_000_000,
+    RECOGNISER: 8_000_000,
+}
+DEEPEST = 20
+
+
+class SetExtra(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Keep a JSON value under a key of the project's file; None takes it away.
+
+    Programs that do not know the key save it as it was.
+    """
+
+    label: ClassVar[str] = "change what the project keeps"
+    key: str
+    value: Any = None
+
+    def apply(self, project: Project) -> SetExtra:
+        """Keep the value."""
+        old = SetExtra(self.key, project.extra.get(self.key))
+        if self.value is None:
+            project.extra.pop(self.key, None)
+        else:
+            project.extra[self.key] = self.value
+        project.touch_extra()
+        project.changes.kept.add(self.key)
+        return old
+
+
+def why_not_extra(key: str, value: object) -> Text | None:
+    """Why a value cannot be kept under a key, or None when it can."""
+    if key in FILE_KEYS or not key.isidentifier() or len(key) > LONGEST_KEY:
+        return Text("Nothing can be kept under this name.")
+    try:
+        size = len(msgspec.json.encode(value))
+    except (TypeError, ValueError, RecursionError, UnicodeEncodeError):
+        return Text("This cannot be written into the project's file.")
+    sizes = (most for prefix, most in _LARGEST_OF.items() if key.startswith(prefix))
+    if size > next(sizes, LARGEST_BYTES) or is_deeper(value, DEEPEST):
+        return Text("This is too much to be kept in the project's file.")
+    return None
+
+
+# Edits of the list of own blocks; editor.py sees to it that the blocks that call them follow.
+
+
+class AddProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Make an own block, at a position of the list of own blocks."""
+
+    label: ClassVar[str] = "make an own block"
+    procedure: Procedure
+    position: int
+
+    def apply(self, project: Project) -> RemoveProcedure:
+        """Make the own block."""
+        if self.procedure.id in project.procedures:
+            raise EditRefused("An own block with this id is already there.")
+        procedures = list(project.procedures.values())
+        if not 0 <= self.position <= len(procedures):
+            raise EditRefused("There is no such position in the list of own blocks.")
+        procedures.insert(self.position, self.procedure)
+        project.procedures.clear()
+        project.procedures.update({procedure.id: procedure for procedure in procedures})
+        see_ids(project, self.procedure)
+        project.touch_procedures()
+        return RemoveProcedure(self.procedure.id)
+
+
+class RemoveProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Delete an own block from the list."""
+
+    label: ClassVar[str] = "delete an own block"
+    procedure: str
+
+    def apply(self, project: Project) -> AddProcedure:
+        """Delete the own block."""
+        old = _require_procedure(project, self.procedure)
+        position = list(project.procedures).index(self.procedure)
+        del project.procedures[self.procedure]
+        project.touch_procedures()
+        return AddProcedure(old, position)
+
+
+class ChangeProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+    """Change the sentence of an own block, and whether it gives a value."""
+
+    label: ClassVar[str] = "change an own block"
+    procedure: Procedure
+
+    def apply(self, project: Project) -> ChangeProcedure:
+        """Change the own block."""
+        old = _require_procedure(project, self.procedure.id)
+        project.procedures[old.id] = self.procedure
+        see_ids(project, self.procedure)
+        project.touch_procedures()
+        return ChangeProcedure(old)
+
+
+def see_ids(project: Project, procedure: Procedure) -> None:
+    """Remember the ids in an own block, so that none is given again."""
+    project.id_seen(procedure.id)
+    for part in procedure.parts:
+        if isinstance(part, Parameter):
+            project.id_seen(part.id)
+
+
+def _require_procedure(project: Project, procedure_id: str) -> Procedure:
+    procedure = project.procedures.get(procedure_id)
+    if procedure is None:
+        raise EditRefused("This own block is not there any more.")
+    return procedure

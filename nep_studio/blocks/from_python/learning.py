@@ -13,14 +13,203 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
-from ..definitions import Definition
-from ..errors import CodeRefused
-from ..language import Language
-from ..procedures import procedure_of
-from ..program import ALL_ROBOTS, split_slot
-from ..values import FieldValue
-from .learner import Learner
-from .markers import MARKS, position_of
+from faults import Words, text_of
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.errors import BlocksError, CodeRefused
+from nep_studio.blocks.generate.expressions import (
+    Assignment,
+    Body,
+    Expressions,
+    Function,
+    Gap,
+    Piece,
+    constant,
+    show,
+)
+from nep_studio.blocks.generate.names import ProgramNames
+from nep_studio.blocks.generate.registry import HATS, REPORTERS, STATEMENTS
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import procedure_of
+from nep_studio.blocks.program import ALL_ROBOTS, Block, Project, split_slot
+from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.slots import FieldValue
+
+# Names and numbers that stand for slots in a learned piece of Python, and how they are told.
+
+_SLOT, _BODY, _PART, _VARIABLE = "SLOT_", "BODY_", "PART_", "VARIABLE_"
+MARKS = (_SLOT, _BODY, _PART, _VARIABLE)
+_FIRST_NUMBER, _STEP, _REACH = 7_000_000, 1000, 20
+_WORD = re.compile(r"qslotq([a-z0-9]+?)q")
+
+
+def slot_name(key: str) -> str:
+    """A name that stands for what is in a slot."""
+    return _SLOT + key.replace(".", "_N")
+
+
+def body_name(key: str) -> str:
+    """A name that stands for the blocks in a body."""
+    return _BODY + key.replace(".", "_N")
+
+
+def part_name(number: int) -> str:
+    """A name that stands for the name of a function."""
+    return f"{_PART}{number}"
+
+
+VARIABLE_NAME = f"{_VARIABLE}variable"
+
+
+def slot_of(name: str) -> str:
+    """The slot that a name stands for, or an empty text."""
+    return _key(name, _SLOT)
+
+
+def body_of(name: str) -> str:
+    """The body that a name stands for, or an empty text."""
+    return _key(name, _BODY)
+
+
+def is_part(name: str) -> bool:
+    """Whether a name stands for the name of a function."""
+    return name.startswith(_PART)
+
+
+def number_for(position: int) -> int:
+    """A number that stands for a whole number typed into slot number ``position``."""
+    return _FIRST_NUMBER + _STEP * position
+
+
+def position_of(number: object) -> tuple[int, int] | None:
+    """The position that a number stands for, and what was added to it; or None."""
+    if type(number) is not int or number < _FIRST_NUMBER - _REACH:
+        return None
+    position, more = divmod(number - _FIRST_NUMBER + _REACH, _STEP)
+    return (position, more - _REACH) if more <= 2 * _REACH else None
+
+
+def word_for(position: int) -> str:
+    """A word that stands for what is typed into slot number ``position``."""
+    return f"qslotq{position}q"
+
+
+def word_pattern(text: str) -> tuple[re.Pattern[str], list[int]] | None:
+    """How a text with such words in it is matched, and which positions they have; or None."""
+    positions = [int(number) for number in _WORD.findall(text)]
+    if not positions:
+        return None
+    parts = [re.escape(part) for part in re.split(r"qslotq[a-z0-9]+?q", text)]
+    return re.compile("(.*)".join(parts), re.DOTALL), positions
+
+
+def _key(name: str, start: str) -> str:
+    return name.removeprefix(start).replace("_N", ".") if name.startswith(start) else ""
+
+
+# Makes the Python of a new block with markers in its slots.
+
+_WORDS = frozenset({"text", "line", "state", "gesture", "lines", "robot"})
+
+
+class Learner(Expressions):
+    """Makes Python with markers; ``asked`` are the choices that the generator looked at.
+
+    ``filled`` are the slots that it wrote as they are.
+    """
+
+    def __init__(
+        self,
+        language: Language,
+        fields: Mapping[str, FieldValue],
+        keys: Sequence[str],
+        typed: frozenset[str],
+        plain: str,
+    ) -> None:
+        super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS)
+        self.asked: list[str] = []
+        self.filled: set[str] = set()
+        self._fields_chosen = fields
+        self._positions = {key: position for position, key in enumerate(keys)}
+        self._typed = typed
+        self._plain = plain
+        self._functions = 0
+
+    def nodes(self, definition: Definition, groups: Mapping[str, int]) -> tuple[ast.AST, ...]:
+        """The Python of a new block of a definition."""
+        block = self._block(definition, groups)
+        if definition.shape == "hat":
+            decorator = HATS[definition.generator](self, block).decorator
+            return () if decorator is None else (_parsed(show(decorator)),)
+        if definition.is_value:
+            return (_parsed(show(REPORTERS[definition.generator](self, block))),)
+        pieces = STATEMENTS[definition.generator](self, block)
+        return tuple(ast.parse("\n".join(_lines(pieces))).body)
+
+    def slot(self, block: Block, key: str) -> ast.expr:
+        """A marker for a slot; the text slots of a value that is no text are markers too."""
+        slot = self._slot(block, key)
+        self.filled.add(key)
+        if key == self._plain:
+            return constant(self.definition(block).defaults[slot.name])
+        if key in self._typed:
+            return ast.Constant(number_for(self._positions[key]))
+        return ast.Name(slot_name(key))
+
+    def choice(self, block: Block, key: str) -> str:
+        """The choice that this variant is made with."""
+        self.asked.append(key)
+        if key in self._fields_chosen:
+            return str(self._fields_chosen[key])
+        return next(iter(self.language.choices_of(self._slot(block, key))), "")
+
+    def variable(self, block: Block) -> str:
+        """A marker for the variable of a block."""
+        return VARIABLE_NAME
+
+    def begins_as(self, block: Block, kind: str) -> None:
+        """Nothing begins in what is learned."""
+
+    def part_name(self) -> str:
+        """A marker for the name of a function."""
+        self._functions += 1
+        return part_name(self._functions)
+
+    def _slot(self, block: Block, key: str) -> Slot:
+        return self.definition(block).slots[split_slot(key)[0]]
+
+    def _block(self, definition: Definition, groups: Mapping[str, int]) -> Block:
+        """A new block whose texts are marker words."""
+        block = definition.new_block("b1")
+        block.groups = dict(groups)
+        block.fields = {
+            key: word_for(self._positions[key])
+            for key, slot in definition.keys(groups)
+            if slot.kind.name in _WORDS and not slot.group
+        } | dict(self._fields_chosen)
+        for key, slot in definition.keys(groups):
+            if slot.name in definition.defaults:
+                block.fields.setdefault(key, definition.defaults[slot.name])
+        return block
+
+
+def _parsed(text: str) -> ast.expr:
+    return ast.parse(text, mode="eval").body
+
+
+def _lines(pieces: Sequence[Piece]) -> Iterator[str]:
+    for piece in pieces:
+        if isinstance(piece, str):
+            yield piece
+        elif isinstance(piece, Assignment):
+            yield piece.line
+        elif isinstance(piece, Body):
+            yield f"    {body_name(piece.slot)}"
+        elif isinstance(piece, Function):
+            yield f"def {piece.name}():"
+            yield f"    {body_name(piece.slot)}"
+        elif not isinstance(piece, Gap):
+            yield str(getattr(piece, "line", ""))
+
 
 MOST_PATTERNS, MOST_LANGUAGES, MOST_MIXED = 600, 4, 3
 _NUMBERS = frozenset({"number", "angle", "slider", "duration"})
@@ -200,3 +389,80 @@ def _is_plain(node: ast.AST) -> bool:
 def _form(nodes: Sequence[ast.AST]) -> str:
     """What the Python looks like, whatever is in its slots."""
     return _ANY_VALUE.sub(_MARKER, "".join(ast.dump(node) for node in nodes))
+
+
+# Blocks read from Python, before they have ids.
+
+
+class CodeUnread(BlocksError):
+    """Python that cannot become blocks; ``line`` is where, from 1."""
+
+    title = "This Python cannot become blocks"
+
+    def __init__(
+        self,
+        sentence: Words,
+        line: int,
+        /,
+        *,
+        checklist: Sequence[Words] = (),
+        **values: object,
+    ) -> None:
+        said = text_of(sentence, **values)
+        super().__init__("Line {line}: {sentence}", checklist=checklist, line=line, sentence=said)
+        self.line = line
+
+
+@dataclass(slots=True)
+class Made:
+    """A block with all that is inside it; ``text`` is its Python without the margin."""
+
+    type: str
+    fields: dict[str, FieldValue] = field(default_factory=dict)
+    inputs: dict[str, Made] = field(default_factory=dict)
+    bodies: dict[str, list[Made]] = field(default_factory=dict)
+    groups: dict[str, int] = field(default_factory=dict)
+    comment: str = ""
+    text: str = ""
+
+    def inner(self) -> Iterator[Made]:
+        """The blocks directly inside."""
+        yield from self.inputs.values()
+        for chain in self.bodies.values():
+            yield from chain
+
+
+def blocks_of(
+    project: Project, language: Language, chain: Sequence[Made]
+) -> tuple[tuple[str, ...], tuple[Block, ...]]:
+    """Blocks with ids that are new to a project: those of the chain, and all."""
+    ids: dict[int, str] = {}
+    order: list[Made] = []
+    waiting = list(reversed(chain))
+    while waiting:
+        made = waiting.pop()
+        ids[id(made)] = project.new_id("b")
+        order.append(made)
+        waiting.extend(reversed(list(made.inner())))
+    blocks = tuple(_block(made, ids, language) for made in order)
+    return tuple(ids[id(made)] for made in chain), blocks
+
+
+def _block(made: Made, ids: dict[int, str], language: Language) -> Block:
+    definition = language.definitions[made.type]
+    block = definition.new_block(ids[id(made)])
+    block.groups = {**block.groups, **made.groups}
+    keys = {key for key, _ in definition.keys(block.groups)}
+    block.fields = {
+        **{key: value for key, value in block.fields.items() if key in keys},
+        **made.fields,
+    }
+    for key, slot in definition.keys(block.groups):
+        if key not in block.fields and slot.name in definition.defaults:
+            block.fields[key] = definition.defaults[slot.name]
+    block.inputs = {key: ids[id(inner)] for key, inner in made.inputs.items()}
+    block.bodies = {
+        key: [ids[id(inner)] for inner in chain] for key, chain in made.bodies.items() if chain
+    }
+    block.comment = made.comment
+    return block

@@ -6,14 +6,17 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.edits.project import RenameProject
+
 from ..deployment import ROBOT_BLOCK, robot_entries, robots_used
 from ..editor import Editor
-from ..edits import AddProcedure, CreateBlocks, RenameProject
 from ..generate.names import RESERVED, python_name
 from ..places import InStack
 from ..procedures import parameters, words
 from ..program import ALL_ROBOTS, Parameter, Procedure, Project
-from .made import CodeUnread
+from .learning import CodeUnread
 
 _HEADERS = ("Robot", "Behavior")
 
@@ -63,9 +66,10 @@ def _require_variables(names: SourceNames, tree: ast.Module) -> None:
     for name, line in lines.items():
         if name not in names.variables:
             raise CodeUnread(
-                f"“{name}” has a meaning in the program already, and cannot be a variable.",
+                "“{name}” has a meaning in the program already, and cannot be a variable.",
                 line,
                 checklist=("Give the variable another name.",),
+                name=name,
             )
 
 
@@ -106,9 +110,10 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
                     _add_robot(editor, robot.value)
         case _:
             raise CodeUnread(
-                f"{made} needs a name in quotes here.",
+                "{made} needs a name in quotes here.",
                 node.lineno,
                 checklist=('Write the name in quotes, such as "NAO".',),
+                made=made,
             )
 
 

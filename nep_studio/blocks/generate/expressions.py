@@ -3,19 +3,98 @@
 from __future__ import annotations
 
 import ast
+import math
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
-from ..arithmetic import ArithmeticRefused, calculate
-from ..definition_call import Call
-from ..definitions import Definition
-from ..errors import CodeRefused
-from ..language import Language
-from ..program import Block, Project, split_slot
-from ..sentence import Slot
-from ..values import FieldValue
+from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
+from nep_studio.blocks.definitions import Call, Definition
+from nep_studio.blocks.errors import CodeRefused
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import Block, Project, split_slot
+from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.slots import FieldValue
+
 from .names import NameTable, ProgramNames
-from .nodes import call, constant, method_call
+
+# Expression trees that blocks make often: constants, calls, whole numbers.
+
+
+def constant(value: FieldValue | None) -> ast.expr:
+    """A constant of a field; a negative number is a sign and a number, or ``**`` binds wrongly."""
+    if isinstance(value, int | float) and math.copysign(1, value) < 0:
+        return ast.UnaryOp(ast.USub(), ast.Constant(-value))
+    if value is None or isinstance(value, dict):
+        raise TypeError(f"a field of kind {type(value).__name__} is no constant")
+    return ast.Constant(value)
+
+
+def call(name: str, /, *arguments: ast.expr, **keywords: ast.expr) -> ast.Call:
+    """A call of a function by its name."""
+    return ast.Call(ast.Name(name), list(arguments), _keywords(keywords))
+
+
+def method_call(
+    target: ast.expr,
+    method: str,
+    arguments: list[ast.expr] | None = None,
+    keywords: Mapping[str, ast.expr] | None = None,
+) -> ast.Call:
+    """A call of a method."""
+    return ast.Call(ast.Attribute(target, method), arguments or [], _keywords(keywords or {}))
+
+
+def whole(node: ast.expr) -> ast.expr:
+    """Make sure that a number is whole: what is not known to be goes through int()."""
+    return node if is_whole(node) else call("int", node)
+
+
+def is_whole(node: ast.expr) -> bool:
+    """Whether an expression is known to give a whole number."""
+    match node:
+        case ast.Constant(value=value):
+            return type(value) is int
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return is_whole(operand)
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult(), right=right):
+            return is_whole(left) and is_whole(right)
+        case ast.Call(func=ast.Attribute(value=ast.Name(id="random"), attr="randint")):
+            return True
+        case ast.Call(func=ast.Attribute(value=ast.Name(id="math"), attr="floor" | "ceil")):
+            return True
+        case ast.Call(func=ast.Name(id="len" | "int" | "round"), args=[_]):
+            return True
+    return False
+
+
+def known_whole(node: ast.expr) -> int | None:
+    """The whole number that an expression is, when it is written there as such."""
+    match node:
+        case ast.Constant(value=int(value)) if type(value) is int:
+            return value
+        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int(value))):
+            return -value
+    return None
+
+
+def plus(node: ast.expr, number: int) -> ast.expr:
+    """A whole number with another added or taken away, as short as it can be."""
+    known = known_whole(node)
+    if known is not None:
+        return constant(known + number)
+    sign = ast.Add() if number > 0 else ast.Sub()
+    return ast.BinOp(node, sign, ast.Constant(abs(number))) if number else node
+
+
+def compare(left: ast.expr, sign: ast.cmpop, right: ast.expr) -> ast.Compare:
+    """A comparison of two values."""
+    return ast.Compare(left, [sign], [right])
+
+
+def _keywords(keywords: Mapping[str, ast.expr]) -> list[ast.keyword]:
+    return [ast.keyword(name, value) for name, value in keywords.items()]
+
 
 VARIABLE_BLOCK = "variable.get"
 
@@ -60,9 +139,10 @@ class Expressions:
         definition = self.language.definitions.get(block.type)
         if definition is None:
             raise CodeRefused(
-                f"This version does not know the block “{block.type}”.",
+                "This version does not know the block “{type}”.",
                 block=block.id,
                 checklist=("Update NEP Studio.", "Or take the block out of the program."),
+                type=block.type,
             )
         return definition
 
@@ -108,9 +188,10 @@ class Expressions:
         self._depth += cost
         if self._depth > DEEPEST_VALUE:
             raise CodeRefused(
-                f"Blocks are plugged into blocks too deep: {DEEPEST_VALUE} levels at most.",
+                "Blocks are plugged into blocks too deep: {deepest_value} levels at most.",
                 block=block.id,
                 checklist=("Set a variable to a part of this, and use the variable here.",),
+                deepest_value=DEEPEST_VALUE,
             )
         node: ast.expr
         if definition.call is not None:
@@ -201,7 +282,9 @@ class Expressions:
             arithmetic = calculate(text)
         except ArithmeticRefused as refused:
             raise CodeRefused(
-                str(refused), block=block.id, checklist=("Correct what is written in this block.",)
+                refused.sentence,
+                block=block.id,
+                checklist=("Correct what is written in this block.",),
             ) from refused
         if arithmetic.needs_math:
             self.modules.add("math")
@@ -211,3 +294,221 @@ class Expressions:
 def value_cost(block: Block) -> int:
     """How many levels a value block adds: the items of a join are in each other in Python."""
     return _COSTS.get(block.type, 1) + sum(block.groups.values())
+
+
+# Print an expression tree as one line of Python.
+#
+# Only the nodes that blocks make are known. ``ast.parse(show(node))`` gives ``node`` again: that
+# is a property test, and the reason why no text of a user can become code. ``ast.unparse`` is
+# several times slower and prefers single quotes.
+
+_LAMBDA, _OR, _AND, _NOT, _COMPARE, _SUM, _TERM, _SIGN, _POWER, _ATOM, _TARGET = range(11)
+
+_BINARY: dict[type[ast.operator], tuple[str, int]] = {
+    ast.Add: (" + ", _SUM),
+    ast.Sub: (" - ", _SUM),
+    ast.Mult: (" * ", _TERM),
+    ast.Div: (" / ", _TERM),
+    ast.FloorDiv: (" // ", _TERM),
+    ast.Mod: (" % ", _TERM),
+    ast.Pow: (" ** ", _POWER),
+}
+_COMPARISON: dict[type[ast.cmpop], str] = {
+    ast.Eq: " == ",
+    ast.NotEq: " != ",
+    ast.Lt: " < ",
+    ast.LtE: " <= ",
+    ast.Gt: " > ",
+    ast.GtE: " >= ",
+    ast.In: " in ",
+    ast.NotIn: " not in ",
+}
+
+
+class Verbatim(ast.expr):
+    """Python that a person wrote, printed as it is; ``is_closed`` needs no parentheses."""
+
+    def __init__(self, text: str, *, is_closed: bool) -> None:
+        super().__init__()
+        self.text = text
+        self.is_closed = is_closed
+
+
+def show(node: ast.expr, least: int = _LAMBDA) -> str:
+    """Print an expression; it is put in parentheses when it binds weaker than ``least``."""
+    text, strength = _PRINTERS[type(node)](node)
+    return text if strength >= least else f"({text})"
+
+
+def literal(value: object) -> str:
+    """Print a constant; texts in double quotes unless that takes more escapes.
+
+    ``repr`` escapes whatever is not printable: line breaks of every kind, control characters,
+    marks that turn the direction of writing, and halves of characters.
+    """
+    text = repr(value)
+    if text[0] == "'" and '"' not in text:
+        return f'"{text[1:-1]}"'
+    return text
+
+
+def _constant(node: ast.Constant) -> tuple[str, int]:
+    value = node.value
+    if isinstance(value, int | float) and (not math.isfinite(value) or math.copysign(1, value) < 0):
+        raise ValueError(f"{value} must be written with a sign of its own")
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return literal(value), _ATOM if is_number else _TARGET  # a dot after a number is its point
+
+
+def _name(node: ast.Name) -> tuple[str, int]:
+    return node.id, _TARGET
+
+
+def _attribute(node: ast.Attribute) -> tuple[str, int]:
+    return f"{show(node.value, _TARGET)}.{node.attr}", _TARGET
+
+
+def _call(node: ast.Call) -> tuple[str, int]:
+    arguments = [show(argument) for argument in node.args]
+    arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
+    return f"{show(node.func, _TARGET)}({', '.join(arguments)})", _TARGET
+
+
+def _list(node: ast.List) -> tuple[str, int]:
+    return f"[{', '.join(map(show, node.elts))}]", _TARGET
+
+
+def _binary(node: ast.BinOp) -> tuple[str, int]:
+    sign, strength = _BINARY[type(node.op)]
+    if strength == _POWER:  # binds to the right, and a sign may stand right of it
+        return f"{show(node.left, _ATOM)}{sign}{show(node.right, _SIGN)}", _POWER
+    return f"{show(node.left, strength)}{sign}{show(node.right, strength + 1)}", strength
+
+
+def _unary(node: ast.UnaryOp) -> tuple[str, int]:
+    if isinstance(node.op, ast.Not):
+        return f"not {show(node.operand, _NOT)}", _NOT
+    return f"-{show(node.operand, _SIGN)}", _SIGN
+
+
+def _junction(node: ast.BoolOp) -> tuple[str, int]:
+    word, strength = (" and ", _AND) if isinstance(node.op, ast.And) else (" or ", _OR)
+    return word.join([show(value, strength + 1) for value in node.values]), strength
+
+
+def _compare(node: ast.Compare) -> tuple[str, int]:
+    text = show(node.left, _SUM)
+    for sign, right in zip(node.ops, node.comparators, strict=True):
+        text += _COMPARISON[type(sign)] + show(right, _SUM)
+    return text, _COMPARE
+
+
+def _lambda(node: ast.Lambda) -> tuple[str, int]:
+    return f"lambda: {show(node.body)}", _LAMBDA
+
+
+def _choose(node: ast.IfExp) -> tuple[str, int]:
+    test, body = show(node.test, _OR), show(node.body, _OR)
+    return f"{body} if {test} else {show(node.orelse)}", _LAMBDA
+
+
+def _subscript(node: ast.Subscript) -> tuple[str, int]:
+    return f"{show(node.value, _TARGET)}[{show(node.slice)}]", _TARGET
+
+
+def _slice(node: ast.Slice) -> tuple[str, int]:
+    low = show(node.lower) if node.lower is not None else ""
+    high = show(node.upper) if node.upper is not None else ""
+    return f"{low}:{high}", _LAMBDA
+
+
+def _verbatim(node: Verbatim) -> tuple[str, int]:
+    return node.text, _TARGET if node.is_closed else _LAMBDA
+
+
+_PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
+    ast.Constant: _constant,
+    ast.Name: _name,
+    ast.Attribute: _attribute,
+    ast.Call: _call,
+    ast.List: _list,
+    ast.BinOp: _binary,
+    ast.UnaryOp: _unary,
+    ast.BoolOp: _junction,
+    ast.Compare: _compare,
+    ast.Lambda: _lambda,
+    ast.IfExp: _choose,
+    ast.Subscript: _subscript,
+    ast.Slice: _slice,
+    Verbatim: _verbatim,
+}
+
+
+# The pieces of which the Python of a statement block is made, in order.
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """The chain of blocks in a slot; CPython limits how deep those of a ``loop`` are nested."""
+
+    slot: str
+    loop: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function without arguments whose body is the chain of blocks in a slot."""
+
+    name: str
+    slot: str
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """A line that assigns to a variable of the whole program."""
+
+    variable: str
+    line: str
+
+
+@dataclass(frozen=True, slots=True)
+class Leave:
+    """A line that leaves a loop or its round."""
+
+    line: str
+
+
+@dataclass(frozen=True, slots=True)
+class GiveBack:
+    """A line that gives the value of an own block."""
+
+    line: str
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """Lines that a person wrote, with the program's variables to which they assign.
+
+    ``inside_texts`` are the lines, from 1, that begin inside a text: no margin goes before them.
+    """
+
+    lines: tuple[str, ...]
+    inside_texts: frozenset[int]
+    assigned: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """An empty line, to keep apart what does not belong together."""
+
+
+Piece = str | Body | Function | Assignment | Leave | GiveBack | Written | Gap
+StatementGenerator = Callable[[Expressions, Block], Sequence[Piece]]
+
+
+def comment_lines(text: str) -> Iterator[str]:
+    """A text as comments of Python; control characters could end a comment."""
+    for line in text.splitlines():
+        visible = "".join(c if c.isprintable() else " " for c in line).strip()
+        if visible:
+            yield f"# {visible}"

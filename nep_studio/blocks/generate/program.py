@@ -6,16 +6,16 @@ import ast
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from ..deployment import chains, robot_entries
-from ..errors import CodeRefused
-from ..language import Language
-from ..procedures import DEFINE, parameters, procedure_of, words
-from ..program import ALL_ROBOTS, Project
-from .expressions import Expressions
+from nep_studio.blocks.deployment import NodeEntry, RobotEntry, chains, node_entries, robot_entries
+from nep_studio.blocks.errors import CodeRefused
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
+from nep_studio.blocks.program import ALL_ROBOTS, Project
+from nep_studio.blocks.slots import Setting
+
+from .expressions import Expressions, call, constant, literal, method_call, show
 from .hats import Hat
 from .names import NameTable, ProgramNames
-from .nodes import call
-from .printing import literal, show
 from .registry import HATS, REPORTERS
 from .rules import RuleWriter
 from .source_map import Code
@@ -228,3 +228,34 @@ def _docstring(name: str) -> str:
     if '"' in sentence or "\\" in sentence or not sentence.isprintable():
         return literal(sentence)
     return f'"""{sentence}"""'
+
+
+# The Robots and Nodes pages as Python: the launcher starts each of them.
+
+
+def generate_launch(project: Project, language: Language) -> Code:
+    """The Python that starts the robots and the nodes of a project."""
+    lines = ["from nep_core import Launcher", "", "launcher = Launcher()"]
+    blocks = [""] * len(lines)
+    for robot in robot_entries(project, language):
+        lines.append(_start(language.profile.node, robot.name, _robot_settings(robot)))
+        blocks.append(robot.block_id)
+    for node in node_entries(project, language):
+        lines.append(_start(node.node, node.name, _node_settings(node)))
+        blocks.append(node.block_id)
+    return Code("\n".join(lines) + "\n", tuple(blocks))
+
+
+def _robot_settings(robot: RobotEntry) -> dict[str, Setting]:
+    settings = {"robot": robot.name, "driver": robot.driver, "address": robot.address}
+    return {**settings, "model": robot.model} if robot.model else {**settings}
+
+
+def _node_settings(node: NodeEntry) -> dict[str, Setting]:
+    return dict(node.parameters)
+
+
+def _start(node: str, name: str, settings: dict[str, Setting]) -> str:
+    keywords = {key: constant(value) for key, value in {"name": name, **settings}.items()}
+    start = method_call(ast.Name("launcher"), "start", [ast.Constant(node)], keywords)
+    return show(start)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from . import hats, reporters, statements
-from .expressions import ValueGenerator
-from .goal_hats import GOAL_HATS
-from .hats import HatGenerator
+from .expressions import StatementGenerator, ValueGenerator
+from .hats import GOAL_HATS, HatGenerator
 from .names import FUNCTIONS
-from .robot_words import ROBOT_REPORTERS, ROBOT_STATEMENTS
-from .statements import StatementGenerator
+from .reporters import ROBOT_REPORTERS, ROBOT_STATEMENTS
 
 HATS: dict[str, HatGenerator] = {**hats.HATS, **GOAL_HATS}
 STATEMENTS: dict[str, StatementGenerator] = {**statements.STATEMENTS, **ROBOT_STATEMENTS}

@@ -6,14 +6,15 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain as chain_of
 
+from faults import Text
+
 from ..code_text import CodeTextRefused, compile_quietly
 from ..errors import CodeRefused
 from ..program import Block
-from .expressions import Expressions
-from .hats import Hat
-from .pieces import (
+from .expressions import (
     Assignment,
     Body,
+    Expressions,
     Function,
     Gap,
     GiveBack,
@@ -21,8 +22,9 @@ from .pieces import (
     Piece,
     Written,
     comment_lines,
+    show,
 )
-from .printing import show
+from .hats import Hat
 from .registry import STATEMENTS
 
 DEEPEST_LOOP = 20
@@ -98,7 +100,7 @@ class RuleWriter:
         except CodeTextRefused as refused:
             line = min(max(refused.line, 1), len(self.blocks))
             raise CodeRefused(
-                str(refused), block=self.blocks[line - 1], checklist=("Change the code.",)
+                refused.sentence, block=self.blocks[line - 1], checklist=("Change the code.",)
             ) from refused
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
@@ -106,9 +108,10 @@ class RuleWriter:
         definition = self._code.definition(block)
         if definition.page != "behaviour":
             raise CodeRefused(
-                f"This block belongs on the page {definition.page.title()}, not under a rule.",
+                "This block belongs on the page {page}, not under a rule.",
                 block=block.id,
-                checklist=(f"Move it to the page {definition.page.title()}.",),
+                checklist=("Move it to the page {page}.",),
+                page=Text(definition.page.title()),
             )
         if definition.call is not None:
             pieces: Sequence[Piece] = (show(self._code.call(block, definition.call)),)
@@ -180,10 +183,12 @@ class RuleWriter:
         """The blocks of a chain that are not disabled; where there are none, write ``pass``."""
         if loops > DEEPEST_LOOP or indent > DEEPEST_INDENT:
             raise CodeRefused(
-                "Blocks are nested too deep: "
-                f"{DEEPEST_LOOP} loops or {DEEPEST_INDENT} blocks inside each other at most.",
+                "Blocks are nested too deep: {deepest_loop} loops or {deepest_indent} blocks "
+                "inside each other at most.",
                 block=owner,
                 checklist=("Take the inner blocks out into a rule of their own.",),
+                deepest_loop=DEEPEST_LOOP,
+                deepest_indent=DEEPEST_INDENT,
             )
         project_blocks = self._code.project.blocks
         blocks = [project_blocks[i] for i in chain if not project_blocks[i].disabled]

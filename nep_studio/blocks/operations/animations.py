@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from nep_studio.blocks.edits.content import SetField
+
 from ..editor import Editor
-from ..edits import SetField
 from ..errors import EditRefused
 from ..language import Language
 from ..own_animations import (
@@ -49,8 +50,9 @@ def keep_animation(editor: Editor, animation: OwnAnimation, name: str = "") -> s
     name = name or new_name(editor, animation.title)
     if (reason := why_not_animation(name, animation)) is not None:
         raise EditRefused(
-            f"This motion cannot be kept: {reason}",
+            "This motion cannot be kept: {reason}",
             checklist=("Give it a name and at least one pose, then keep it again.",),
+            reason=reason,
         )
     editor.apply(keep(name, animation), "keep a motion")
     return name
@@ -110,8 +112,9 @@ def _known(editor: Editor, name: str) -> OwnAnimation:
     animation = own_animations(editor.project).get(name)
     if animation is None:
         raise EditRefused(
-            f"This project has no motion “{name}”.",
+            "This project has no motion “{name}”.",
             checklist=("Open the list of motions, and choose one of those.",),
+            name=name,
         )
     return animation
 

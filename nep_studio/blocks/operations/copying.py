@@ -6,21 +6,38 @@ can be opened as one; whatever draws a project can draw a clip.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from ..definitions import Definition
-from ..edits import AddProcedure, AddVariable, CreateBlocks
-from ..language import Language
-from ..places import NewStack
-from ..procedures import procedure_of
-from ..program import PAGES, Block, Project, Stack
-from ..reading import from_bytes
-from ..values import FieldValue
-from ..writing import to_bytes
-from .animations import take_along
-from .selection import Run, members, runs
+from msgspec.structs import replace
+
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
+from nep_studio.blocks.edits.project import AddVariable
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.files import from_bytes, to_bytes
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.generate.source_map import Code
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.places import InInput, InStack, NewStack, Place
+from nep_studio.blocks.procedures import (
+    CALL,
+    DEFINE,
+    header_of,
+    parameter_of,
+    parameters,
+    procedure_of,
+    title,
+)
+from nep_studio.blocks.program import PAGES, Block, Procedure, Project, Stack
+from nep_studio.blocks.slots import FieldValue
+
+from .animations import bring_animations, take_along
+from .selection import Run, members, page_of_block, require_runs, runs
 
 Points = Mapping[str, tuple[float, float]]
 """Where blocks are on their page, in canvas units, as the canvas has laid them out."""
@@ -137,3 +154,269 @@ def _place(project: Project, run: Run, number: int) -> tuple[float, float]:
     stack = project.stack_of(run.first)
     depth = 0 if stack.body[0] == run.first else number + 1
     return stack.x + STEP * depth, stack.y + STEP * depth
+
+
+# What the names in a clip stand for in another project: its variables and own blocks there.
+
+
+@dataclass(slots=True)
+class Names:
+    """Ids in the project by those in the clip; parameters by "own block.parameter" of the clip.
+
+    ``made`` are the ids of own blocks that the project did not have.
+    """
+
+    variables: dict[str, str] = field(default_factory=dict)
+    procedures: dict[str, str] = field(default_factory=dict)
+    parameters: dict[str, str] = field(default_factory=dict)
+    made: list[str] = field(default_factory=list)
+
+
+def names_for(editor: Editor, clip: Clip) -> Names:
+    """Find the variables and own blocks of a clip by their names, and make those that lack."""
+    names = Names()
+    known = {variable.name: variable.id for variable in editor.project.variables}
+    for variable in clip.project.variables:
+        there = known.get(variable.name)
+        names.variables[variable.id] = there or editor.add_variable(variable.name)
+    for procedure in clip.project.procedures.values():
+        found = _procedure_for(editor, clip.project, procedure, names)
+        names.procedures[procedure.id] = found.id
+        for old, new in zip(parameters(procedure), parameters(found), strict=True):
+            names.parameters[f"{procedure.id}.{old.id}"] = new.id
+    return names
+
+
+def renewed(language: Language, block: Block, ids: Mapping[str, str], names: Names) -> Block:
+    """A block of a clip with other ids, for the project."""
+    new = block.copy()
+    new.id = ids[block.id]
+    new.type = _type(block.type, names)
+    keys = _keys(block, names)
+    new.fields = {keys.get(key, key): value for key, value in new.fields.items()}
+    new.inputs = {keys.get(key, key): ids[plugged] for key, plugged in block.inputs.items()}
+    new.bodies = {key: [ids[i] for i in chain] for key, chain in block.bodies.items()}
+    for key in variable_keys(new, language.definitions):
+        named = str(new.fields.get(key, ""))
+        if named in names.variables:
+            new.fields[key] = names.variables[named]
+    return new
+
+
+def _procedure_for(
+    editor: Editor, source: Project, procedure: Procedure, names: Names
+) -> Procedure:
+    """The own block that says the same; a new one when there is none, or when it has a header
+    already and the clip brings another.
+    """
+    there = editor.project.procedures.values()
+    same = next((p for p in there if _signature(p) == _signature(procedure)), None)
+    brings_header = bool(header_of(source, procedure.id))
+    if same is not None and not (brings_header and header_of(editor.project, same.id)):
+        return same
+    new = replace(procedure, id=editor.project.new_id("p"))
+    titles = {title(p) for p in there}
+    if title(new) in titles:
+        new = _told_apart(new, titles)
+    editor.apply(AddProcedure(new, len(editor.project.procedures)))
+    names.made.append(new.id)
+    return new
+
+
+def _signature(procedure: Procedure) -> tuple[object, ...]:
+    kinds = tuple(parameter.kind for parameter in parameters(procedure))
+    return title(procedure), kinds, procedure.gives_value
+
+
+def _told_apart(procedure: Procedure, titles: set[str]) -> Procedure:
+    """The own block with a number behind its first word that makes its title a new one."""
+    place = next(i for i, part in enumerate(procedure.parts) if isinstance(part, str))
+    number, parts = 2, list(procedure.parts)
+    while True:
+        parts[place] = f"{procedure.parts[place]} {number}"
+        changed = replace(procedure, parts=tuple(parts))
+        if title(changed) not in titles:
+            return changed
+        number += 1
+
+
+def _type(block_type: str, names: Names) -> str:
+    old = procedure_of(block_type)
+    if old not in names.procedures:
+        return block_type
+    prefix, _, parameter = block_type.partition(f".{old}")
+    new = f"{prefix}.{names.procedures[old]}"
+    if not parameter:
+        return new
+    return f"{new}.{names.parameters.get(f'{old}.{parameter_of(block_type)}', parameter[1:])}"
+
+
+def _keys(block: Block, names: Names) -> dict[str, str]:
+    """The slots of a call or a header by those they had in the clip."""
+    if not block.type.startswith((CALL, DEFINE)):
+        return {}
+    start = f"{procedure_of(block.type)}."
+    return {
+        old.removeprefix(start): new
+        for old, new in names.parameters.items()
+        if old.startswith(start)
+    }
+
+
+# Put the blocks of a clip into a project, with ids of their own there.
+
+
+def paste(editor: Editor, clip: Clip, page: str, x: float, y: float) -> tuple[str, ...]:
+    """Put the blocks of a clip on a page, its corner at (x, y); gives the first of each stack.
+
+    Variables and own blocks are found by their names, or made. Raises EditRefused, for blocks of
+    another page too.
+    """
+    _require_blocks(clip)
+    left, top = clip.corner
+    with editor.transaction("paste blocks"):
+        names = names_for(editor, clip)
+        bring_animations(editor, clip.project)
+        new = tuple(
+            _put(
+                editor,
+                clip,
+                stack.body,
+                names,
+                editor.new_stack(page, x + stack.x - left, y + stack.y - top),
+            )[0]
+            for stack in clip.stacks
+        )
+        _add_headers(editor, names, page, x + STEP, y)
+    return new
+
+
+def paste_at(editor: Editor, clip: Clip, place: Place) -> tuple[str, ...]:
+    """Put the blocks of a clip of one stack into a place; gives the new blocks of the chain."""
+    _require_blocks(clip)
+    if len(clip.stacks) > 1:
+        raise EditRefused(
+            "These are several stacks: they can be pasted onto a page only.",
+            checklist=("Click an empty place of the page, and paste there.",),
+        )
+    with editor.transaction("paste blocks"):
+        bring_animations(editor, clip.project)
+        return _put(editor, clip, clip.roots[0], names_for(editor, clip), place)
+
+
+def duplicate(editor: Editor, ids: Iterable[str], at: Points = UNKNOWN) -> tuple[str, ...]:
+    """Copy blocks and put the copies beside them as stacks; gives the first of each.
+
+    ``at`` says where blocks lie that do not begin a stack.
+    """
+    project, ids = editor.project, list(ids)
+    page = page_of_block(project, require_runs(project, ids)[0].first)
+    clip = copy(project, editor.language, ids, at)
+    left, top = clip.corner
+    with editor.transaction("duplicate blocks"):
+        return paste(editor, clip, page, left + STEP, top + STEP)
+
+
+def _put(
+    editor: Editor, clip: Clip, chain: Iterable[str], names: Names, place: Place
+) -> tuple[str, ...]:
+    """Create a chain of a clip with ids that are new to the project; gives them."""
+    chain = list(chain)
+    old = list(clip.project.within(chain))
+    ids = {block.id: editor.project.new_id("b") for block in old}
+    blocks = tuple(renewed(editor.language, block, ids, names) for block in old)
+    roots = tuple(ids[root] for root in chain)
+    editor.apply(CreateBlocks(roots, blocks, place))
+    return roots
+
+
+def _add_headers(editor: Editor, names: Names, page: str, x: float, y: float) -> None:
+    """Give an own block that was made for a pasted call an empty header, to be filled."""
+    for procedure in names.made:
+        if not header_of(editor.project, procedure):
+            editor.create(DEFINE + procedure, editor.new_stack(page, x + 12 * STEP, y))
+            y += 4 * STEP
+
+
+def _require_blocks(clip: Clip) -> None:
+    if not clip.stacks:
+        raise EditRefused("There is nothing to paste.", checklist=("Copy some blocks first.",))
+
+
+# The Python of selected blocks, for the clipboard.
+
+HAT, HOLDER, HELD = "event.started", "variable.set", "value"
+"""What makes lines of blocks that make none by themselves: a hat, a statement and its slot."""
+
+
+def python_of(project: Project, language: Language, ids: Iterable[str]) -> str:
+    """The Python of selected blocks: rules whole, other blocks as the lines that they make.
+
+    Raises CodeRefused, which names the block.
+    """
+    clip = copy(project, language, ids).project
+    language = language.of(clip)
+    added = {
+        stack.id: _complete(clip, language, stack.body[0])
+        for stack in list(clip.pages["behaviour"])
+    }
+    code = generate_program(clip, language)
+    lines = code.text.splitlines()
+    texts = [_lines(clip, code, lines, stack, blocks) for stack, blocks in added.items()]
+    return "\n\n".join(text for text in texts if text)
+
+
+def _complete(clip: Project, language: Language, first: str) -> set[str]:
+    """Put a hat above a stack that has none, and a value into a statement; gives what was added."""
+    definition = language.definitions.get(clip.blocks[first].type)
+    if definition is None or definition.shape == "hat":
+        return set()
+    stack = clip.stack_of(first).id
+    hat = _create_chain(clip, language, HAT, stack)
+    if not definition.is_value:
+        return {hat}
+    holder = _create_chain(clip, language, HOLDER, stack)
+    clip.blocks[holder].fields["variable"] = _variable(clip)
+    MoveBlocks(first, 1, InInput(holder, HELD)).apply(clip)
+    MoveBlocks(holder, 1, InStack(stack, 1)).apply(clip)
+    return {hat, holder}
+
+
+def _create_chain(clip: Project, language: Language, block_type: str, stack: str) -> str:
+    block = language.definitions[block_type].new_block(clip.new_id("b"))
+    CreateBlocks((block.id,), (block,), InStack(stack, 0)).apply(clip)
+    return block.id
+
+
+def _variable(clip: Project) -> str:
+    variable, name = clip.new_id("v"), "value"
+    while any(known.name == name for known in clip.variables):
+        name += "_"
+    AddVariable(variable, name, len(clip.variables)).apply(clip)
+    return variable
+
+
+def _lines(clip: Project, code: Code, lines: list[str], stack: str, added: set[str]) -> str:
+    """The lines of a stack, without those of the blocks that were added to it."""
+    held = [line for block in added for line in code.lines_of(block) if len(added) == 2]
+    if held:  # the last of them is “name = value”
+        return lines[max(held) - 1].partition(" = ")[2]
+    inside = (block.id for block in clip.within(clip.stacks[stack].body) if block.id not in added)
+    numbers = [line for block in inside for line in code.lines_of(block)]
+    if not numbers:
+        return ""
+    return textwrap.dedent("\n".join(lines[min(numbers) - 1 : max(numbers)]))
+
+
+# Delete blocks; what was deleted is given back, for the list of deleted blocks.
+
+
+def delete(editor: Editor, ids: Iterable[str]) -> Clip:
+    """Delete blocks with all that is inside them; chains close up. Gives what was deleted."""
+    ids = list(ids)
+    chosen = require_runs(editor.project, ids)
+    deleted = copy(editor.project, editor.language, ids)
+    with editor.transaction("delete blocks"):
+        for run in chosen:
+            editor.apply(DeleteBlocks(run.first, run.count))
+    return deleted

@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from typing import Literal
 
-from ..language import Language
-from ..program import Block, Project
-from ..sentence import Group
-from ..text import field_text
+from faults import Text, text_of
+from nep_studio.blocks.deployment import (
+    GESTURE_NODE,
+    GESTURE_STATE,
+    NODE_BLOCK,
+    ROBOT_BLOCK,
+    node_entries,
+    robot_entries,
+)
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.project import RenameVariable
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import header_of, parameter_of, procedure_of
+from nep_studio.blocks.program import ALL_ROBOTS, Block, Parent, Project
+from nep_studio.blocks.sentence import Group
+from nep_studio.blocks.slots import why_not_name
+from nep_studio.blocks.text import field_text, sentence
 
 
 def find(project: Project, language: Language, text: str) -> tuple[str, ...]:
@@ -54,3 +72,209 @@ def _said(project: Project, language: Language, block: Block) -> Iterator[str]:
     for key, slot in definition.keys(block.groups):
         if key not in block.inputs and slot.kind.name != "body":
             yield field_text(project, language, block, slot, definition.value(block, key))
+
+
+# What blocks are about (a variable, a robot, a gesture): where it is used, where it is defined.
+
+SubjectKind = Literal["variable", "robot", "gesture", "procedure", "parameter"]
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A thing that blocks name: variables and procedures by id, robots and gestures by name."""
+
+    kind: SubjectKind
+    name: str
+
+
+def subjects_of(project: Project, language: Language, block_id: str) -> tuple[Subject, ...]:
+    """What a block names, the most important first; empty when it names nothing."""
+    return tuple(dict.fromkeys(_subjects(language, project.blocks[block_id])))
+
+
+def uses_of(project: Project, language: Language, subject: Subject) -> tuple[str, ...]:
+    """The blocks that name a thing, in page order; the block that defines it is one of them."""
+    return tuple(
+        block.id
+        for stacks in project.pages.values()
+        for stack in stacks
+        for block in project.within(stack.body)
+        if subject in _subjects(language, block)
+    )
+
+
+def definition_of(project: Project, language: Language, subject: Subject) -> str | None:
+    """The block where a thing is defined, or None.
+
+    A robot is defined on the Robots page, a gesture by its node on the Nodes page, an own block by
+    its hat, a variable by the first block that sets it.
+    """
+    if subject.kind == "robot":
+        entries = robot_entries(project, language)
+        return next((entry.block_id for entry in entries if entry.name == subject.name), None)
+    if subject.kind == "gesture":
+        return _gesture_node(project, language, subject.name)
+    if subject.kind == "variable":
+        used = (project.blocks[block] for block in uses_of(project, language, subject))
+        return next((block.id for block in used if _sets(language, block)), None)
+    return header_of(project, subject.name.partition(".")[0]) or None
+
+
+def _gesture_node(project: Project, language: Language, gesture: str) -> str | None:
+    nodes = [entry for entry in node_entries(project, language) if entry.node == GESTURE_NODE]
+    named = (entry for entry in nodes if entry.parameters.get("gesture") == gesture)
+    for_all = (entry for entry in nodes if not entry.parameters.get("gesture"))
+    entry = next(named, None) or next(for_all, None)
+    return entry.block_id if entry is not None else None
+
+
+def _sets(language: Language, block: Block) -> bool:
+    definition = language.definitions.get(block.type)
+    return definition is not None and not definition.is_value and block.type.endswith(".set")
+
+
+def _subjects(language: Language, block: Block) -> Iterator[Subject]:
+    definition = language.definitions.get(block.type)
+    if definition is None:
+        return
+    yield from _own_block(block)
+    for key, slot in definition.keys(block.groups):
+        value = definition.value(block, key)
+        if not isinstance(value, str) or not value:
+            continue
+        kind = slot.kind.name
+        if kind in ("variable", "robot", "gesture"):
+            yield Subject(kind, value)  # type: ignore[arg-type]
+        elif kind == "state" and value.startswith(GESTURE_STATE):
+            yield Subject("gesture", value.removeprefix(GESTURE_STATE))
+        elif block.type == ROBOT_BLOCK and key == "name":
+            yield Subject("robot", value)
+    parameters = block.fields.get("parameters")
+    if block.type == NODE_BLOCK and isinstance(parameters, dict) and parameters.get("gesture"):
+        yield Subject("gesture", str(parameters["gesture"]))
+
+
+def _own_block(block: Block) -> Iterator[Subject]:
+    """An own block, and before it the parameter that a block stands for."""
+    procedure, parameter = procedure_of(block.type), parameter_of(block.type)
+    if parameter:
+        yield Subject("parameter", f"{procedure}.{parameter}")
+    if procedure:
+        yield Subject("procedure", procedure)
+
+
+# Rename what blocks name, everywhere in one step.
+
+
+def rename_variable(editor: Editor, variable: str, name: str) -> None:
+    """Give a variable another name; blocks name it by its id and follow."""
+    editor.apply(RenameVariable(variable, name), "rename a variable")
+
+
+def rename_robot(editor: Editor, old: str, new: str) -> None:
+    """Give a robot another name, on the Robots page and in all blocks that name it."""
+    if (reason := why_not_rename_robot(editor, old, new)) is not None:
+        raise EditRefused(reason)
+    with editor.transaction("rename a robot"):
+        for block in list(editor.project.blocks.values()):
+            definition = editor.language.definitions.get(block.type)
+            if definition is None:
+                continue
+            for key, slot in list(definition.keys(block.groups)):
+                is_name = slot.kind.name == "robot" or (block.type == ROBOT_BLOCK and key == "name")
+                if is_name and definition.value(block, key) == old:
+                    editor.apply(SetField(block.id, key, new))
+
+
+def why_not_rename_robot(editor: Editor, old: str, new: str) -> Text | None:
+    """Why a robot cannot have another name, or None when it can."""
+    if old == ALL_ROBOTS or new == ALL_ROBOTS:
+        return text_of(
+            "“{all_robots}” stands for all robots, and cannot be the name of one.",
+            all_robots=ALL_ROBOTS,
+        )
+    if new != old and any(e.name == new for e in robot_entries(editor.project, editor.language)):
+        return text_of("There is a robot “{new}” already.", new=new)
+    return why_not_name(new)
+
+
+# What is different between two versions of a project, in words, block by block.
+
+What = Literal["added", "removed", "changed", "moved"]
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One block that differs: ``sentence`` is what it says now, ``before`` what it said."""
+
+    what: What
+    block: str
+    sentence: str
+    before: str = ""
+
+    def __str__(self) -> str:
+        if self.what == "changed" and self.before != self.sentence:
+            return f"changed: “{self.before}” is now “{self.sentence}”"
+        return f"{self.what}: “{self.sentence}”"
+
+
+def compare(old: Project, new: Project, language: Language) -> tuple[Difference, ...]:
+    """The blocks that differ, as ids say which are the same; a block that moved with the one
+    around it has not moved itself.
+    """
+    return (*_in_new(old, new, language), *_removed(old, new, language))
+
+
+def _in_new(old: Project, new: Project, language: Language) -> Iterator[Difference]:
+    moved = _moved(old, new)
+    for block in _all_blocks(new):
+        said = sentence(new, language, block.id)
+        before = old.blocks.get(block.id)
+        if before is None:
+            yield Difference("added", block.id, said)
+            continue
+        if block.id in moved:
+            yield Difference("moved", block.id, said)
+        if _content(before) != _content(block):
+            yield Difference("changed", block.id, said, sentence(old, language, block.id))
+
+
+def _removed(old: Project, new: Project, language: Language) -> Iterator[Difference]:
+    for block in _all_blocks(old):
+        if block.id not in new.blocks:
+            yield Difference("removed", block.id, sentence(old, language, block.id))
+
+
+def _all_blocks(project: Project) -> Iterator[Block]:
+    for stacks in project.pages.values():
+        for stack in stacks:
+            yield from project.within(stack.body)
+
+
+def _content(block: Block) -> tuple[object, ...]:
+    flags = block.disabled, block.collapsed, block.comment
+    return block.type, block.fields, block.groups, flags, block.extra
+
+
+def _moved(old: Project, new: Project) -> set[str]:
+    """Blocks that are in another place, or in another order among those that stayed there."""
+    both = old.blocks.keys() & new.blocks.keys()
+    moved = {block for block in both if _owner(old, block) != _owner(new, block)}
+    for parent in {new.parents[block] for block in both - moved}:
+        before = [b for b in old.chain_of(parent) or () if b in both - moved]
+        after = [b for b in new.chain_of(parent) or () if b in both - moved]
+        moved |= _out_of_order(before, after)
+    return moved
+
+
+def _owner(project: Project, block: str) -> Parent:
+    return project.parents[block]
+
+
+def _out_of_order(before: Sequence[str], after: Sequence[str]) -> set[str]:
+    """The fewest blocks, about, that must have moved to come from one order to the other."""
+    if before == after:
+        return set()
+    matcher = SequenceMatcher(None, before, after, autojunk=False)
+    stayed = {b for match in matcher.get_matching_blocks() for b in before[match.a :][: match.size]}
+    return set(after) - stayed

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from ..checks.problem import Fix, Problem
-from ..deployment import GESTURE_NODE, NODE_BLOCK, ROBOT_BLOCK, node_entries, robot_entries
-from ..editor import Editor
-from ..edits import CreateBlocks, SetField
-from ..errors import EditRefused
-from ..places import InBody, InStack, Place, place_of
-from ..values import FieldValue
+from faults import Words
+from nep_studio.blocks.checks.problem import Fix, Problem
+from nep_studio.blocks.deployment import (
+    GESTURE_NODE,
+    NODE_BLOCK,
+    ROBOT_BLOCK,
+    NodeEntry,
+    node_entries,
+    robot_entries,
+)
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.places import InBody, InStack, Place, place_of
+from nep_studio.blocks.slots import FieldValue, Setting
 
 Data = Mapping[str, str]
 WAIT, POSTURE = "control.wait", "robot.do"
@@ -30,7 +39,7 @@ def apply_fix(editor: Editor, problem: Problem) -> str:
         return FIXES[fix.name](editor, fix.data)
 
 
-def label_of(fix: Fix) -> str:
+def label_of(fix: Fix) -> Words:
     """What the button of a fix says, and the step that undoes it."""
     return fix.label
 
@@ -110,3 +119,107 @@ FIXES: dict[str, Callable[[Editor, Data], str]] = {
     "stand_first": _stand_first,
 }
 """What the checks offer, by name; a test sees to it that none is missing."""
+
+
+# Let a robot of the Robots page be the real one at an address, as one step.
+
+REAL = "naoqi"
+ROBOTS_PAGE = "robots"
+
+
+def use_real_robot(editor: Editor, name: str, address: str, label: str) -> str:
+    """Let the robot of a name be at an address; gives its block. Raises EditRefused.
+
+    Where there is no such robot a block is added to the Robots page.
+    """
+    entries = robot_entries(editor.project, editor.language)
+    block = next((entry.block_id for entry in entries if entry.name == name), "")
+    with editor.transaction(label):
+        block = block or append_entry(editor, ROBOTS_PAGE, ROBOT_BLOCK, {"name": name})
+        editor.apply(SetField(block, "driver", REAL))
+        editor.apply(SetField(block, "address", address))
+    return block
+
+
+# Let a node of the Nodes page be where the movements come from, as one step.
+
+WATCH = "sensory/smartwatch"
+STAND_INS = ("sensory/virtual_watch", "sensory/replay")
+"""What gives movements as long as there is no real watch."""
+NODES_PAGE = "nodes"
+USUAL_NAME = "watch"
+
+
+def use_watch(
+    editor: Editor,
+    settings: Mapping[str, Setting],
+    label: str,
+    *,
+    node: str = WATCH,
+    name: str = "",
+) -> str:
+    """Let a watch with these settings give the movements; gives its block. Raises EditRefused.
+
+    The block of this ``name`` becomes it; without, that of a watch, else of what stands in for
+    one; else a block is added to the Nodes page. All other stand-ins go: a virtual watch would
+    move at the same time. ``node`` may be a stand-in itself.
+    """
+    entries = node_entries(editor.project, editor.language)
+    changed = watch_entry(entries, name)
+    name = name or (changed.name if changed is not None else free_watch_name(editor))
+    gone = [one.block_id for one in entries if one.node in STAND_INS and one != changed]
+    fields: dict[str, FieldValue] = {"node": node, "name": name, "parameters": dict(settings)}
+    with editor.transaction(label):
+        for block_id in gone:
+            editor.apply(DeleteBlocks(block_id, 1))
+        if changed is None:
+            return append_entry(editor, NODES_PAGE, NODE_BLOCK, fields)
+        for slot, value in fields.items():
+            editor.apply(SetField(changed.block_id, slot, value))
+    return changed.block_id
+
+
+def watch_entry(entries: tuple[NodeEntry, ...], name: str = "") -> NodeEntry | None:
+    """The entry that a watch takes: of this name, else a watch, else a stand-in; None: a new one.
+
+    With a ``name`` that nobody has, a stand-in is taken, but no watch: there may be two.
+    """
+    if name and (named := next((one for one in entries if one.name == name), None)):
+        return named
+    wanted = [*([] if name else [WATCH]), *STAND_INS]
+    found = [one for node in wanted for one in entries if one.node == node]
+    return found[0] if found else None
+
+
+def free_watch_name(editor: Editor) -> str:
+    """A name for another watch: "watch", or with a number."""
+    project, language = editor.project, editor.language
+    taken = {one.name for one in robot_entries(project, language)}
+    taken |= {one.name for one in node_entries(project, language)}
+    name, number = USUAL_NAME, 2
+    while name in taken:
+        name, number = f"{USUAL_NAME} {number}", number + 1
+    return name
+
+
+# Let a program that has no beginning begin when it starts.
+
+STARTED = "event.started"
+BEHAVIOUR_PAGE = "behaviour"
+
+
+def add_start(editor: Editor) -> str:
+    """Put “when the program starts” above the first stack without a beginning; gives its id.
+
+    Where there is no such stack it stands alone. Raises EditRefused.
+    """
+    with editor.transaction("Add a beginning"):
+        block = editor.language.definitions[STARTED].new_block(editor.project.new_id("b"))
+        for stack in editor.project.pages[BEHAVIOUR_PAGE]:
+            edit = CreateBlocks((block.id,), (block,), InStack(stack.id, 0))
+            if editor.why_not(edit) is None:
+                editor.apply(edit)
+                return block.id
+        place = editor.new_stack(BEHAVIOUR_PAGE, 40.0, 40.0)
+        editor.apply(CreateBlocks((block.id,), (block,), place))
+        return block.id

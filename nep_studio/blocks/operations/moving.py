@@ -2,19 +2,146 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from ..editor import Editor
-from ..edits import MoveBlocks, MoveStack
-from ..errors import EditRefused
-from ..places import InBody, InInput, InStack, NewStack, Place, place_of
-from ..program import Project
-from .copying import STEP, UNKNOWN, Clip, Points
-from .landing import Load, blocks_below, is_cut, load_of_clip, load_of_run, mouth, page_at
-from .landing import why_not_land as _why_not_land
-from .pasting import paste_at
-from .selection import Run, require_runs, run_from, runs
+from faults import Text
+from nep_studio.blocks.connections import why_not_below, why_not_chained
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits import Edit
+from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.placing import CreateBlocks, MoveBlocks
+from nep_studio.blocks.edits.project import MoveStack
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, place_of
+from nep_studio.blocks.procedures import procedure_of
+from nep_studio.blocks.program import Block, Project
+
+from .copying import STEP, UNKNOWN, Clip, Points, clip_of, paste_at
+from .selection import (
+    Run,
+    chain_around,
+    is_within_run,
+    members,
+    page_of_block,
+    require_runs,
+    run_from,
+    runs,
+)
+from .tidy import GAP, Box, pushed_apart
+
+# Whether blocks can land in a place, and which blocks they would push away there.
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """Blocks that are about to land: their chain, and the edit that puts them into a place."""
+
+    chain: Sequence[Block]
+    edit: Callable[[Place], Edit]
+    run: Run | None = None
+
+    @property
+    def ids(self) -> frozenset[str]:
+        """The blocks that leave their place; none when they are new."""
+        return frozenset(block.id for block in self.chain) if self.run else frozenset()
+
+
+def load_of_run(project: Project, run: Run) -> Load:
+    """The load that blocks of the project are."""
+    chain = [project.blocks[block] for block in members(project, run)]
+    return Load(chain, lambda place: MoveBlocks(run.first, run.count, place), run)
+
+
+def load_of_clip(clip: Clip) -> Load:
+    """The load that the blocks of a clip of one stack are."""
+    roots = clip.roots[0]
+    blocks = tuple(clip.project.within(roots))
+    chain = [clip.project.blocks[root] for root in roots]
+    return Load(chain, lambda place: CreateBlocks(roots, blocks, place))
+
+
+def why_not_land(editor: Editor, load: Load, place: Place, *, wrap: bool) -> Text | None:
+    """Why blocks cannot land in a place, or None when they can."""
+    if load.run is not None and is_within_run(editor.project, place, load.run):
+        return Text("A block cannot be put inside itself.")
+    if isinstance(place, InInput) and len(load.chain) > 1:
+        return Text("Only one block goes into a slot.")
+    below = blocks_below(editor.project, load, place)
+    if below and (mouth(editor, load, wrap=wrap) or is_cut(editor, load, place)):
+        return _why_not_cut(editor, load, place, below, wrap=wrap)
+    return editor.why_not(load.edit(place))
+
+
+def is_cut(editor: Editor, load: Load, place: Place) -> bool:
+    """Whether the blocks below a place have to leave, as nothing goes below the last new block."""
+    last = editor.language.definitions.get(load.chain[-1].type)
+    return bool(blocks_below(editor.project, load, place)) and (
+        last is not None and not last.is_value and last.is_last
+    )
+
+
+def mouth(editor: Editor, load: Load, *, wrap: bool) -> str:
+    """The body that would take in the blocks below, or an empty text: of one C block, and empty."""
+    definition = editor.language.definitions.get(load.chain[0].type)
+    if not wrap or len(load.chain) > 1 or definition is None:
+        return ""
+    key = first_body(definition, load.chain[0])
+    return "" if load.chain[0].bodies.get(key) else key
+
+
+def first_body(definition: Definition, block: Block) -> str:
+    """The first body of a block, or an empty text when it has none."""
+    bodies = (key for key, slot in definition.keys(block.groups) if slot.kind.name == "body")
+    return next(bodies, "")
+
+
+def blocks_below(project: Project, load: Load, place: Place) -> list[str]:
+    """The blocks that would be below the new ones in their chain."""
+    moved = load.ids
+    left = [block for block in chain_at(project, place) if block not in moved]
+    return left[place.index :] if isinstance(place, InStack | InBody) else []
+
+
+def chain_at(project: Project, place: Place) -> list[str]:
+    """The chain that a place is in, as it is now; empty when it is none yet."""
+    if isinstance(place, InStack) and place.stack in project.stacks:
+        return project.stacks[place.stack].body
+    if isinstance(place, InBody) and place.block in project.blocks:
+        return project.blocks[place.block].bodies.get(place.slot, [])
+    return []
+
+
+def page_at(project: Project, place: Place) -> str:
+    """The page of a place."""
+    if isinstance(place, NewStack):
+        return place.page
+    if isinstance(place, InStack):
+        return project.page_of(place.stack)
+    return page_of_block(project, place.block)
+
+
+def _why_not_cut(
+    editor: Editor, load: Load, place: Place, below: list[str], *, wrap: bool
+) -> Text | None:
+    """The same question when the blocks below go away, or into the mouth of the new block."""
+    project, definitions = editor.project, editor.language.definitions
+    moved = load.ids
+    left = [block for block in chain_at(project, place) if block not in moved]
+    over = project.blocks[left[-len(below) - 1]] if len(below) < len(left) else None
+    first = definitions.get(load.chain[0].type)
+    is_top = over is None and isinstance(place, InStack)
+    reason = editor.why_not(load.edit(editor.new_stack(page_at(project, place), 0, 0)))
+    reason = reason or why_not_chained(first, first_in_stack=is_top)
+    if reason is None and over is not None:
+        reason = why_not_below(definitions.get(over.type))
+    if reason is None and mouth(editor, load, wrap=wrap):
+        top = definitions.get(project.blocks[below[0]].type)
+        reason = why_not_chained(top, first_in_stack=False)
+    return reason
+
 
 Point = tuple[float, float]
 
@@ -51,13 +178,13 @@ def pick_up(
 
 def why_not_drop(
     editor: Editor, carried: Carried, place: Place, *, wrap: bool = False
-) -> str | None:
+) -> Text | None:
     """Why what is carried cannot be dropped into a place, or None when it can."""
     if not carried.is_single:
-        return "Several stacks can be put onto a page only, not into one place."
+        return Text("Several stacks can be put onto a page only, not into one place.")
     if carried.first not in editor.project.blocks:
-        return "This block is not there any more."
-    return _why_not_land(editor, load_of_run(editor.project, carried.runs[0]), place, wrap=wrap)
+        return Text("This block is not there any more.")
+    return why_not_land(editor, load_of_run(editor.project, carried.runs[0]), place, wrap=wrap)
 
 
 def drop(
@@ -115,11 +242,11 @@ def create_and_drop(
     return new
 
 
-def why_not_create(editor: Editor, clip: Clip, place: Place, *, wrap: bool = False) -> str | None:
+def why_not_create(editor: Editor, clip: Clip, place: Place, *, wrap: bool = False) -> Text | None:
     """Why the new blocks of a clip cannot be put into a place, or None when they can."""
     if len(clip.stacks) != 1:
-        return "Several stacks can be put onto a page only, not into one place."
-    return _why_not_land(editor, load_of_clip(clip), place, wrap=wrap)
+        return Text("Several stacks can be put onto a page only, not into one place.")
+    return why_not_land(editor, load_of_clip(clip), place, wrap=wrap)
 
 
 def move_by(editor: Editor, ids: Iterable[str], dx: float, dy: float, at: Points = UNKNOWN) -> None:
@@ -209,3 +336,100 @@ def _clear_below(
     else:
         set_aside(editor, rest, beside)
     return again if isinstance(place, InStack) and stack.id not in project.stacks else place
+
+
+# Where a stack goes that was dropped very near to another one, without snapping to it.
+
+
+def bumped(box: Box, others: Mapping[str, Box], gap: float = GAP) -> tuple[float, float] | None:
+    """Where the stack in ``box`` has to move so that it is clear, or None when it is clear.
+
+    ``others`` are the boxes of the other stacks of the page by stack.
+    """
+    near = [other for other in others.values() if box.overlaps(other)]
+    if not near:
+        return None
+    clear = pushed_apart(box, others.values(), gap)
+    return clear.x, clear.y
+
+
+# Put a C block that is there already around a run of blocks: exactly these go into its mouth.
+
+
+def without_hat(editor: Editor, run: Run) -> Run | None:
+    """The run without a hat at its beginning; None when nothing else is in it."""
+    definition = editor.language.definitions.get(editor.project.blocks[run.first].type)
+    if definition is None or definition.shape != "hat":
+        return run
+    return Run(members(editor.project, run)[1], run.count - 1) if run.count > 1 else None
+
+
+def why_not_enclose(editor: Editor, block_type: str, run: Run) -> Text | None:
+    """Why a C block of a type cannot go around a run of blocks, or None when it can."""
+    chain = chain_around(editor.project, run.first)
+    end = chain.index(run.first) + run.count
+    if end > len(chain):
+        return Text("These blocks do not follow each other any more.")
+    return why_not_below(editor.language.definitions.get(block_type)) if end < len(chain) else None
+
+
+def enclose(editor: Editor, block: str, run: Run) -> None:
+    """Put a C block, which comes out of its place alone, around a run; raises EditRefused."""
+    project = editor.project
+    body = first_body(
+        editor.language.definitions[project.blocks[block].type], project.blocks[block]
+    )
+    if not body or project.blocks[block].bodies.get(body):
+        raise EditRefused(
+            "This block has no free place for blocks inside it.",
+            checklist=("Take out what is inside it, or take another block.",),
+        )
+    with editor.transaction("put a block around"):
+        if not isinstance(place_of(project, block, 1), NewStack):
+            stack, page = project.stack_of(run.first), page_of_block(project, run.first)
+            editor.apply(MoveBlocks(block, 1, editor.new_stack(page, stack.x, stack.y)))
+        place = place_of(project, run.first, run.count)
+        editor.apply(MoveBlocks(run.first, run.count, InBody(block, body, 0)))
+        editor.apply(MoveBlocks(block, 1, place))
+
+
+# The reporter that a person drags out of a block: of its variable, or of its parameter.
+
+
+def reporter_of(project: Project, language: Language, block_id: str, slot: str) -> Clip | None:
+    """A clip of the reporter for what is in a field of a block, or None when there is none.
+
+    For a field of kind variable it gives the variable, for a parameter of an own block's header
+    the parameter.
+    """
+    block = project.blocks[block_id]
+    definition = language.definitions.get(block.type)
+    there = definition.slot(slot, block.groups) if definition is not None else None
+    if definition is None or there is None:
+        return None
+    if there.kind.name == "variable":
+        variable = project.variable(str(definition.value(block, slot)))
+        getter = _getter(language)
+        if variable is None or not getter:
+            return None
+        clip = clip_of(language, getter, variable=variable.id)
+        clip.project.variables.append(variable)
+        return clip
+    if there.kind.name == "parameter":
+        return _parameter(project, language, there.table)
+    return None
+
+
+def _parameter(project: Project, language: Language, block_type: str) -> Clip | None:
+    if block_type not in language.definitions:
+        return None
+    clip = clip_of(language, block_type)
+    procedure = project.procedures[procedure_of(block_type)]
+    AddProcedure(procedure, 0).apply(clip.project)
+    return clip
+
+
+def _getter(language: Language) -> str:
+    """The type of the block that gives the value of a variable."""
+    getters = (d.id for d in language.definitions.values() if d.generator == "variable")
+    return next(getters, "")

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Literal
 
-from ..editor import Editor
-from ..edits import DeleteBlocks, MoveBlocks
-from ..errors import EditRefused
-from ..places import InBody, InInput, InStack, place_of
-from .landing import first_body
+from faults import Text
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import AddGroup, RemoveGroup, SetComment, SetField, SetFlag
+from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.places import InBody, InInput, InStack, place_of
+from nep_studio.blocks.program import Block
+from nep_studio.blocks.slots import FieldValue
+
+from .moving import Point, first_body, set_aside
 from .selection import Run, members, page_of_block, require_runs
 
 
@@ -57,7 +64,7 @@ def unwrap(editor: Editor, block_id: str) -> tuple[str, ...]:
     return inside
 
 
-def why_not_wrap(editor: Editor, ids: Iterable[str]) -> str | None:
+def why_not_wrap(editor: Editor, ids: Iterable[str]) -> Text | None:
     """Why no block can be put around selected blocks, or None when one can."""
     try:
         _without_hat(editor, _single(editor, ids))
@@ -101,3 +108,161 @@ def _without_hat(editor: Editor, run: Run) -> Run:
             checklist=("Choose the blocks below it.",),
         )
     return Run(members(editor.project, run)[1], run.count - 1)
+
+
+# Disable, collapse and comment several blocks at once.
+
+Flag = Literal["disabled", "collapsed"]
+
+LABELS: dict[tuple[Flag, bool], str] = {
+    ("disabled", True): "disable blocks",
+    ("disabled", False): "enable blocks",
+    ("collapsed", True): "collapse blocks",
+    ("collapsed", False): "expand blocks",
+}
+"""What the step is called, whole, so that it can be translated."""
+
+
+def set_disabled(editor: Editor, ids: Iterable[str], on: bool) -> None:
+    """Disable selected blocks, or enable them again; those inside them go along."""
+    _set(editor, _outer(editor, ids), "disabled", on)
+
+
+def set_collapsed(editor: Editor, ids: Iterable[str], on: bool) -> None:
+    """Collapse selected blocks, or open them again."""
+    _set(editor, ids, "collapsed", on)
+
+
+def toggle(editor: Editor, ids: Iterable[str], flag: Flag) -> bool:
+    """Turn a flag on for all selected blocks, or off when all have it; gives what it is now."""
+    blocks = _outer(editor, ids)
+    on = not all(getattr(editor.project.blocks[block], flag) for block in blocks)
+    if flag == "disabled":
+        set_disabled(editor, blocks, on)
+    else:
+        set_collapsed(editor, blocks, on)
+    return on
+
+
+def set_comment(editor: Editor, block: str, comment: str) -> None:
+    """Write the comment of a block; an empty one takes it away."""
+    editor.apply(SetComment(block, comment), "write a comment")
+
+
+def _outer(editor: Editor, ids: Iterable[str]) -> list[str]:
+    """The selected blocks that are not inside other selected ones."""
+    chosen = require_runs(editor.project, ids)
+    return [block for run in chosen for block in members(editor.project, run)]
+
+
+def _set(editor: Editor, ids: Iterable[str], flag: Flag, on: bool) -> None:
+    with editor.transaction(LABELS[flag, on]):
+        for block in ids:
+            there = editor.project.blocks.get(block)
+            if there is not None and getattr(there, flag) != on:
+                editor.apply(SetFlag(block, flag, on))
+
+
+# The repeated parts of a block (else-ifs, items): add, remove, put in another order.
+
+
+def add_part(editor: Editor, block_id: str, group: str, index: int | None = None) -> int:
+    """Add a part to a block, as number ``index`` from 1, else the last; gives its number."""
+    block, definition = _require(editor, block_id, group)
+    number = block.groups.get(group, 0) + 1 if index is None else index
+    slots = definition.group_slots(group)
+    fields = {slot: definition.defaults[slot] for slot in slots if slot in definition.defaults}
+    editor.apply(AddGroup(block_id, group, number, slots, fields), "add a part")
+    return number
+
+
+def remove_part(
+    editor: Editor, block_id: str, group: str, index: int, beside: Point | None = None
+) -> None:
+    """Remove a part of a block; blocks inside it become stacks, at ``beside`` and below it."""
+    _, definition = _require(editor, block_id, group)
+    slots = definition.group_slots(group)
+    with editor.transaction("remove a part"):
+        for run in _runs_in_part(editor, block_id, slots, index).values():
+            set_aside(editor, run, beside)
+            beside = (beside[0], beside[1] + 60.0) if beside else None
+        editor.apply(RemoveGroup(block_id, group, index, slots))
+
+
+def why_not_remove_part(editor: Editor, block_id: str, group: str, index: int) -> Text | None:
+    """Why a part cannot be removed, or None when it can."""
+    try:
+        _, definition = _require(editor, block_id, group)
+    except EditRefused as refused:
+        return refused.sentence
+    return editor.why_not(RemoveGroup(block_id, group, index, definition.group_slots(group)))
+
+
+def move_part(editor: Editor, block_id: str, group: str, index: int, to: int) -> None:
+    """Make part number ``index`` of a block its part number ``to``, with all that is in it."""
+    block, definition = _require(editor, block_id, group)
+    count = block.groups.get(group, 0)
+    if not (1 <= index <= count and 1 <= to <= count):
+        raise EditRefused("There is no such part in this block.")
+    if index == to:
+        return
+    slots = definition.group_slots(group)
+    step = 1 if to > index else -1
+    with editor.transaction("move a part"):
+        for number in range(index, to, step):
+            _swap(editor, block, slots, number, number + step)
+
+
+def _swap(editor: Editor, block: Block, slots: tuple[str, ...], one: int, other: int) -> None:
+    """Exchange what is in two parts: fields by setting them, blocks by moving them."""
+    first = _runs_in_part(editor, block.id, slots, one)
+    second = _runs_in_part(editor, block.id, slots, other)
+    fields = {
+        slot: (block.fields.get(f"{slot}.{one}"), block.fields.get(f"{slot}.{other}"))
+        for slot in slots
+    }
+    for run in first.values():
+        set_aside(editor, run)
+    for slot, run in second.items():
+        _put_in(editor, block, f"{slot}.{one}", run)
+    for slot, run in first.items():
+        _put_in(editor, block, f"{slot}.{other}", run)
+    for slot, (here, there) in fields.items():
+        _set_groups(editor, block, f"{slot}.{one}", there)
+        _set_groups(editor, block, f"{slot}.{other}", here)
+
+
+def _set_groups(editor: Editor, block: Block, key: str, value: FieldValue | None) -> None:
+    if block.fields.get(key) != value:
+        editor.apply(SetField(block.id, key, value))
+
+
+def _put_in(editor: Editor, block: Block, key: str, run: Run) -> None:
+    slot = editor.language.definitions[block.type].slot(key, block.groups)
+    is_body = slot is not None and slot.kind.name == "body"
+    place = InBody(block.id, key, 0) if is_body else InInput(block.id, key)
+    if place_of(editor.project, run.first, run.count) != place:
+        editor.apply(MoveBlocks(run.first, run.count, place))
+
+
+def _runs_in_part(
+    editor: Editor, block_id: str, slots: tuple[str, ...], index: int
+) -> dict[str, Run]:
+    """What is in a part of a block, by slot."""
+    block = editor.project.blocks[block_id]
+    found = {}
+    for slot in slots:
+        key = f"{slot}.{index}"
+        if key in block.inputs:
+            found[slot] = Run(block.inputs[key], 1)
+        elif block.bodies.get(key):
+            found[slot] = Run(block.bodies[key][0], len(block.bodies[key]))
+    return found
+
+
+def _require(editor: Editor, block_id: str, group: str) -> tuple[Block, Definition]:
+    block = editor.project.blocks.get(block_id)
+    definition = editor.language.definitions.get(block.type) if block is not None else None
+    if block is None or definition is None or group not in definition.groups:
+        raise EditRefused("This block has no such part.")
+    return block, definition

@@ -7,8 +7,10 @@ import re
 import warnings
 from dataclasses import dataclass, field
 
+from nep_studio.blocks.from_python.learning import Made
+from nep_studio.blocks.slots import FieldValue
+
 from ..deployment import robot_entries, robots_used
-from ..from_python.made import Made
 from ..from_python.names import SourceNames
 from ..from_python.values import ValueReader
 from ..generate.names import python_name
@@ -16,7 +18,6 @@ from ..language import Language
 from ..operations.finding import folded
 from ..program import ALL_ROBOTS, Project
 from ..sentence import Slot
-from ..values import FieldValue
 from .vocabulary import Entry
 
 _NUMBERS = frozenset({"number", "angle", "slider", "duration"})

@@ -6,16 +6,65 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from ..definitions import Definition
-from ..from_python.made import Made
-from ..language import Language
-from ..operations.finding import folded
-from ..program import Project
-from ..sentence import Slot
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.edits.project import AddVariable
+from nep_studio.blocks.from_python.learning import Made, blocks_of
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.copying import Clip, clip_of
+from nep_studio.blocks.operations.finding import folded
+from nep_studio.blocks.operations.moving import Point, create_and_drop, why_not_create
+from nep_studio.blocks.places import NewStack, Place
+from nep_studio.blocks.program import Parent, Project, Variable
+from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.text import sentence
+
 from .filling import Filler, Filling, is_quoted, number_in
-from .labels import label_of, spans_in
-from .unspaced import spaced
-from .vocabulary import Entry, Vocabulary, vocabulary
+from .vocabulary import Entry, Vocabulary, spaced, vocabulary
+
+# The sentence of a suggested block, and where in it the typed words are.
+
+
+def label_of(
+    made: Made, language: Language, project: Project, new_variables: Mapping[str, str]
+) -> str:
+    """What the block will say."""
+    shown = Project(project.name)
+    shown.variables = [*project.variables]
+    shown.variables += [Variable(new, name) for new, name in new_variables.items()]
+    roots, blocks = blocks_of(shown, language, [made])
+    shown.blocks = {block.id: block for block in blocks}
+    shown.parents = {root: Parent("s0") for root in roots}
+    return sentence(shown, language, roots[0])
+
+
+def spans_in(label: str, matched: Sequence[str]) -> tuple[tuple[int, int], ...]:
+    """Where the matched words stand in a label, in its order and without overlaps."""
+    plain = folded(label)
+    if len(plain) != len(label):
+        return ()  # letters that fold into two: no places can be told
+    spans: list[tuple[int, int]] = []
+    for word in matched:
+        start = _place(plain, folded(word), spans)
+        if start >= 0:
+            spans.append((start, start + len(folded(word))))
+    return tuple(sorted(spans))
+
+
+def _place(plain: str, word: str, taken: Sequence[tuple[int, int]]) -> int:
+    """The first place of a word, at the beginning of a word where there is one."""
+    start = plain.find(word) if word else -1
+    best = -1
+    while start >= 0:
+        is_free = all(start >= end or start + len(word) <= begin for begin, end in taken)
+        if is_free and (start == 0 or not plain[start - 1].isalnum()):
+            return start
+        if is_free and best < 0:
+            best = start
+        start = plain.find(word, start + 1)
+    return best
+
 
 MOST_SUGGESTIONS = 12
 _TOKEN = re.compile(r"\"[^\"]*\"|“[^”]*”|'[^']*'(?!\w)|\S+")
@@ -284,3 +333,53 @@ def _recent(
 
 def _recency(block_type: str, recents: Sequence[str]) -> float:
     return 2.0 / (1 + recents.index(block_type)) if block_type in recents else 0.0
+
+
+# Make the block of a suggestion in the program, as one step.
+
+
+def create(
+    editor: Editor,
+    suggestion: Suggestion,
+    place: Place,
+    *,
+    wrap: bool = False,
+    beside: Point | None = None,
+) -> str:
+    """Make the block of a suggestion in a place, as ``create_and_drop`` does; gives its id."""
+    with editor.transaction("add blocks"):
+        clip = clip_of_suggestion(editor, suggestion)
+        return create_and_drop(editor, clip, place, wrap=wrap, beside=beside)[0]
+
+
+def clip_of_suggestion(editor: Editor, suggestion: Suggestion) -> Clip:
+    """A clip of the block of a suggestion, to be shown or to be put into a place."""
+    clip = Clip()
+    project = clip.project
+    for variable in editor.project.variables:
+        AddVariable(variable.id, variable.name, len(project.variables)).apply(project)
+    names = {variable.name for variable in editor.project.variables}
+    for new, name in suggestion.new_variables.items():
+        if name not in names:
+            AddVariable(new, name, len(project.variables)).apply(project)
+    for procedure in editor.project.procedures.values():
+        project.procedures[procedure.id] = procedure
+    project.touch_procedures()
+    roots, blocks = blocks_of(project, editor.language, [suggestion.made])
+    page = editor.language.definitions[suggestion.block_type].page
+    place = NewStack(page, project.new_id("s"), 0, 0, 0)
+    CreateBlocks(roots, blocks, place).apply(project)
+    return clip
+
+
+def fitting(editor: Editor, place: Place) -> Fits:
+    """A filter for suggestions: the blocks that can be put into a place."""
+    known: dict[str, bool] = {}
+
+    def fits(definition: Definition) -> bool:
+        if definition.id not in known:
+            clip = clip_of(editor.language, definition.id)
+            known[definition.id] = why_not_create(editor, clip, place) is None
+        return known[definition.id]
+
+    return fits

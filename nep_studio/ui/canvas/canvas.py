@@ -21,25 +21,21 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.copying import Clip
 from nep_studio.blocks.program import Changes
-from nep_studio.ui.theme import Theme
+from nep_studio.ui.theme.colours import Theme
 
-from .commands import Commands
-from .context_menu import menu_for
-from .dropping_in import DropTarget
+from .editing.cargo import Bubble, Cargo, DropOverlay, FloatingPicture
+from .editing.carrying import KeyboardCarry
+from .editing.commands import Commands
+from .editing.drag_blocks import ExternalDrag
+from .editing.gesture import Gesture
+from .editing.keys import Keyboard
+from .editing.menu import Section, menu_for
+from .editing.notes import NoteEditor, press_key
+from .editing.pointing import Pointing
+from .editing.snapping import Point
+from .editing.view_gestures import native_gesture, wheel
 from .fields.editors import FieldEditors
-from .gestures.bubble import Bubble
-from .gestures.cargo import Cargo
-from .gestures.drop_overlay import DropOverlay
-from .gestures.external_drag import ExternalDrag
-from .gestures.floating_picture import FloatingPicture
-from .gestures.gesture import Gesture
-from .gestures.pointing import Pointing
-from .gestures.wheel import native_gesture, wheel
-from .keyboard.carrying import KeyboardCarry
-from .keyboard.keys import Keyboard
-from .menu_entries import Section
-from .note_editing import NoteEditor, press_key
-from .snapping import Point
+from .view import DropTarget
 
 _FINGERS = {
     QEvent.Type.TouchBegin,
@@ -64,7 +60,7 @@ class Canvas(DropTarget):
     Subject whose uses a person looks for, ``help_requested`` the name of a page of help.
     """
 
-    refused = Signal(str)
+    refused = Signal(object)  # Words
     announced = Signal(str)
     menu_requested = Signal(QPoint)
     problem_opened = Signal(str)

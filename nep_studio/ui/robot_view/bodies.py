@@ -11,12 +11,10 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QBrush, QPainter, QTransform
 
 from .camera import Lens
-from .ordering import drawing_order
+from .figure import Placed
 from .parts import Part
-from .placed import Placed
-from .polygons import fitting_polygons
 from .shading import Shades
-from .silhouettes import Silhouettes, silhouettes
+from .silhouettes import Silhouettes, drawing_order, fitting_polygons, silhouettes
 
 OUTLINE_PX = 0.9
 RIM_FROM_PX = 6.0

@@ -11,7 +11,7 @@ from PySide6.QtGui import QImage
 
 from .bodies import Dress
 from .camera import Lens
-from .placed import Placed
+from .figure import Placed
 from .shading import Shades
 
 if TYPE_CHECKING:

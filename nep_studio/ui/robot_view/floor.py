@@ -19,7 +19,7 @@ from PySide6.QtGui import (
     QTransform,
 )
 
-from nep_studio.ui.theme import Theme
+from nep_studio.ui.theme.colours import Theme
 
 from .camera import Lens
 from .scene import FloorPlace

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache, lru_cache
 
-from nep_core.messages import RobotState, Thing
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
-from .figure import RobotFigure
-from .placed import Placed
+from nep_core.wire.messages import RobotState, Thing
+from nep_studio import paths
+
+from .figure import Assembly, Placed, RobotFigure
+from .parts import Shaped, Solids, Triple, ViewFile, all_parts, read_view, rotation
 
 FloorPlace = tuple[float, float]
 
@@ -44,3 +52,323 @@ class Scene:
     marked: Marked = field(default_factory=Marked)
     has_floor: bool = True
     has_bubbles: bool = True
+
+
+# Makes the 30 states a second that robots tell into movement that is smooth to the eye.
+
+SHORTEST_S, LONGEST_S = 0.02, 0.12
+"""How long it takes to go from one state to the next: as long as states are apart, about."""
+JUMP_M = 0.4
+"""A robot that is suddenly so far away has been put there; it did not walk."""
+UNSEEN = ("time", "battery", "sees", "settings", "listening", "sensors", "moving")
+"""What of a state does not change the picture of it, but for the sensors that are felt."""
+
+
+class Motion:
+    """The way of one robot from the state that is seen to the last one that was told."""
+
+    def __init__(self, state: RobotState, at_s: float) -> None:
+        self.goal = self.shown = self._start = state
+        self._told_s = self._heard_s = at_s
+        self._lasts_s = 0.0
+
+    def go(self, state: RobotState, now_s: float) -> bool:
+        """Take in a new state; whether anything is seen of it."""
+        since, self._heard_s = now_s - self._heard_s, now_s
+        if looks(state) == looks(self.goal):
+            self.shown = state if self.shown is self.goal else self.shown
+            self.goal = state
+            return False
+        self._lasts_s = min(max(since, SHORTEST_S), LONGEST_S)
+        self._start, self.goal, self._told_s = self.shown, state, now_s
+        if math.dist(self.shown.base[:2], state.base[:2]) > JUMP_M:
+            self._start = self.shown = state
+        return True
+
+    def step(self, now_s: float) -> bool:
+        """Go on to where the robot is now; whether there is more to come."""
+        share = 1.0 if self._lasts_s <= 0 else (now_s - self._told_s) / self._lasts_s
+        if share >= 1.0 or not _moves(self._start, self.goal):
+            self.shown = self.goal
+            return False
+        self.shown = between(self._start, self.goal, max(share, 0.0))
+        return True
+
+
+def looks(state: RobotState) -> tuple[object, ...]:
+    """All of a state that is seen; equal for states that look the same."""
+    felt = tuple(sorted(name for name, value in state.sensors.items() if value > 0))
+    names = (name for name in state.__struct_fields__ if name not in UNSEEN)
+    return (felt, *(getattr(state, name) for name in names))
+
+
+def between(start: RobotState, goal: RobotState, share: float) -> RobotState:
+    """The state on the way from one to another; what cannot be halved is as in the goal."""
+    joints = {
+        name: angle + (goal.joints.get(name, angle) - angle) * share
+        for name, angle in start.joints.items()
+    }
+    x, y = (_mix(a, b, share) for a, b in zip(start.base[:2], goal.base[:2], strict=True))
+    base = (x, y, _turned(start.base[2], goal.base[2], share))
+    torso = goal.torso
+    if start.torso is not None and goal.torso is not None:
+        torso = _torso_between(start.torso, goal.torso, share)
+    return msgspec.structs.replace(goal, joints=goal.joints | joints, base=base, torso=torso)
+
+
+Torso = tuple[float, float, float, float, float, float]
+
+
+def _torso_between(start: Torso, goal: Torso, share: float) -> Torso:
+    x, y, z = (_mix(a, b, share) for a, b in zip(start[:3], goal[:3], strict=True))
+    roll, pitch, yaw = (_turned(a, b, share) for a, b in zip(start[3:], goal[3:], strict=True))
+    return x, y, z, roll, pitch, yaw
+
+
+def _moves(start: RobotState, goal: RobotState) -> bool:
+    return (start.joints, start.base, start.torso) != (goal.joints, goal.base, goal.torso)
+
+
+def _mix(start: float, goal: float, share: float) -> float:
+    return start + (goal - start) * share
+
+
+def _turned(start: float, goal: float, share: float) -> float:
+    """The angle on the shorter way round."""
+    return start + math.remainder(goal - start, 2 * math.pi) * share
+
+
+# What is in a robot view at the moment, and how it moves on from one told state to the next.
+
+STEP_M = 0.015
+"""A walked path has a corner as often as this."""
+LONGEST_PATH = 1500
+UPRIGHT = "Stand"
+Base = tuple[float, float, float]
+ORIGIN: Base = (0.0, 0.0, 0.0)
+
+
+class _RobotHere:
+    """One robot of the room."""
+
+    def __init__(self, name: str, figure: RobotFigure, state: RobotState, now_s: float) -> None:
+        self.name, self.figure = name, figure
+        self.motion = Motion(state, now_s)
+        self.is_pale = self.can_touch = False
+        self.last: RobotState | None = None
+        self.path: list[FloorPlace] = []
+        self._seen: SceneRobot | None = None
+
+    def forget_picture(self) -> None:
+        self._seen = None
+
+    def seen(self) -> SceneRobot:
+        """The robot as it is shown now; the same object until it moves on."""
+        state = self.motion.shown
+        if self._seen is None or self._seen.state is not state:
+            placed = self._placed(state)
+            path = tuple(self.path)
+            self._seen = SceneRobot(self.name, self.figure, state, placed, self.is_pale, path)
+        return self._seen
+
+    def _placed(self, state: RobotState) -> Placed:
+        """Its parts; those of before when only lights or words have changed."""
+        if self._seen is not None and self._seen.figure is self.figure:
+            before = self._seen.state
+            kept = (before.joints, before.base, before.torso, before.posture)
+            if kept == (state.joints, state.base, state.torso, state.posture):
+                return self._seen.placed
+        return self.figure.pose(state)
+
+    def walk(self) -> None:
+        """Remember where it has come to."""
+        x, y, _ = self.motion.shown.base
+        if not self.path:
+            self.path = [(x, y)]
+            return
+        far = math.dist(self.path[-1], (x, y))
+        if far > JUMP_M:
+            self.path = [(x, y)]
+        elif far > STEP_M:
+            self.path = [*self.path[-LONGEST_PATH:], (x, y)]
+
+
+class Room:
+    """The robots and things that a view shows."""
+
+    def __init__(self) -> None:
+        self._robots: dict[str, _RobotHere] = {}
+        self._things: tuple[Thing, ...] = ()
+        self._scene: Scene | None = None
+        self.marked = Marked()
+        self.has_floor = self.has_bubbles = True
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The robots' names."""
+        return tuple(self._robots)
+
+    @property
+    def things(self) -> tuple[Thing, ...]:
+        """What stands on the floor."""
+        return self._things
+
+    def show_robot(
+        self,
+        name: str,
+        figure: RobotFigure,
+        state: RobotState | None,
+        now_s: float,
+        can_touch: bool = True,
+        start: Base = ORIGIN,
+    ) -> tuple[bool, bool]:
+        """Take in a robot's state; whether the robot is new, and whether anything is seen of it."""
+        here = self._robots.get(name)
+        is_new = here is None or here.figure is not figure
+        last = here.last if here is not None and not is_new else None
+        told = state or last or _standing(name, figure, start)
+        if here is None or is_new:
+            here = self._robots[name] = _RobotHere(name, figure, told, now_s)
+        if state is not None:
+            here.last = msgspec.structs.replace(state, saying="", leds={})
+        was = (here.is_pale, here.can_touch)
+        here.is_pale, here.can_touch = state is None, can_touch and state is not None
+        is_seen = here.motion.go(told, now_s) or is_new or was != (here.is_pale, here.can_touch)
+        if was != (here.is_pale, here.can_touch):
+            here.forget_picture()
+        self._scene = None
+        return is_new, is_seen
+
+    def remove_robot(self, name: str) -> bool:
+        """Take a robot away; whether it was there."""
+        self._scene = None
+        return self._robots.pop(name, None) is not None
+
+    def show_things(self, things: Sequence[Thing]) -> bool:
+        """Have these things; whether they are others than before."""
+        if tuple(things) == self._things:
+            return False
+        self._things, self._scene = tuple(things), None
+        return True
+
+    def mark(self, marked: Marked) -> bool:
+        """Let something stand out; whether it is something else than before."""
+        if marked == self.marked:
+            return False
+        self.marked, self._scene = marked, None
+        return True
+
+    def clear_paths(self) -> None:
+        """Forget the ways that were walked."""
+        for robot in self._robots.values():
+            robot.path = []
+            robot.forget_picture()
+        self._scene = None
+
+    def step(self, now_s: float) -> bool:
+        """Move all robots on; whether some will move on further."""
+        more = [robot.motion.step(now_s) for robot in self._robots.values()]
+        for robot in self._robots.values():
+            robot.walk()
+        self._scene = None
+        return any(more)
+
+    def can_touch(self, name: str) -> bool:
+        """Whether a robot feels it when it is touched here."""
+        return name in self._robots and self._robots[name].can_touch
+
+    def goal(self, name: str) -> RobotState | None:
+        """The last state that a robot told; None for one that is not there."""
+        here = self._robots.get(name)
+        return None if here is None or here.is_pale else here.motion.goal
+
+    def scene(self) -> Scene:
+        """What is painted; the same object until something changes."""
+        if self._scene is None:
+            robots = tuple(robot.seen() for robot in self._robots.values())
+            self._scene = Scene(robots, self._things, self.marked, self.has_floor, self.has_bubbles)
+        return self._scene
+
+
+def _standing(name: str, figure: RobotFigure, start: Base) -> RobotState:
+    """A robot of which nothing is known stands where it will begin."""
+    postures = figure.body.postures
+    posture = UPRIGHT if UPRIGHT in postures else next(iter(postures))
+    angles = figure.body.posture_angles(posture).tolist()
+    joints = dict(zip(figure.body.names, angles, strict=True))
+    return RobotState(robot=name, joints=joints, posture=posture, base=start)
+
+
+def moved(things: Sequence[Thing], thing: str, x: float, y: float) -> list[Thing]:
+    """Return the things with one of them at another place."""
+    return [
+        msgspec.structs.replace(one, place=(x, y, one.place[2])) if one.id == thing else one
+        for one in things
+    ]
+
+
+# What stands on the floor beside robots, people, balls, walls and landmarks, as placed parts.
+
+Array = NDArray[np.float64]
+UP = np.array([0.0, 0.0, 1.0])
+KIND_SIZES: dict[str, Triple] = {
+    "person": (0.32, 0.2, 1.15),
+    "ball": (0.12, 0.12, 0.12),
+    "wall": (1.2, 0.05, 0.7),
+    "mark": (0.16, 0.02, 0.5),
+}
+"""How wide, deep and high things of a kind usually are, m; people are children here."""
+
+
+@lru_cache(maxsize=128)
+def placed_thing(thing: Thing) -> Placed:
+    """The parts of a thing where it is; the same object for the same thing."""
+    made = _made(thing.kind, thing.size)
+    spin = rotation(UP, thing.heading)
+    frame = np.eye(4)
+    frame[:3, :3], frame[:3, 3] = spin, thing.place
+    origins = frame[:3, 3] + made.origins @ spin.T
+    return replace(made, origins=origins, turns=spin @ made.turns, links={"thing": frame})
+
+
+def thing_colours(kind: str) -> Mapping[str, str]:
+    """The colours of the parts of a kind of thing, by name."""
+    return _view(kind).colours
+
+
+@cache
+def _view(kind: str) -> ViewFile:
+    return read_view(paths.resources() / "things" / f"{kind}.toml")
+
+
+@lru_cache(maxsize=64)
+def _made(kind: str, size: Triple) -> Placed:
+    """The parts of a thing of some size that stands in the middle of the floor."""
+    view = _view(kind)
+    wide, deep, high = size
+    scale = np.array([deep, wide, high] if view.stretches else [high, high, high])
+    shaped = list(all_parts(view))
+    known = Assembly.of(shaped)
+    return Placed(
+        replace(known, solids=_scaled(shaped, scale)),
+        np.array([one.at for one in shaped]) * scale,
+        np.array([one.turn for one in shaped]),
+        {},
+    )
+
+
+def _scaled(shaped: list[Shaped], scale: Array) -> Solids:
+    """The shapes in their size. Only parts that are not turned can be stretched one way more."""
+    a, b, c = scale.tolist()
+    blobs = [
+        [
+            replace(
+                blob,
+                at=(blob.at[0] * a, blob.at[1] * b, blob.at[2] * c),
+                size=(blob.size[0] * a, blob.size[1] * b, blob.size[2] * c),
+            )
+            for blob in one.blobs
+        ]
+        for one in shaped
+    ]
+    return Solids.of(blobs)

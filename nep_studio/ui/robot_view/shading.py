@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
 from functools import lru_cache
 
-from PySide6.QtCore import QPointF
-from PySide6.QtGui import QBrush, QColor, QRadialGradient
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QBrush, QColor, QImage, QPainter, QPolygonF, QRadialGradient, QTransform
 
-from nep_studio.ui.theme import HIGH_CONTRAST, Theme
+from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 
+from .camera import Camera, Lens
+from .figure import UP, Placed
 from .parts import Finish
+from .silhouettes import polygons
 
 LIGHT_AT = QPointF(-0.36, -0.46)
 """Where the light falls on the unit circle of a part; it comes from over the left shoulder."""
@@ -101,3 +108,122 @@ class Shades:
             white.setAlphaF(alpha * strength)
             gradient.setColorAt(at, white)
         return QBrush(gradient)
+
+
+# The soft shadow of what stands on the floor, as a small picture that is laid on the floor.
+
+Array = NDArray[np.float64]
+SIDE_PX = 96
+CORNERS = 16
+AIR_M = 0.09
+LOW_M = 0.05
+"""Parts that come so near to the floor cast a darker, sharper shadow."""
+SLANT = 0.32
+SOFT, FIRM = 0.30, 0.34
+TONE = (0.09, 0.11, 0.17)
+"""Red, green and blue of a full shadow."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shadow:
+    """A picture of a shadow, and the square of the floor that it covers."""
+
+    image: QImage
+    low: tuple[float, float]
+    side: float
+
+    def paint(self, painter: QPainter, lens: Lens) -> None:
+        """Lay the shadow on the floor."""
+        (x, y), side = self.low, self.side
+        square = [(x, y), (x + side, y), (x + side, y + side), (x, y + side)]
+        places = np.array([(a, b, 0.0) for a, b in square])
+        if (lens.depths(places) < 0.1).any() or lens.camera.eye[2] < 0.03:
+            return
+        corners = QPolygonF([QPointF(a, b) for a, b in lens.project(places).tolist()])
+        sheet = QPolygonF([QPointF(a, b) for a, b in _SHEET])
+        laid = QTransform()
+        if not QTransform.quadToQuad(sheet, corners, laid):
+            return
+        plain = QTransform(painter.transform())
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+        painter.setTransform(laid * plain)
+        painter.drawImage(0, 0, self.image)
+        painter.setTransform(plain)
+
+
+_SHEET = [(0, 0), (SIDE_PX, 0), (SIDE_PX, SIDE_PX), (0, SIDE_PX)]
+
+
+def cast_shadow(placed: Placed, camera: Camera, depth: float = 1.0) -> Shadow | None:
+    """The shadow of some parts; the light comes over the left shoulder of who looks."""
+    placed = placed.casting()
+    if not placed.parts:
+        return None
+    outlines = _on_floor(placed, _slope(camera))
+    low, high = outlines.min(axis=(0, 1)) - AIR_M, outlines.max(axis=(0, 1)) + AIR_M
+    middle, side = (low + high) / 2, float((high - low).max())
+    low = middle - side / 2
+    pixels = (outlines - low) * (SIDE_PX / side)
+    lowest = placed.farthest(-UP)[:, 2]
+    unit = SIDE_PX / side
+    soft = _blurred(_filled(pixels), max(1, round(0.034 * unit)))
+    firm = _blurred(_filled(pixels[lowest < LOW_M]), max(1, round(0.012 * unit)))
+    dark = depth * np.minimum(SOFT * soft + FIRM * firm, 0.8)
+    return Shadow(_sheet(dark), (float(low[0]), float(low[1])), side)
+
+
+def _slope(camera: Camera) -> Array:
+    """(2, 3) where on the floor the shadow of a place is."""
+    away = math.cos(camera.yaw + 2.2), math.sin(camera.yaw + 2.2)
+    return np.array([[1.0, 0.0, SLANT * away[0]], [0.0, 1.0, SLANT * away[1]]])
+
+
+def _on_floor(placed: Placed, slope: Array) -> Array:
+    turns = np.arange(CORNERS) * (2 * math.pi / CORNERS)
+    ways = np.stack([np.cos(turns), np.sin(turns)], axis=1) @ slope
+    local = ways @ placed.turns
+    points = placed.solids.farthest(local)
+    world = placed.origins[:, None] + points @ placed.turns.transpose(0, 2, 1)
+    floor: Array = world @ slope.T
+    return floor
+
+
+def _filled(outlines: Array) -> Array:
+    """How much of each pixel of the sheet is in one of the outlines, 0 to 1."""
+    image = QImage(SIDE_PX, SIDE_PX, QImage.Format.Format_Grayscale8)
+    image.fill(0)
+    painter = QPainter(image)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(Qt.GlobalColor.white)
+    for polygon in polygons(outlines):
+        painter.drawConvexPolygon(polygon)
+    painter.end()
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(SIDE_PX, image.bytesPerLine())
+    return rows[:, :SIDE_PX] / 255.0
+
+
+def _blurred(sheet: Array, reach: int) -> Array:
+    """Two means over a box each way, which come near to a bell."""
+    for _ in range(4):
+        sheet = _means(sheet, reach).T
+    return sheet
+
+
+def _means(sheet: Array, reach: int) -> Array:
+    """The means of columns over as many rows before and after."""
+    width = 2 * reach + 1
+    sums = np.zeros((SIDE_PX + width, SIDE_PX))
+    np.cumsum(sheet, axis=0, out=sums[reach + 1 : reach + 1 + SIDE_PX])
+    sums[reach + 1 + SIDE_PX :] = sums[reach + SIDE_PX]
+    means: Array = (sums[width:] - sums[:-width]) / width
+    return means
+
+
+def _sheet(dark: Array) -> QImage:
+    """Darkness as a picture of a dark colour that lets more or less through."""
+    pixels = np.empty((SIDE_PX, SIDE_PX, 4), np.uint8)
+    pixels[..., 3] = 255 * dark
+    for channel, share in zip((2, 1, 0), TONE, strict=True):
+        pixels[..., channel] = 255 * dark * share
+    form = QImage.Format.Format_ARGB32_Premultiplied
+    return QImage(pixels.tobytes(), SIDE_PX, SIDE_PX, 4 * SIDE_PX, form).copy()

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import heapq
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from PySide6.QtCore import QByteArray, QDataStream
+from PySide6.QtGui import QPolygonF
 
 from .camera import BEFORE_EYE_M, Lens
-from .placed import Placed
+from .figure import Placed
 
 Array = NDArray[np.float64]
 CORNERS = ((1000.0, 32), (4000.0, 64), (math.inf, 128))
@@ -87,3 +91,120 @@ def _is_inside(outlines: Array, lens: Lens) -> NDArray[np.bool_]:
         axis=1
     )
     return inside
+
+
+# Which part is drawn before which: farther ones first, where they cover each other.
+
+SAME_M = 5e-4
+
+
+def drawing_order(
+    placed: Placed, seen: Silhouettes, lens: Lens, wanted: NDArray[np.intp]
+) -> list[int]:
+    """The wanted parts from far to near.
+
+    Of two parts that cover each other that one is farther whose surface is, in the middle of
+    where they do; surfaces are those of the ellipsoids in their boxes.
+    """
+    first, second, places = _covering(seen.outlines[wanted])
+    rays = lens.rays(places)
+    far = _reach(placed, wanted[first], rays, lens) - _reach(placed, wanted[second], rays, lens)
+    unsure = np.abs(far) < SAME_M
+    depths = seen.depths[wanted]
+    far[unsure] = (depths[first] - depths[second])[unsure]
+    before = np.where(far > 0, first, second)
+    after = np.where(far > 0, second, first)
+    order = _sorted(depths, before.tolist(), after.tolist())
+    return [int(part) for part in wanted[order]]
+
+
+def _covering(outlines: Array) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """Pairs of parts whose boxes cover each other, and the pixels in the middle of where."""
+    low, high = outlines.min(axis=1), outlines.max(axis=1)
+    from_low = np.maximum(low[:, None], low[None])
+    to_high = np.minimum(high[:, None], high[None])
+    is_pair = (from_low < to_high).all(axis=2)
+    first, second = np.nonzero(np.triu(is_pair, 1))
+    return first, second, (from_low[first, second] + to_high[first, second]) / 2
+
+
+def _reach(placed: Placed, parts: NDArray[np.intp], rays: Array, lens: Lens) -> Array:
+    """How far along its ray the surface of a part is; where it passes by, the nearest point."""
+    extent = placed.solids.extent[parts]
+    turns = placed.turns[parts]
+    to_eye = lens.camera.eye - placed.origins[parts]
+    start = (np.einsum("pi,pij->pj", to_eye, turns) - placed.solids.middle[parts]) / extent
+    way = np.einsum("pi,pij->pj", rays, turns) / extent
+    a = np.einsum("pi,pi->p", way, way)
+    b = np.einsum("pi,pi->p", way, start)
+    c = np.einsum("pi,pi->p", start, start) - 1
+    reach: Array = (-b - np.sqrt(np.maximum(b * b - a * c, 0))) / a
+    return reach
+
+
+def _sorted(depths: Array, before: Sequence[int], after: Sequence[int]) -> list[int]:
+    """Sort so that pairs keep their order; where they go in a circle, by depth."""
+    count = len(depths)
+    followers: list[list[int]] = [[] for _ in range(count)]
+    waits = [0] * count
+    for one, other in zip(before, after, strict=True):
+        followers[one].append(other)
+        waits[other] += 1
+    keys = (-depths).tolist()
+    ready = [(keys[part], part) for part in range(count) if not waits[part]]
+    heapq.heapify(ready)
+    left = sorted(range(count), key=lambda part: keys[part])
+    order: list[int] = []
+    done = [False] * count
+    while len(order) < count:
+        # Where all that are left wait for each other, the farthest goes first.
+        part = heapq.heappop(ready)[1] if ready else next(one for one in left if not done[one])
+        if done[part]:
+            continue
+        done[part] = True
+        order.append(part)
+        for other in followers[part]:
+            waits[other] -= 1
+            if waits[other] == 0 and not done[other]:
+                heapq.heappush(ready, (keys[other], other))
+    return order
+
+
+# Outlines in numpy as polygons of Qt, all at once.
+
+MANY_PX, SOME_PX = 34.0, 11.0
+"""Parts that are larger than this have all corners, or half of them."""
+
+
+def polygons(outlines: NDArray[np.float64]) -> list[QPolygonF]:
+    """The outlines (n, k, 2) as n polygons.
+
+    Qt reads them from its own binary form, which is ten times faster than making each point.
+    """
+    count, corners = outlines.shape[:2]
+    rows = np.empty((count, 4 + 16 * corners), np.uint8)
+    rows[:, :4] = np.frombuffer(np.array([corners], ">u4").tobytes(), np.uint8)
+    rows[:, 4:] = np.ascontiguousarray(outlines, ">f8").reshape(count, 2 * corners).view(np.uint8)
+    stream = QDataStream(QByteArray(rows.tobytes()))
+    made = []
+    for _ in range(count):
+        polygon = QPolygonF()
+        stream >> polygon
+        made.append(polygon)
+    return made
+
+
+def fitting_polygons(outlines: NDArray[np.float64], sizes: NDArray[np.float64]) -> list[QPolygonF]:
+    """The outlines (n, k, 2) as polygons, the smaller ones (sizes (n,), pixels) with less corners.
+
+    Painting a polygon takes as long as it has corners, and most parts of a robot are small.
+    """
+    made: list[QPolygonF] = [QPolygonF()] * len(outlines)
+    steps = np.digitize(-sizes, [-MANY_PX, -SOME_PX])
+    for step in range(3):
+        numbers = np.flatnonzero(steps == step)
+        for number, polygon in zip(
+            numbers.tolist(), polygons(outlines[numbers, :: 1 << step]), strict=True
+        ):
+            made[number] = polygon
+    return made

@@ -2,22 +2,409 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
 
-from PySide6.QtCore import QEvent, QPointF, Qt, Signal
-from PySide6.QtGui import QHelpEvent, QHideEvent, QKeyEvent, QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QToolTip
+from PySide6.QtCore import QEvent, QPointF, QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QHelpEvent,
+    QHideEvent,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QNativeGestureEvent,
+    QPaintDevice,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+    QShowEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QGestureEvent, QPinchGesture, QSizePolicy, QToolTip, QWidget
 
-from nep_studio.ui.theme import Look
+from nep_core.wire.messages import RobotState, Thing
+from nep_studio import paths
+from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import tr
 
-from .drawing import Drawing
-from .gestures import Gesture, begun
-from .keys import key_pressed, key_released, next_mark
-from .picking import Found, find_at, place_of_sensor
-from .room import moved
-from .room_picture import RoomPicture, nao_folder
-from .scene import Marked
-from .telling import hovered, pinched, tip_words
+from .camera import PRESETS, Camera, Frame, Lens
+from .drawing import Drawing, gl_bodies
+from .figure import load_figure
+from .gestures import (
+    Found,
+    Gesture,
+    ahead_of,
+    at_face,
+    at_floor_of,
+    begun,
+    find_at,
+    place_of_sensor,
+    seeing_all,
+)
+from .painter import ScenePainter
+from .parts import VIEW_FILE
+from .scene import ORIGIN, Base, Marked, Room, moved
+
+# What a robot view says in words, and how it shows what is under the pointer.
+
+
+def hovered(view: RobotView, found: Found) -> Marked:
+    """What stands out under the pointer: what a press would take."""
+    if found.part is not None and view.is_posing:
+        return Marked(found.robot, link=found.part.link)
+    if found.sensor and view.room.can_touch(found.robot):
+        return Marked(found.robot, found.sensor)
+    if found.thing and view.can_move_things:
+        return Marked(thing=found.thing)
+    return Marked()
+
+
+def tip_words(view: RobotView, found: Found) -> str:
+    """What a press would do."""
+    if view.is_posing and found.part is not None:
+        return tr("Drag to move")
+    if found.sensor and view.room.can_touch(found.robot):
+        return tr("Touch {part}", part=view.touch_names.get(found.sensor, found.sensor))
+    if found.thing and view.can_move_things:
+        return tr("Drag to move")
+    return found.robot
+
+
+def room_words(room: Room, touch_names: Mapping[str, str]) -> str:
+    """All that is in the room, in sentences."""
+    sentences = []
+    for name in room.names:
+        state = room.goal(name)
+        if state is None:
+            sentences.append(tr("{robot} is not there.", robot=name))
+            continue
+        sentences.append(f"{name}: {state.posture}." if state.posture else f"{name}.")
+        if state.saying:
+            sentences.append(tr("Says “{text}”", text=state.saying))
+    marked = room.marked
+    if marked.sensor:
+        sentences.append(tr("Touch {part}", part=touch_names.get(marked.sensor, marked.sensor)))
+    return " ".join(sentences)
+
+
+@contextmanager
+def painting(device: QPaintDevice) -> Iterator[QPainter]:
+    """A painter that ends also when something goes wrong; one left open brings down Qt."""
+    painter = QPainter(device)
+    try:
+        yield painter
+    finally:
+        painter.end()
+
+
+def paint_focus(painter: QPainter, frame: QRect, theme: Theme) -> None:
+    """Paint a frame: keys go to this view."""
+    painter.setPen(QPen(theme.colour("focus"), 2.0))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawRoundedRect(frame.toRectF().adjusted(1.5, 1.5, -1.5, -1.5), 4, 4)
+
+
+def pinched(event: QEvent) -> float | None:
+    """How much nearer two fingers on a pad or a screen want to come; None for other events."""
+    if isinstance(event, QNativeGestureEvent):
+        is_zoom = event.gestureType() == Qt.NativeGestureType.ZoomNativeGesture
+        return 1 + event.value() if is_zoom else None
+    if event.type() == QEvent.Type.Gesture and isinstance(event, QGestureEvent):
+        pinch = event.gesture(Qt.GestureType.PinchGesture)
+        return pinch.scaleFactor() if isinstance(pinch, QPinchGesture) else None
+    return None
+
+
+# Shows robots and things in a room; it is painted only when something changes.
+
+FRAME_MS, SLOWEST_MS, PACE = 16, 66, 2.4
+"""Between frames while something moves, or this many times as long as painting takes."""
+WORDS_ABOVE, WORDS_BESIDE, MOST_WORDS = 3.4, 0.6, 0.27
+"""So many lines are free over the heads, at most this share of the height."""
+WIDE = 1.5
+"""In a picture so much wider than high, words have room beside a head."""
+
+
+def nao_folder() -> Path:
+    """The folder of the robot that is shown where none is named."""
+    return paths.resources() / "robots" / "nao"
+
+
+def folder_of(state: RobotState | None) -> Path:
+    """The folder of the robot that a state is of; NAO's where there is none that can be drawn."""
+    model = Path(state.model) if state is not None and state.model else nao_folder()
+    folder = nao_folder().parent / model  # a path of one's own stays as it is
+    return folder if (folder / VIEW_FILE).is_file() else nao_folder()
+
+
+class RoomPicture(QWidget):
+    """A room with robots, to look at.
+
+    ``follows``: the camera goes along with a robot that is alone, and keeps seeing all robots,
+    until a person chooses what to see. ``frames`` counts how often it was painted.
+    """
+
+    camera_changed = Signal()
+
+    def __init__(
+        self,
+        look: Look,
+        touch_names: Mapping[str, str] | None = None,
+        drawing: Drawing = "auto",
+    ) -> None:
+        super().__init__()
+        self.look, self.touch_names = look, touch_names or {}
+        self.painter = ScenePainter(look.theme, gl_bodies(drawing))
+        self.room = Room()
+        self.camera = Camera()
+        self.follows = True
+        self.frames = 0
+        self._cost_ms = 0.0
+        self._timer = QTimer(self, interval=FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._on_frame)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setAccessibleName(tr("The robots' room"))
+        look.theme_changed.connect(self._on_theme_changed)
+
+    def sizeHint(self) -> QSize:
+        """Room for a robot that can be touched."""
+        line = self.fontMetrics().height()
+        return QSize(line * 18, line * 18)
+
+    def minimumSizeHint(self) -> QSize:
+        """A robot is known at this size, too."""
+        line = self.fontMetrics().height()
+        return QSize(line * 8, line * 8)
+
+    # What is shown
+
+    def show_robot(
+        self,
+        name: str,
+        state: RobotState | None,
+        folder: Path | None = None,
+        *,
+        can_touch: bool = True,
+        start: Base = ORIGIN,
+    ) -> None:
+        """Show a robot as it is now; None: nothing is known, so it is pale where it was last."""
+        figure = load_figure(folder or folder_of(state))
+        is_new, is_seen = self.room.show_robot(
+            name, figure, state, time.monotonic(), can_touch, start
+        )
+        if is_new and self.follows:
+            self.fit()
+        if is_seen:
+            self._describe()
+            self._go_on()
+
+    def remove_robot(self, name: str) -> None:
+        """Show a robot no more."""
+        if self.room.remove_robot(name):
+            self._describe()
+            self.update()
+
+    def show_things(self, things: Sequence[Thing]) -> None:
+        """Show these things on the floor, and no others."""
+        known = {thing.id for thing in self.room.things}
+        if self.room.show_things(things):
+            if self.follows and known != {thing.id for thing in things}:
+                self.fit()
+            self.update()
+
+    def clear_paths(self) -> None:
+        """Forget the ways that robots have walked."""
+        self.room.clear_paths()
+        self.update()
+
+    def mark(self, marked: Marked) -> None:
+        """Let a part, a limb or a thing stand out."""
+        if self.room.mark(marked):
+            self._describe()
+            self.update()
+
+    # Looking
+
+    @property
+    def lens(self) -> Lens:
+        """The camera for the widget as large as it is."""
+        return Lens(self.camera, self.width(), self.height(), self.devicePixelRatioF())
+
+    def look_through(self, camera: Camera) -> None:
+        """Look through another camera."""
+        if camera != self.camera:
+            self.camera = camera
+            self.camera_changed.emit()
+            self.update()
+
+    def look_from(self, preset: str) -> None:
+        """Look from the front, side, back or top, or into the face, of the first robot."""
+        scene, (yaw, pitch) = self.room.scene(), PRESETS[preset]
+        self.follows = True
+        camera = replace(self.camera, yaw=ahead_of(scene) + yaw, pitch=pitch)
+        see = at_face if preset == "face" else seeing_all
+        self.look_through(see(camera, scene, self._frame()))
+
+    def _frame(self) -> Frame:
+        """Where in the widget robots are; there is always room for words, so that nothing jumps."""
+        width, height, line = self.width(), self.height(), self.fontMetrics().height()
+        lines = WORDS_ABOVE if width < WIDE * height else WORDS_BESIDE
+        return Frame(width, height, min(lines * line, MOST_WORDS * height))
+
+    def zoom(self, factor: float) -> None:
+        """Come nearer by a factor."""
+        self.follows = False
+        self.look_through(self.camera.zoomed(factor))
+
+    def fit(self) -> None:
+        """See all robots and what stands near."""
+        self.follows = True
+        self.look_through(seeing_all(self.camera, self.room.scene(), self._frame()))
+
+    # Painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the room."""
+        self.frames += 1
+        start = time.perf_counter()
+        with painting(self) as painter:
+            self.painter.paint(painter, self.room.scene(), self.lens, self.font())
+            if self.hasFocus():
+                paint_focus(painter, self.rect(), self.look.theme)
+        self._pace(1000 * (time.perf_counter() - start))
+
+    def grab_picture(self, size: QSize) -> QImage:
+        """The room as a picture of another size, without marks."""
+        image = QImage(size, QImage.Format.Format_RGB32)
+        with painting(image) as painter:
+            self.paint_picture(painter, size)
+        return image
+
+    def paint_picture(self, painter: QPainter, size: QSize) -> None:
+        """Paint the room as it is, without marks, on anything: also on a page of a PDF."""
+        if not self.isVisible():
+            self.room.step(math.inf)
+        scene = replace(self.room.scene(), marked=Marked())
+        lens = Lens(self.camera, size.width(), size.height())
+        ScenePainter(self.look.theme).paint(painter, scene, lens, self.font())
+
+    def _pace(self, spent_ms: float) -> None:
+        """Leave more than half of the time to others, however long painting takes."""
+        self._cost_ms += (spent_ms - self._cost_ms) / 4
+        interval = round(min(max(FRAME_MS, PACE * self._cost_ms), SLOWEST_MS))
+        if abs(interval - self._timer.interval()) > 2:
+            self._timer.setInterval(interval)
+
+    def _go_on(self) -> None:
+        """Paint soon, as often as it takes for the robots to come to where they are."""
+        if self.isVisible() and not self._timer.isActive():
+            self._timer.start()
+
+    def _on_frame(self) -> None:
+        before = at_floor_of(self.room.scene())
+        if not self.room.step(time.monotonic()):
+            self._timer.stop()
+        if self.follows:
+            now = at_floor_of(self.room.scene())
+            self.look_through(self.camera.moved(now[0] - before[0], now[1] - before[1]))
+        self.update()
+
+    def _on_theme_changed(self) -> None:
+        self.painter.use_theme(self.look.theme)
+        self.update()
+
+    def _describe(self) -> None:
+        """Say in words what is seen, for those who do not see it."""
+        words = room_words(self.room, self.touch_names)
+        if words != self.accessibleDescription():
+            self.setAccessibleDescription(words)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep seeing all robots while nobody chose what to see."""
+        if self.follows:
+            self.fit()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Go on from where the robots are now."""
+        self.room.step(math.inf)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Do nothing while nobody looks."""
+        self._timer.stop()
+
+
+# The keys of a robot view: looking around, and touching without a mouse.
+
+STEP_RAD = math.radians(8)
+ZOOM = 1.15
+ARROWS = {
+    Qt.Key.Key_Left: (1, 0),
+    Qt.Key.Key_Right: (-1, 0),
+    Qt.Key.Key_Up: (0, 1),
+    Qt.Key.Key_Down: (0, -1),
+}
+ZOOMS = {Qt.Key.Key_Plus: ZOOM, Qt.Key.Key_Equal: ZOOM, Qt.Key.Key_Minus: 1 / ZOOM}
+PRESET_KEYS = dict(
+    zip(
+        (Qt.Key.Key_1, Qt.Key.Key_2, Qt.Key.Key_3, Qt.Key.Key_4, Qt.Key.Key_5), PRESETS, strict=True
+    )
+)
+TOUCHES = (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter)
+
+
+def key_pressed(view: RobotView, event: QKeyEvent) -> bool:
+    """Do what a key says; whether it says anything."""
+    key = Qt.Key(event.key())
+    if key in ARROWS:
+        right, up = ARROWS[key]
+        view.look_through(view.camera.orbited(right * STEP_RAD, up * STEP_RAD))
+    elif key in ZOOMS:
+        view.zoom(ZOOMS[key])
+    elif key in PRESET_KEYS:
+        view.look_from(PRESET_KEYS[key])
+    elif key == Qt.Key.Key_Home:
+        view.fit()
+    elif key in TOUCHES and view.room.marked.sensor:
+        marked = view.room.marked
+        if not event.isAutoRepeat():
+            view.press(marked.robot, marked.sensor)
+    elif key == Qt.Key.Key_Escape and view.room.marked != Marked():
+        view.mark(Marked())
+    else:
+        return False
+    return True
+
+
+def key_released(view: RobotView, event: QKeyEvent) -> bool:
+    """Let go of what a key touches; whether it did."""
+    marked = view.room.marked
+    if event.key() not in TOUCHES or event.isAutoRepeat() or not marked.is_pressed:
+        return False
+    view.release(marked.robot, marked.sensor)
+    return True
+
+
+def next_mark(view: RobotView, step: int) -> Marked | None:
+    """The next thing to touch on the way of the Tab key; None past the last."""
+    stops = [
+        Marked(robot.name, sensor)
+        for robot in view.room.scene().robots
+        if view.room.can_touch(robot.name)
+        for sensor in robot.figure.sensors
+    ]
+    now = Marked(view.room.marked.robot, view.room.marked.sensor)
+    if not stops:
+        return None
+    number = stops.index(now) + step if now in stops else (0 if step > 0 else len(stops) - 1)
+    return stops[number] if 0 <= number < len(stops) else None
+
 
 __all__ = ["RobotView", "nao_folder"]
 

@@ -17,12 +17,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.elided_label import ElidedLabel
-from nep_studio.ui.theme import Look, icon
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.main_window import MainWindow
+    from nep_studio.ui.shell.main_window import MainWindow
 
     from .control import RunControl
     from .runner import Runner

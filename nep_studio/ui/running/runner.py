@@ -3,30 +3,155 @@
 from __future__ import annotations
 
 import logging
+import queue
+import tempfile
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QThread, QTimer, Signal
 
-from nep_core import messages as m
+from faults import reason_of, text_of
 from nep_core.errors import NepError
-from nep_core.node_log import log_file_name
-from nep_studio.local_network import LocalNetwork
-from nep_studio.monitor import Monitor
-from nep_studio.node_board import NodeBoard
-from nep_studio.own_master import MASTER
-from nep_studio.plan import PlannedNode
-from nep_studio.session import Watching
+from nep_core.networks.network import Network
+from nep_core.processes.node_log import log_file_name
+from nep_core.wire import messages as m
+from nep_core.wire.pubsub import Publisher
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.generate.program import ProgramGenerator
+from nep_studio.blocks.generate.source_map import Code
+from nep_studio.blocks.program import Changes
+from nep_studio.problems import Problem, problem_of
+from nep_studio.run.local_network import MASTER, LocalNetwork
+from nep_studio.run.node_board import Monitor, NodeBoard
+from nep_studio.run.plan import PlannedNode
+from nep_studio.run.session import Ending, Session, Watching
+from nep_studio.ui.workbench.live_checks import SlicedCall
 
-from .play import Play, Request
-from .sending import Sender
 from .tap import Tap
 
 log = logging.getLogger(__name__)
+
+
+# One run of a program: its session, in a thread of its own.
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is to be run: the code, the nodes that it needs, and how it is watched."""
+
+    code: Code
+    nodes: tuple[PlannedNode, ...]
+    watching: Watching = field(default_factory=Watching)
+
+
+class Play(QThread):
+    """Runs until the program ends or ``end`` is called; ``ending`` then tells how it went."""
+
+    begun = Signal()
+
+    def __init__(self, request: Request, network: LocalNetwork) -> None:
+        super().__init__()
+        self.request = request
+        self.ending = Ending()
+        self.session = Session(
+            Path(), list(request.nodes), _ignore, network=network, watching=request.watching
+        )
+
+    def run(self) -> None:
+        """Start everything, wait for the end, stop everything."""
+        try:
+            self.ending = self._play()
+        except NepError as error:
+            self.ending = Ending(problem_of(error))
+        except OSError as error:
+            self.ending = Ending(_disk_problem(error))
+        except Exception as error:
+            log.exception("the program could not be run")
+            sentence = f"{type(error).__name__}: {error}"
+            steps = ("Try it once more.", "Save the project, and start NEP Studio again.")
+            self.ending = Ending(Problem("The program could not be started", sentence, steps))
+
+    def _play(self) -> Ending:
+        with tempfile.TemporaryDirectory(prefix="nep-", ignore_cleanup_errors=True) as folder:
+            program = Path(folder) / "program.py"
+            program.write_text(self.request.code.text, encoding="utf-8")
+            self.session.use_program(program)
+            with self.session as session:
+                self.begun.emit()
+                return session.wait()
+
+    def end(self) -> None:
+        """Stop the robots at once; the rest follows in the thread. Does not wait."""
+        self.session.hush()
+        self.session.end()
+
+
+def _ignore(*_message: object) -> None:
+    """The window hears the network itself."""
+
+
+def _disk_problem(error: OSError) -> Problem:
+    return Problem(
+        "The program could not be written",
+        text_of("The computer says: {reason}.", reason=reason_of(error)),
+        (
+            "Is there room on the disk?",
+            "May this program write into the folder for temporary files?",
+        ),
+        details=str(error),
+    )
+
+
+# Messages that are sent by hand, from a thread of their own: a first one may have to wait.
+
+Sent = tuple[Network, str, msgspec.Struct | dict[str, Any]]
+
+
+class Sender:
+    """Sends to any topic; it keeps a publisher for each that was used."""
+
+    def __init__(self) -> None:
+        self._network: Network | None = None
+        self._publishers: dict[str, Publisher] = {}
+        self._waiting: queue.SimpleQueue[Sent | None] = queue.SimpleQueue()
+        self._thread: threading.Thread | None = None
+
+    def send(
+        self, network: Network | None, topic: str, message: msgspec.Struct | dict[str, Any]
+    ) -> bool:
+        """Send a message, soon and in order; False when there is no network."""
+        if network is None or network.closed:
+            return False
+        self._waiting.put((network, topic, message))
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._run, name="nep-studio-send", daemon=True)
+            self._thread.start()
+        return True
+
+    def close(self) -> None:
+        """Send no more."""
+        self._waiting.put(None)
+
+    def _run(self) -> None:
+        while (sent := self._waiting.get()) is not None:
+            try:
+                self._publisher(sent[0], sent[1]).send(sent[2])
+            except (NepError, ValueError, TypeError) as error:  # also what JSON cannot carry
+                log.warning("%s was not sent: %s", sent[1], error)
+
+    def _publisher(self, network: Network, topic: str) -> Publisher:
+        if network is not self._network:
+            self._network, self._publishers = network, {}
+        if topic not in self._publishers:
+            self._publishers[topic] = Publisher(topic, network=network)
+        return self._publishers[topic]
+
 
 State = Literal["idle", "starting", "running", "paused", "stopping"]
 LOOK_MS = 250
@@ -278,3 +403,63 @@ class Runner(QObject):
         if state != self.state:
             self.state = state
             self.state_changed.emit(state)
+
+
+# Makes the Python of a program between frames: for thousands of blocks it takes a while.
+
+SLICE_S = 0.008
+BETWEEN_SLICES_MS = 1
+
+
+class Preparation(QObject):
+    """``done`` gives the code, ``refused`` the BlocksError that says why there is none.
+
+    When the program is changed meanwhile, it begins again with what has changed.
+    """
+
+    done = Signal(object)
+    refused = Signal(object)
+
+    def __init__(self, editor: Editor, parent: QObject) -> None:
+        super().__init__(parent)
+        self._editor = editor
+        self._generator = ProgramGenerator(editor.project, editor.language)
+        self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
+        self._next.timeout.connect(self._on_next_slice)
+        self._call = self._begin()
+        editor.history.listen(self._on_changes)
+        self._next.start()
+
+    def cancel(self) -> None:
+        """Give it up."""
+        self._end()
+        self._call.cancel()
+
+    def _begin(self) -> SlicedCall[Code]:
+        generator = self._generator
+
+        def work(rest: Callable[[], None]) -> Code:
+            return generator.generate(rest)
+
+        return SlicedCall(work)
+
+    def _end(self) -> None:
+        self._next.stop()
+        self._editor.history.unlisten(self._on_changes)
+        self.deleteLater()
+
+    def _on_changes(self, _changes: Changes) -> None:
+        self._call.cancel()
+        self._call = self._begin()
+
+    def _on_next_slice(self) -> None:
+        if not self._call.run(SLICE_S):
+            self._next.start()
+            return
+        self._end()
+        try:
+            code = self._call.result()
+        except BlocksError as error:
+            self.refused.emit(error)
+        else:
+            self.done.emit(code)

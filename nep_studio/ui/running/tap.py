@@ -11,9 +11,9 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from nep_core.errors import NepError
-from nep_core.network import Network
-from nep_core.pubsub import Subscriber
-from nep_studio.monitor import Monitor
+from nep_core.networks.network import Network
+from nep_core.wire.pubsub import Subscriber
+from nep_studio.run.node_board import Monitor
 
 log = logging.getLogger(__name__)
 

@@ -1,6 +1,5 @@
 """How the program looks: colours, fonts, icons and the style of its widgets."""
 
-from nep_studio.ui.theme.applying import apply_theme, base_point_size, palette
 from nep_studio.ui.theme.colours import (
     DARK,
     DISABLED,
@@ -13,7 +12,6 @@ from nep_studio.ui.theme.colours import (
     load_theme,
     themes,
 )
-from nep_studio.ui.theme.fonts import Fonts, code_font, load_fonts, text_font
 from nep_studio.ui.theme.icons import (
     APPLICATION_ICON,
     CATEGORY_ICONS,
@@ -26,7 +24,17 @@ from nep_studio.ui.theme.icons import (
     paint_icon,
 )
 from nep_studio.ui.theme.look import SYSTEM, Look
-from nep_studio.ui.theme.style_sheet import style_sheet
+
+from .look import (
+    Fonts,
+    apply_theme,
+    base_point_size,
+    code_font,
+    load_fonts,
+    palette,
+    style_sheet,
+    text_font,
+)
 
 __all__ = [
     "APPLICATION_ICON",

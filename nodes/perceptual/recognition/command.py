@@ -9,16 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from nep_core.errors import NepError, RecordingError
-from nodes.perceptual.recognition.material import (
-    EVERYDAY,
-    Material,
-    everybodys_movement,
-    learn,
-    read_material,
-)
 from nodes.perceptual.recognition.model import METHODS, Model
-from nodes.perceptual.recognition.model_file import SUFFIX, check_writable, write_model
-from nodes.perceptual.recognition.report import advice, in_words
+
+from .dataset import EVERYDAY, Material, everybodys_movement, learn, read_material
+from .model import SUFFIX, check_writable, write_model
+from .training import advice, in_words
 
 
 def main(arguments: list[str]) -> int:
@@ -70,22 +65,30 @@ def _parser() -> argparse.ArgumentParser:
 def _check_goal(output: Path, replaces: bool) -> None:
     if output.suffix != SUFFIX:
         raise RecordingError(
-            f"{output} would not be known as a gesture model.",
-            checklist=(f"Give it a name that ends with {SUFFIX}, such as mine{SUFFIX}.",),
+            "{output} would not be known as a gesture model.",
+            checklist=("Give it a name that ends with {suffix}, such as mine{suffix_2}.",),
+            output=output,
+            suffix=SUFFIX,
+            suffix_2=SUFFIX,
         )
     if not output.parent.is_dir():
         raise RecordingError(
-            f"The folder {output.parent} is not there.", checklist=("Make it, or choose another.",)
+            "The folder {parent} is not there.",
+            checklist=("Make it, or choose another.",),
+            parent=output.parent,
         )
     check_writable(output)
     if output.is_dir():
         raise RecordingError(
-            f"{output} is a folder.", checklist=("Choose another name for the model.",)
+            "{output} is a folder.",
+            checklist=("Choose another name for the model.",),
+            output=output,
         )
     if output.exists() and not replaces:
         raise RecordingError(
-            f"{output} is already there, and would be lost.",
+            "{output} is already there, and would be lost.",
             checklist=("Choose another name.", "Or add --replace to write over it."),
+            output=output,
         )
 
 

@@ -11,14 +11,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from nodes.perceptual.recognition.model import Model
-from nodes.perceptual.recognition.model_file import write_model
-from nodes.perceptual.recognition.report import in_words
 from nodes.perceptual.recognition.training import train
-from nodes.perceptual.recognition.wrist import mirrored
 from nodes.recordings import Recording
 from nodes.resources import resource_folder
 from nodes.sensory.arm.gestures import GESTURES
-from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+from nodes.sensory.arm.people import simulate_everyday, simulate_session
+
+from .model import write_model
+from .streams import mirrored
+from .training import in_words
 
 _PEOPLE = range(0, 4)
 _REPETITIONS = 2

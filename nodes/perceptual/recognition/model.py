@@ -2,18 +2,39 @@
 
 from __future__ import annotations
 
+import io
+import json
+import os
+import struct
+import tokenize
+import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol
+from pathlib import Path
+from typing import Any, Literal, Protocol
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from faults import reason_of
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.features import Channels, Integers, Windows, describe
-from nodes.perceptual.recognition.features_1 import describe_1
-from nodes.perceptual.recognition.scans import Gesture, fitting, window_lengths
-from nodes.perceptual.recognition.stream import Floats
+from nep_core.wire.messages import Wrist
+
+from .features import (
+    Channels,
+    Integers,
+    Windows,
+    describe,
+    describe_1,
+    feature_count,
+    feature_count_1,
+)
+from .gmr import Both, Gmr
+from .streams import LONGEST_S, RATE_HZ, SHORTEST_S, Floats, is_gesture_name
+from .trees import Trees
+from .windows import Gesture, fitting, window_lengths
 
 METHODS = ("trees", "gmr")
 TRIGGER = 0.75
@@ -115,8 +136,10 @@ class Model:
         if not of_method:
             known = " and ".join(sorted({found.method for found in self.recognisers}))
             raise RecordingError(
-                f'This gesture model cannot recognise by "{method}": it was trained for {known}.',
-                checklist=(f"Choose the method {known}.", "Or train the model again for both."),
+                'This gesture model cannot recognise by "{method}": it was trained for {known}.',
+                checklist=("Choose the method {known}.", "Or train the model again for both."),
+                method=method,
+                known=known,
             )
         usable = [
             found
@@ -126,13 +149,13 @@ class Model:
         if not usable:
             least = min(of_method, key=lambda found: found.channels.signals)
             raise RecordingError(
-                f"This gesture model needs {least.channels.in_words},"
-                " and the sensor does not send that.",
+                "This gesture model needs {in_words}, and the sensor does not send that.",
                 checklist=(
-                    f"In the app of the watch or phone, switch on {least.channels.in_words}.",
+                    "In the app of the watch or phone, switch on {in_words}.",
                     "Or use the kind of watch or phone that the gestures were recorded with.",
                     "Or record the gestures with this sensor and train again.",
                 ),
+                in_words=least.channels.in_words,
             )
         return max(usable, key=lambda found: found.channels.signals)
 
@@ -147,8 +170,12 @@ def with_triggers(model: Model, triggers: Mapping[str, float]) -> Model:
             raise unknown_gesture(model, name)
         if not LOWEST_TRIGGER <= certainty <= HIGHEST_TRIGGER:
             raise RecordingError(
-                f"The certainty of {name} is {certainty:g}, which is not possible.",
-                checklist=(f"Choose one from {LOWEST_TRIGGER} to {HIGHEST_TRIGGER:.0f}.",),
+                "The certainty of {name} is {certainty}, which is not possible.",
+                checklist=("Choose one from {lowest_trigger} to {highest_trigger}.",),
+                name=name,
+                certainty=f"{certainty:g}",
+                lowest_trigger=LOWEST_TRIGGER,
+                highest_trigger=f"{HIGHEST_TRIGGER:.0f}",
             )
     return replace(model, triggers={**model.triggers, **triggers})
 
@@ -156,6 +183,361 @@ def with_triggers(model: Model, triggers: Mapping[str, float]) -> Model:
 def unknown_gesture(model: Model, name: str) -> RecordingError:
     """The error of a gesture that a model was not trained for."""
     return RecordingError(
-        f'The gesture model does not know "{name}".',
-        checklist=(f"Choose one of: {', '.join(model.names)}.", "Or train it and try again."),
+        'The gesture model does not know "{name}".',
+        checklist=("Choose one of: {names}.", "Or train it and try again."),
+        name=name,
+        names=", ".join(model.names),
     )
+
+
+# What a model file tells about itself as JSON: its gestures, sensors, recognisers and report.
+
+FORMAT = "NEP Studio gesture model"
+VERSION = 2
+_MAX_GESTURES = 200
+MAX_SENSORS = 100
+_LONGEST_DEVICE = 200
+
+
+class AboutRecogniser(msgspec.Struct):
+    """A recogniser: its method, what the sensor must have besides acceleration, its features."""
+
+    method: str
+    gravity: bool
+    gyroscope: bool
+    features: Literal[1, 2] = 1
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it can still be asked: expected curves are others since version 2."""
+        return self.features == FEATURES or self.method != "gmr"
+
+
+class AboutGesture(msgspec.Struct):
+    """A gesture as the file tells it."""
+
+    name: str
+    shortest_s: float
+    typical_s: float
+    longest_s: float
+    takes: int
+    trigger: float = TRIGGER
+
+    def checked(self) -> Gesture:
+        """The gesture; ValueError when there can be none like it."""
+        rising = SHORTEST_S <= self.shortest_s <= self.typical_s <= self.longest_s <= LONGEST_S
+        if not is_gesture_name(self.name):
+            raise ValueError(f"a gesture cannot have the name {self.name[:40]!r}")
+        if not rising:
+            raise ValueError(f'the gesture "{self.name}" cannot last as long as it says')
+        if not LOWEST_TRIGGER <= self.trigger <= HIGHEST_TRIGGER:
+            raise ValueError(f'the gesture "{self.name}" has an impossible trigger')
+        return Gesture(self.name, self.shortest_s, self.typical_s, self.longest_s, self.takes)
+
+
+class AboutSensor(msgspec.Struct):
+    """A sensor that the training had recordings of."""
+
+    device: str
+    rate_hz: float
+    gravity: bool
+    gyroscope: bool
+
+    def checked(self) -> Sensor:
+        """The sensor; ValueError when its name cannot be shown."""
+        if len(self.device) > _LONGEST_DEVICE or not (self.device + " ").isprintable():
+            raise ValueError("a sensor has a name that cannot be shown")
+        return Sensor(self.device, self.rate_hz, self.gravity, self.gyroscope)
+
+
+class About(msgspec.Struct):
+    """All that a model file tells in words; what came with version 2 has defaults."""
+
+    rate_hz: float
+    units: dict[str, str]
+    gestures: list[AboutGesture]
+    recognisers: list[AboutRecogniser]
+    trained_on: str
+    report: dict[str, Any]
+    wrist: Wrist = ""
+    sensors: list[AboutSensor] = []
+
+    def check(self) -> None:
+        """ValueError when there can be no such model."""
+        if self.rate_hz != RATE_HZ or not 0 < len(self.gestures) <= _MAX_GESTURES:
+            raise ValueError("its rate or its number of gestures is not possible")
+        if len({gesture.name for gesture in self.gestures}) < len(self.gestures):
+            raise ValueError("two of its gestures have the same name")
+        if not self.recognisers:
+            raise ValueError("it has no recogniser")
+        if len(self.sensors) > MAX_SENSORS:
+            raise ValueError("it has more sensors than anybody")
+
+
+def about_text(model: Model) -> str:
+    """What a model's file tells about it, as JSON."""
+    about = {
+        "format": FORMAT,
+        "version": VERSION,
+        "rate_hz": RATE_HZ,
+        "units": {"acceleration": "m/s²", "angular velocity": "rad/s", "time": "s"},
+        "gestures": [
+            {**vars(one), "trigger": round(model.triggers[one.name], 4)} for one in model.gestures
+        ],
+        "recognisers": [
+            {"method": one.method, **vars(one.channels), "features": one.features}
+            for one in model.recognisers
+        ],
+        "wrist": model.wrist,
+        "sensors": [
+            msgspec.to_builtins(AboutSensor(*vars(one).values()))
+            for one in model.sensors[:MAX_SENSORS]
+        ],
+        "trained_on": model.trained_on,
+        "report": dict(model.report),
+    }
+    return json.dumps(about, ensure_ascii=False, indent=1)
+
+
+# The arrays of a model file, which may be from anybody: only numbers, none larger than it is.
+
+MAX_BYTES = 200_000_000
+_MAX_ARRAYS = 200
+_PACKED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+_ENCRYPTED = 0x1  # a bit of a member's flags in a ZIP archive
+# what zipfile, NumPy's reader of array headers, and msgspec raise for bytes that are no model
+DAMAGE = (
+    ValueError,
+    TypeError,
+    LookupError,
+    ArithmeticError,
+    RuntimeError,
+    MemoryError,
+    EOFError,
+    OSError,
+    SyntaxError,
+    tokenize.TokenError,
+    struct.error,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
+
+def read_arrays(content: bytes) -> dict[str, NDArray[Any]]:
+    """The arrays of a file, once their sizes are known to be bearable."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        members = archive.infolist()
+        if any(one.compress_type not in _PACKED or one.flag_bits & _ENCRYPTED for one in members):
+            raise ValueError("the file is packed or encrypted as no gesture model is")
+        if len(members) > _MAX_ARRAYS or sum(one.file_size for one in members) > MAX_BYTES:
+            raise ValueError("the file is far larger than a gesture model")
+        return {one.filename.removesuffix(".npy"): _array(archive.read(one)) for one in members}
+
+
+def _array(content: bytes) -> NDArray[Any]:
+    """One array of numbers; ValueError when it claims to be larger than its bytes."""
+    file = io.BytesIO(content)
+    version = np.lib.format.read_magic(file)
+    if version != (1, 0):
+        raise ValueError(f"arrays of version {version} are not read")
+    shape, _, kind = np.lib.format.read_array_header_1_0(file)
+    if kind.kind not in "biuf" or kind.itemsize * _product(shape) > len(content):
+        raise ValueError("an array does not hold what it claims")
+    file.seek(0)
+    array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+    return array
+
+
+def _product(shape: tuple[int, ...]) -> int:
+    total = 1
+    for size in shape:
+        total *= max(0, size)
+    return total
+
+
+def with_prefix(arrays: Mapping[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
+    """The arrays whose names begin so, without that beginning."""
+    return {
+        name.removeprefix(prefix): array
+        for name, array in arrays.items()
+        if name.startswith(prefix)
+    }
+
+
+# Gesture models in files: numbers and plain text, never code.
+#
+# A ``.gestures`` file is a ZIP archive of NumPy arrays (``numpy.savez``). The array ``about`` is
+# UTF-8 JSON: the format's version, what the sensor must send, the gestures, the recognisers and the
+# report of the training. Recogniser 0 has its numbers in arrays named ``0.usual_score`` ...
+# docs/gesture_models.md tells all of it. The same model gives the same bytes.
+
+SUFFIX = ".gestures"
+_READS = (1, VERSION)
+_TRAIN_AGAIN = (
+    "Choose a file that `nep-studio train` has written.",
+    "Or train the gestures again from their recordings.",
+)
+_ANOTHER_PLACE = (
+    "Choose a folder that you may write into, such as one in your home folder.",
+    "Is there room on the disk?",
+)
+
+
+class _Version(msgspec.Struct):
+    format: str
+    version: int
+
+
+def check_writable(path: Path) -> None:
+    """Tell before the work that a model cannot be written there: RecordingError."""
+    unfinished = _unfinished(path)
+    try:
+        unfinished.touch()
+        unfinished.unlink()
+    except OSError as error:
+        raise _not_written(path, error) from error
+
+
+def write_model(path: Path, model: Model) -> None:
+    """Write a model; the file is whole or as it was before. RecordingError when that fails."""
+    unfinished = _unfinished(path)
+    try:
+        unfinished.write_bytes(model_bytes(model))
+        unfinished.replace(path)
+    except OSError as error:
+        raise _not_written(path, error) from error
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def model_bytes(model: Model) -> bytes:
+    """A model as the content of a file."""
+    arrays = {"about": np.frombuffer(about_text(model).encode(), np.uint8)}
+    for number, recogniser in enumerate(model.recognisers):
+        numbers = {"usual_score": recogniser.usual, **recogniser.scorer.arrays()}
+        scored = {f"{number}.{name}": _small(array) for name, array in numbers.items()}
+        arrays.update(scored)
+    content = io.BytesIO()
+    np.savez_compressed(content, allow_pickle=False, **arrays)
+    return content.getvalue()
+
+
+def read_model(path: Path) -> Model:
+    """Read a model; RecordingError names the file and says what is wrong with it."""
+    content = _content(path)
+    try:
+        arrays = read_arrays(content)
+        text = arrays["about"].tobytes()
+        _check_version(path, text)
+        return _model(msgspec.json.decode(text, type=About), arrays)
+    except DAMAGE as error:
+        raise RecordingError(
+            "{name} is not a gesture model, or it is damaged.",
+            checklist=_TRAIN_AGAIN,
+            details=str(error),
+            name=path.name,
+        ) from error
+
+
+def _unfinished(path: Path) -> Path:
+    return path.with_name(f".{path.name}.{os.getpid()}.unfinished")
+
+
+def _not_written(path: Path, error: OSError) -> RecordingError:
+    return RecordingError(
+        "{path} cannot be written: {reason}.",
+        checklist=_ANOTHER_PLACE,
+        details=str(error),
+        path=path,
+        reason=reason_of(error),
+    )
+
+
+def _content(path: Path) -> bytes:
+    """The bytes of a file, one more than a model may have at most."""
+    try:
+        if path.is_dir():
+            raise RecordingError(
+                "{path} is a folder, not a gesture model.", checklist=_TRAIN_AGAIN, path=path
+            )
+        with path.open("rb") as file:
+            return file.read(MAX_BYTES + 1)
+    except FileNotFoundError as error:
+        raise RecordingError(
+            "There is no gesture model {path}.", checklist=_TRAIN_AGAIN, path=path
+        ) from error
+    except OSError as error:
+        raise RecordingError(
+            "{path} cannot be read: {reason}.",
+            checklist=("May you open this file?", *_TRAIN_AGAIN),
+            details=str(error),
+            path=path,
+            reason=reason_of(error),
+        ) from error
+
+
+def _small(array: NDArray[Any]) -> NDArray[Any]:
+    return array.astype(np.float32) if array.dtype == np.float64 else array
+
+
+def _check_version(path: Path, text: bytes) -> None:
+    found = msgspec.json.decode(text, type=_Version)
+    if found.format != FORMAT:
+        raise ValueError("it is another kind of file")
+    if found.version not in _READS:
+        raise RecordingError(
+            "{name} is a gesture model of version {version}; this program reads version {map}.",
+            checklist=("Train the gestures again from their recordings.", "Update NEP Studio."),
+            name=path.name,
+            version=found.version,
+            map=" and ".join(map(str, _READS)),
+        )
+
+
+def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:
+    about.check()
+    recognisers = tuple(
+        _recogniser(one, len(about.gestures), with_prefix(arrays, f"{number}."))
+        for number, one in enumerate(about.recognisers)
+        if one.is_known
+    )
+    if not recognisers:
+        raise _too_old()
+    return Model(
+        tuple(one.checked() for one in about.gestures),
+        recognisers,
+        about.trained_on,
+        about.report,
+        triggers={one.name: one.trigger for one in about.gestures},
+        wrist=about.wrist,
+        sensors=tuple(one.checked() for one in about.sensors),
+    )
+
+
+def _too_old() -> RecordingError:
+    return RecordingError(
+        "This gesture model was learned by an earlier version in a way that is no longer used.",
+        checklist=("Train the gestures again from their recordings.",),
+    )
+
+
+def _recogniser(
+    found: AboutRecogniser, gestures: int, arrays: Mapping[str, NDArray[Any]]
+) -> Recogniser:
+    channels = Channels(found.gravity, found.gyroscope)
+    usual = arrays["usual_score"].astype(float)
+    if usual.shape != (gestures,) or not np.all(np.isfinite(usual) & (usual > 0)):
+        raise ValueError("its usual scores do not fit")
+    scorer: Scorer
+    match found.method:
+        case "trees":
+            count = feature_count_1 if found.features == 1 else feature_count
+            if "mean" in arrays:  # several people have taught it
+                scorer = Both.from_arrays(arrays, gestures, channels)
+            else:
+                scorer = Trees.from_arrays(arrays, gestures, count(channels))
+        case "gmr":
+            scorer = Gmr.from_arrays(arrays, gestures, channels)
+        case _:
+            raise ValueError(f"it uses a method other than {' and '.join(METHODS)}")
+    return Recogniser(found.method, channels, scorer, usual, found.features)

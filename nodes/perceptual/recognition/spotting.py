@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from nodes.perceptual.recognition.features import cut_windows
 from nodes.perceptual.recognition.model import TRIGGER, Model, Recogniser, unknown_gesture
-from nodes.perceptual.recognition.peaks import Detection, PeakPicker, best_lengths
-from nodes.perceptual.recognition.scans import HOP
-from nodes.perceptual.recognition.stream import RATE_HZ, EvenStream, Floats, Memory
+
+from .streams import RATE_HZ, EvenStream, Floats, Memory
+from .windows import HOP, Detection, PeakPicker, best_lengths
 
 
 class Spotter:

@@ -2,34 +2,162 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.examples import Examples, collect
-from nodes.perceptual.recognition.features import Channels
-from nodes.perceptual.recognition.folds import fold_takes, fold_windows
-from nodes.perceptual.recognition.gmr import Both, fit_gmr
-from nodes.perceptual.recognition.model import METHODS, Model, Recogniser, Scorer
-from nodes.perceptual.recognition.passages import Passage, passages_of
-from nodes.perceptual.recognition.report import report_of
-from nodes.perceptual.recognition.scans import (
-    Gesture,
-    gestures_in,
-    is_long_enough,
-    scan,
-    window_lengths,
-)
-from nodes.perceptual.recognition.trees import TREES, fit_trees
-from nodes.perceptual.recognition.validation import (
-    USUAL_SCORE,
-    Validation,
-    cross_validate,
-    unchecked,
-)
 from nodes.recordings import Recording
+
+from .examples import Examples, collect
+from .features import Channels, Integers
+from .gmr import Both, fit_gmr
+from .model import METHODS, Model, Recogniser, Scorer
+from .streams import Passage, passages_of
+from .trees import TREES, fit_trees
+from .validation import NOTHING, USUAL_SCORE, Tally, Validation, cross_validate, unchecked
+from .windows import Gesture, Scan, gestures_in, is_long_enough, scan, window_lengths
+
+# What a training found out, as data for the model file and in plain words.
+
+_FEW_TAKES = 5
+
+
+def report_of(gestures: Sequence[Gesture], validation: Validation) -> dict[str, Any]:
+    """The figures of a validation: pairs made and recognised ("" is nothing), and everyday.
+
+    ``curves`` tell by gesture what each certainty would catch and let through, ``left_out`` how
+    each take fared, ``people`` how each person did where there are several.
+    """
+    pairs = Counter(validation.tally.pairs)
+    return {
+        "takes": {gesture.name: gesture.takes for gesture in gestures},
+        "confusion": [[made, found, count] for (made, found), count in sorted(pairs.items())],
+        "recall": round(validation.tally.recall, 4),
+        "precision": round(validation.tally.precision, 4),
+        "f1": round(validation.tally.f1, 4),
+        "everyday_triggers": validation.everyday_triggers,
+        "everyday_s": round(validation.everyday_s, 1),
+        "curves": {
+            name: [_rounded(vars(point)) for point in points]
+            for name, points in validation.curves.items()
+        },
+        "left_out": [_rounded(vars(take)) for take in validation.takes],
+        "people": {person: _score(tally) for person, tally in validation.people.items()},
+    }
+
+
+def _rounded(figures: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        name: round(float(value), 4) if isinstance(value, float) else value
+        for name, value in figures.items()
+    }
+
+
+def _score(tally: Tally) -> dict[str, float]:
+    score = {"made": tally.made, "right": tally.right, "fired": tally.fired}
+    return score | {"f1": round(tally.f1, 4)}
+
+
+def in_words(method: str, report: Mapping[str, Any]) -> list[str]:
+    """The report of one method, in lines for people."""
+    counts = {(made, found): count for made, found, count in report["confusion"]}
+    takes: dict[str, int] = report["takes"]
+    if min(takes.values()) < 2:
+        return [f"{method}: not checked. To check it, record each gesture at least twice."]
+    lines = [f"{method}: gestures recognised in recordings that were left out of the training"]
+    lines += [_gesture_line(name, takes[name], counts) for name in takes]
+    lines.append(_everyday_line(report))
+    return lines
+
+
+def advice(report: Mapping[str, Any], has_own_everyday: bool) -> list[str]:
+    """What would make the model better."""
+    takes: dict[str, int] = report["takes"]
+    few = [name for name, count in takes.items() if count < _FEW_TAKES]
+    lines = []
+    if few:
+        names = ", ".join(few)
+        lines.append(f"Record {names} {_FEW_TAKES} times or more: it will be recognised better.")
+    if len(takes) == 1:
+        or_everyday = "" if has_own_everyday else ", or your everyday movement with --everyday"
+        lines.append(
+            f"Nothing could be confused with {next(iter(takes))} yet:"
+            f" add another gesture{or_everyday}."
+        )
+    return lines
+
+
+def _gesture_line(name: str, takes: int, counts: Mapping[tuple[str, str], int]) -> str:
+    right = counts.get((name, name), 0)
+    missed = counts.get((name, NOTHING), 0)
+    mistaken = {
+        found: count
+        for (made, found), count in counts.items()
+        if made == name and found not in (name, NOTHING)
+    }
+    from_nothing = counts.get((NOTHING, name), 0)
+    remarks = [f"taken for {other} {_times(count)}" for other, count in mistaken.items()]
+    remarks += [f"missed {_times(missed)}"] if missed else []
+    remarks += [f"seen where there was none {_times(from_nothing)}"] if from_nothing else []
+    line = f"  {name}: {right} of {takes}"
+    return line + (f" ({', '.join(remarks)})" if remarks else "")
+
+
+def _everyday_line(report: Mapping[str, Any]) -> str:
+    minutes = report["everyday_s"] / 60
+    if not minutes:
+        return "  Everyday movement: not checked, no such recording was given."
+    a_minute = report["everyday_triggers"] / minutes
+    return f"  Everyday movement: {a_minute:.2f} false triggers a minute, in {minutes:.1f} minutes."
+
+
+def _times(count: int) -> str:
+    return "once" if count == 1 else "twice" if count == 2 else f"{count} times"
+
+
+# Which part of the recordings is left out together with which, to check a recogniser.
+
+FOLDS = 5
+_ENOUGH_PEOPLE = 2
+_BLOCK_S = 20.0  # everyday movement is dealt out in pieces of this length
+
+
+def fold_takes(passages: Sequence[Passage]) -> list[list[int]]:
+    """The fold of every take of every passage.
+
+    With several people a fold is some of the people: the check then tells how new people fare.
+    Else it is some of the takes of each gesture.
+    """
+    people = sorted({passage.person for passage in passages if passage.takes})
+    if len(people) >= _ENOUGH_PEOPLE:
+        fold_of = {person: number % FOLDS for number, person in enumerate(people)}
+        return [[fold_of[one.person] for _ in one.takes] for one in passages]
+    seen: Counter[str] = Counter()
+    folds = []
+    for passage in passages:
+        own = []
+        for take in passage.takes:
+            own.append(seen[take.gesture] % FOLDS)
+            seen[take.gesture] += 1
+        folds.append(own)
+    return folds
+
+
+def fold_windows(found: Scan, take_folds: Sequence[int]) -> Integers:
+    """The fold of each window of a scan: that of the take next to it."""
+    middle_s = (found.starts_s + found.ends_s) / 2
+    if not take_folds:
+        blocks: Integers = (middle_s // _BLOCK_S).astype(np.intp) % FOLDS
+        return blocks
+    takes_s = np.array([(take.start_s + take.end_s) / 2 for take in found.passage.takes])
+    nearest = np.abs(middle_s[:, None] - takes_s).argmin(axis=1)
+    nearby: Integers = np.array(take_folds, np.intp)[nearest]
+    return nearby
+
 
 _MOST_MINUTES = 90
 _TREES_TO_CHECK = 12  # fewer than are used in the end: each part left out grows its own
@@ -131,11 +259,12 @@ def _check(recordings: Sequence[Recording], gestures: Sequence[Gesture]) -> None
     if not gestures:
         names = ", ".join(recording.source for recording in recordings)
         raise RecordingError(
-            f"No gesture is marked in the recordings {names}.",
+            "No gesture is marked in the recordings {names}.",
             checklist=(
                 "A column named gesture says for each sample which gesture is being made.",
                 "1 stands for the gesture in the file's name, as in ann_karate.csv; 0 for none.",
             ),
+            names=names,
         )
 
 
@@ -143,8 +272,10 @@ def _check_length(passages: Sequence[Passage]) -> None:
     minutes = sum(passage.duration_s for passage in passages) / 60
     if minutes > _MOST_MINUTES:
         raise RecordingError(
-            f"The recordings last {minutes:.0f} minutes, more than can be learned from at once.",
-            checklist=(f"Train on {_MOST_MINUTES} minutes or less; five of each gesture do.",),
+            "The recordings last {minutes} minutes, more than can be learned from at once.",
+            checklist=("Train on {most_minutes} minutes or less; five of each gesture do.",),
+            minutes=f"{minutes:.0f}",
+            most_minutes=_MOST_MINUTES,
         )
 
 

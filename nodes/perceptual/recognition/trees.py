@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from nodes.perceptual.recognition.examples import Examples
 from nodes.perceptual.recognition.features import Singles, Windows
-from nodes.perceptual.recognition.stream import Floats
+
+from .streams import Floats
 
 TREES = 100
 

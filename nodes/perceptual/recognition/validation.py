@@ -7,15 +7,173 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nodes.perceptual.recognition.curves import CurvePoint, curves_of, is_unknown, rises
-from nodes.perceptual.recognition.examples import Examples
-from nodes.perceptual.recognition.features import Integers
-from nodes.perceptual.recognition.matching import Tally, match, meets
-from nodes.perceptual.recognition.model import TRIGGER, Scorer, certainty_of
-from nodes.perceptual.recognition.passages import Passage, Take
-from nodes.perceptual.recognition.peaks import Detection, PeakPicker, best_lengths
-from nodes.perceptual.recognition.scans import Gesture, Scan, fitting, window_lengths
-from nodes.perceptual.recognition.stream import RATE_HZ, Floats
+from .examples import Examples
+from .features import Integers
+from .model import TRIGGER, Scorer, certainty_of
+from .streams import RATE_HZ, Floats, Passage, Take
+from .windows import Detection, Gesture, PeakPicker, Scan, best_lengths, fitting, window_lengths
+
+# How the gestures that were found agree with the gestures that were made.
+
+NOTHING = ""
+_SHARED = 0.25  # of the shorter of the two
+
+
+@dataclass(frozen=True)
+class Tally:
+    """Pairs (made, recognised), NOTHING standing for none: one for each take and each extra."""
+
+    pairs: tuple[tuple[str, str], ...] = ()
+
+    def __add__(self, other: Tally) -> Tally:
+        return Tally(self.pairs + other.pairs)
+
+    @property
+    def made(self) -> int:
+        """Gestures that were made."""
+        return sum(made != NOTHING for made, _ in self.pairs)
+
+    @property
+    def right(self) -> int:
+        """Gestures made that were recognised as what they were."""
+        return sum(made == found != NOTHING for made, found in self.pairs)
+
+    @property
+    def fired(self) -> int:
+        """Triggers, right and wrong."""
+        return sum(found != NOTHING for _, found in self.pairs)
+
+    @property
+    def recall(self) -> float:
+        """The part of the gestures made that were recognised."""
+        return self.right / self.made if self.made else 0.0
+
+    @property
+    def precision(self) -> float:
+        """The part of the triggers that were right."""
+        return self.right / self.fired if self.fired else 0.0
+
+    @property
+    def f1(self) -> float:
+        """The harmonic mean of recall and precision."""
+        return 2 * self.right / (self.made + self.fired) if self.made + self.fired else 0.0
+
+
+def match(takes: Sequence[Take], detections: Sequence[Detection]) -> Tally:
+    """Pair each take with the trigger it caused, the right one if there are several.
+
+    A trigger that no take caused, and one more than the first for the same take, counts as made
+    from nothing.
+    """
+    left = list(detections)
+    pairs = []
+    for take in takes:
+        caused = [found for found in left if meets(take, found)]
+        caused.sort(key=lambda found: found.gesture != take.gesture)
+        pairs.append((take.gesture, caused[0].gesture if caused else NOTHING))
+        if caused:
+            left.remove(caused[0])
+    return Tally((*pairs, *((NOTHING, found.gesture) for found in left)))
+
+
+def meets(take: Take, found: Detection) -> bool:
+    """Whether a trigger may have been caused by a take."""
+    shared = min(take.end_s, found.t_end) - max(take.start_s, found.t_start)
+    return shared > _SHARED * min(take.duration_s, found.t_end - found.t_start)
+
+
+# What each certainty would catch, and what it would let through.
+
+CERTAINTIES = tuple(round(0.05 * step, 2) for step in range(1, 20))
+
+
+@dataclass(frozen=True)
+class CurvePoint:
+    """At this ``certainty``: the share of left-out takes caught, and false triggers.
+
+    ``false_in_others`` counts those in recordings of gestures: at another gesture or at none.
+    """
+
+    certainty: float
+    caught: float
+    false_everyday_per_hour: float
+    false_in_others: int
+
+
+def rises(found: Scan, gestures: Sequence[Gesture], certainties: Floats) -> list[Detection]:
+    """Every rise of the highest certainty (windows, gestures), the highest first.
+
+    Rises do not depend on a trigger: what one lets through, a lower one does too.
+    """
+    lengths = window_lengths(gestures)
+    looks = np.zeros((found.hop[-1] + 1, len(lengths), len(gestures)))
+    looks[found.hop, found.which] = certainties
+    best, which = best_lengths(looks, fitting(gestures, lengths))
+    ends_s = np.full(len(looks), np.inf)
+    ends_s[found.hop] = found.ends_s
+    column = best.argmax(axis=1)
+    height = best.max(axis=1)
+    length_s = lengths[np.take_along_axis(which, column[:, None], axis=1)[:, 0]] / RATE_HZ
+    free = height >= CERTAINTIES[0]
+    peaks = []
+    for look in np.argsort(-height, kind="stable")[: int(free.sum())]:
+        if free[look]:
+            one, end_s = gestures[int(column[look])], float(ends_s[look])
+            peaks.append(Detection(one.name, float(height[look]), end_s - length_s[look], end_s))
+            free &= np.abs(ends_s - end_s) > one.typical_s
+    return peaks
+
+
+def curves_of(
+    gestures: Sequence[Gesture], seen: Sequence[tuple[Passage, Sequence[Detection]]]
+) -> dict[str, tuple[CurvePoint, ...]]:
+    """The curve of each gesture over the rises of left-out passages."""
+    hours = sum(one.duration_s for one, _ in seen if not one.takes) / 3600
+    return {gesture.name: _curve(gesture, seen, hours) for gesture in gestures}
+
+
+def _curve(
+    gesture: Gesture, seen: Sequence[tuple[Passage, Sequence[Detection]]], hours: float
+) -> tuple[CurvePoint, ...]:
+    caught: list[float] = []
+    everyday: list[float] = []
+    others: list[float] = []
+    for passage, found in seen:
+        own = [one for one in found if one.gesture == gesture.name]
+        for take in passage.takes:
+            at_take = [one for one in own if meets(take, one)]
+            own = [one for one in own if one not in at_take]
+            if take.gesture == gesture.name:
+                caught.append(max((one.certainty for one in at_take), default=0.0))
+            else:
+                others += [one.certainty for one in at_take]
+        false = others if passage.takes else everyday
+        false += [one.certainty for one in own if not is_unknown(passage, one)]
+    return tuple(
+        CurvePoint(
+            certainty,
+            _share(caught, certainty),
+            _count(everyday, certainty) / hours if hours else 0.0,
+            _count(others, certainty),
+        )
+        for certainty in CERTAINTIES
+    )
+
+
+def is_unknown(passage: Passage, found: Detection) -> bool:
+    """Whether it is where a recording is marked as neither a gesture nor its absence."""
+    return any(
+        found.t_start < end_s and start_s < found.t_end for start_s, end_s in passage.unknown
+    )
+
+
+def _share(values: Sequence[float], least: float) -> float:
+    return _count(values, least) / len(values) if values else 0.0
+
+
+def _count(values: Sequence[float], least: float) -> int:
+    return sum(value >= least for value in values)
+
 
 Fit = Callable[[Examples], Mapping[str, Scorer]]
 """What makes a scorer of each method."""

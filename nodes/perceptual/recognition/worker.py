@@ -6,7 +6,7 @@ its standard input and writes to its standard output
     {"ready": true}
     {"progress": 0.4, "step": "Learning the gestures…"}
     {"done": path, "seconds": 1.9, "report": {...}, "remarks": [...]}
-    {"error": "What happened.", "checklist": ["What to do.", ...]}
+    {"fault": {"code": "...", "sentence": {"text": "What happened."}, "checklist": [...]}}
 
 Training ends early when the process is killed. It ends when its standard input closes, or its
 parent is gone, whatever it does then.
@@ -28,10 +28,12 @@ from typing import Any, BinaryIO, Literal
 import msgspec
 import psutil
 
+from faults import Fault, fault_of
 from nep_core.errors import NepError
-from nep_core.process import program_command
-from nodes.perceptual.recognition.material import everybodys_movement, learn, read_material
-from nodes.perceptual.recognition.model_file import check_writable, write_model
+from nep_core.processes.process import program_command
+
+from .dataset import everybodys_movement, learn, read_material
+from .model import check_writable, write_model
 
 READING = "Reading the recordings…"
 LEARNING = "Learning the gestures…"
@@ -88,19 +90,32 @@ def _do(line: bytes, told: _Told) -> None:
         order = msgspec.json.decode(line, type=_Order)
         _train(order, told)
     except NepError as error:
-        told.error(error.sentence, error.checklist)
+        told.fault(error.fault)
     except msgspec.MsgspecError as error:
-        told.error(f"The order to train cannot be read: {error}.", ("Train again.",))
+        told.fault(
+            fault_of(
+                "The order to train cannot be read: {error}.",
+                checklist=("Train again.",),
+                error=error,
+            )
+        )
     except MemoryError:
-        told.error(
-            "The computer has too little memory free to learn from these recordings.",
-            ("Close other programs.", "Learn from fewer or shorter recordings."),
+        told.fault(
+            fault_of(
+                "The computer has too little memory free to learn from these recordings.",
+                code="memory",
+                checklist=("Close other programs.", "Learn from fewer or shorter recordings."),
+            )
         )
     except Exception as error:  # a fault of ours must not end the process without a word
         traceback.print_exc()
-        told.error(
-            f"The training failed: {error or type(error).__name__}.",
-            ("Train again.", "Leave out the recordings that you made last."),
+        told.fault(
+            fault_of(
+                "The training failed: {error}.",
+                code=f"python:{type(error).__name__}",
+                checklist=("Train again.", "Leave out the recordings that you made last."),
+                error=str(error) or type(error).__name__,
+            )
         )
 
 
@@ -161,9 +176,9 @@ class _Told:
         """Tell how far the training is, from 0 to 1."""
         self.tell({"progress": round(part, 3), "step": step})
 
-    def error(self, sentence: str, checklist: tuple[str, ...]) -> None:
+    def fault(self, fault: Fault) -> None:
         """Tell why there is no model, and what to do."""
-        self.tell({"error": sentence, "checklist": list(checklist)})
+        self.tell({"fault": fault})
 
 
 def _read(lines: BinaryIO, orders: queue.SimpleQueue[bytes]) -> None:

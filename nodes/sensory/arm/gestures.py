@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from nep_core.errors import ParameterError
-from nodes.sensory.arm.skeleton import Joint, Pose
+
+from .motion import Joint, Pose
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,9 @@ def gesture_named(name: str) -> Gesture:
     """The gesture of this name; ParameterError names the known ones."""
     if name not in GESTURES:
         raise ParameterError(
-            f'The simulated person knows no gesture "{name}".',
-            checklist=(f"Choose one of: {', '.join(GESTURES)}.",),
+            'The simulated person knows no gesture "{name}".',
+            checklist=("Choose one of: {gestures}.",),
+            name=name,
+            gestures=", ".join(GESTURES),
         )
     return GESTURES[name]

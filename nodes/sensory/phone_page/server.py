@@ -5,26 +5,168 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import dataclasses
+import ipaddress
+import os
 import socket
 import ssl
+import tempfile
 import threading
-from collections.abc import AsyncIterator, Iterable
+from collections.abc import AsyncIterator, Iterable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import platformdirs
+
+from faults import Text, reason_of, text_of
 from nep_core.errors import NodeStartError
-from nodes.sensory.addresses import lan_addresses
-from nodes.sensory.phone_page.certificate import Certificate, own_certificate
-from nodes.sensory.phone_page.page_files import PageFiles, page_files
-from nodes.sensory.phone_page.receiving import Receiving
-from nodes.sensory.phone_page.site import Site
-from nodes.sensory.phone_page.token import new_token
-from nodes.sensory.ways.background import Background
-from nodes.sensory.ways.doors import open_tcp
-from nodes.sensory.ways.way import Arrived, Settings
+from nep_core.places import portable_folder
+from nodes.sensory.connectors.addresses import lan_addresses, open_tcp
+from nodes.sensory.connectors.connector import Arrived, Settings
+from nodes.sensory.connectors.servers import Background
+
+from .receiving import Receiving
+from .site import PageFiles, Site, new_token, page_files
 
 if TYPE_CHECKING:
     from aiohttp import web
+    from cryptography import x509
+
+
+# The certificate of the phone page: made on this computer, for this computer, kept for a year.
+
+FILE = "phone_page.pem"
+VALID_DAYS = 397  # browsers refuse certificates that are good for longer than 398 days
+RENEWED_BEFORE = timedelta(days=14)
+_CLOCKS_DIFFER = timedelta(days=1)
+_MOST_NAMES = 16
+_OWNER_ONLY = 0o600
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """The file of a key and its certificate, which is good for ``names``."""
+
+    path: Path
+    names: tuple[str, ...]
+
+    def context(self) -> ssl.SSLContext:
+        """What a server needs to speak TLS 1.2 or newer with it."""
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        context.minimum_version = ssl.TLSVersion.TLSv1_2
+        context.load_cert_chain(self.path)
+        return context
+
+    @property
+    def spki_sha256(self) -> str:
+        """The fingerprint of its public key in base64, as browsers write it."""
+        import base64
+        import hashlib
+
+        from cryptography import x509
+        from cryptography.hazmat.primitives import serialization
+
+        public = x509.load_pem_x509_certificate(self.path.read_bytes()).public_key()
+        der = public.public_bytes(
+            serialization.Encoding.DER, serialization.PublicFormat.SubjectPublicKeyInfo
+        )
+        return base64.b64encode(hashlib.sha256(der).digest()).decode()
+
+
+def certificate_folder() -> Path:
+    """Where the key is kept: among this user's settings."""
+    if folder := portable_folder():
+        return folder / "keys"
+    try:
+        return Path(platformdirs.user_config_dir("nep-studio", appauthor=False))
+    except RuntimeError:  # a user without a home
+        return Path(tempfile.gettempdir()) / "nep-studio"
+
+
+def own_certificate(addresses: Sequence[str], folder: Path | None = None) -> Certificate:
+    """The kept certificate, or a new one when that is not good for all addresses or gets too old.
+
+    Earlier addresses stay in a new one, so that going back to a network does not make the phone
+    ask again. Raises OSError when it cannot be kept.
+    """
+    folder = folder or certificate_folder()
+    wanted = ("localhost", "127.0.0.1", *addresses)
+    path = folder / FILE
+    kept = _kept_names(path)
+    if kept and set(wanted) <= set(kept):
+        return Certificate(path, kept)
+    folder.mkdir(parents=True, exist_ok=True)
+    names = tuple(dict.fromkeys((*wanted, *kept)))[:_MOST_NAMES]
+    _make(path, names)
+    return Certificate(path, names)
+
+
+def _kept_names(path: Path) -> tuple[str, ...]:
+    """The names that the kept certificate is good for, none when it cannot be used any more."""
+    from cryptography import x509
+
+    try:
+        ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(path)
+        found = x509.load_pem_x509_certificate(path.read_bytes())
+        names = found.extensions.get_extension_for_class(x509.SubjectAlternativeName).value
+    except (OSError, ValueError, x509.ExtensionNotFound):
+        return ()
+    now = datetime.now(UTC)
+    if not found.not_valid_before_utc <= now < found.not_valid_after_utc - RENEWED_BEFORE:
+        return ()
+    return tuple(str(name.value) for name in names)
+
+
+def _make(path: Path, names: Sequence[str]) -> None:
+    from cryptography import x509
+    from cryptography.hazmat.primitives import hashes, serialization
+    from cryptography.hazmat.primitives.asymmetric import ec
+    from cryptography.x509.oid import ExtendedKeyUsageOID
+
+    key = ec.generate_private_key(ec.SECP256R1())
+    subject = x509.Name(
+        [x509.NameAttribute(x509.NameOID.COMMON_NAME, "NEP Studio on this computer")]
+    )
+    now = datetime.now(UTC)
+    number = x509.random_serial_number()
+    builder = x509.CertificateBuilder(subject, subject, key.public_key(), number)
+    builder = builder.not_valid_before(now - _CLOCKS_DIFFER)
+    builder = builder.not_valid_after(now - _CLOCKS_DIFFER + timedelta(days=VALID_DAYS))
+    alternatives = x509.SubjectAlternativeName([_general_name(name) for name in names])
+    usage = x509.ExtendedKeyUsage([ExtendedKeyUsageOID.SERVER_AUTH])
+    builder = builder.add_extension(alternatives, critical=False)
+    builder = builder.add_extension(usage, critical=False)
+    builder = builder.add_extension(x509.BasicConstraints(False, None), critical=True)
+    pem = serialization.Encoding.PEM
+    private = key.private_bytes(
+        pem, serialization.PrivateFormat.PKCS8, serialization.NoEncryption()
+    )
+    _write(path, private + builder.sign(key, hashes.SHA256()).public_bytes(pem))
+
+
+def _general_name(name: str) -> x509.GeneralName:
+    from cryptography import x509
+
+    try:
+        return x509.IPAddress(ipaddress.ip_address(name))
+    except ValueError:
+        return x509.DNSName(name)
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Write a file that only this user may read, at no moment another."""
+    number, name = tempfile.mkstemp(dir=path.parent, prefix=path.name)  # is made with 0600
+    try:
+        with os.fdopen(number, "wb") as file:
+            file.write(content)
+        Path(name).chmod(_OWNER_ONLY)
+        Path(name).replace(path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            Path(name).unlink()
+        raise
+
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 32
@@ -105,12 +247,13 @@ class PhonePage:
             return page_files(), own_certificate(self._addresses(), self._folder)
         except OSError as error:
             raise NodeStartError(
-                f"The page for the phone cannot be made: {error.strerror or error}.",
+                "The page for the phone cannot be made: {reason}.",
                 checklist=(
                     "Is there room on the disk, and may you write to your settings folder?",
                     "Install NEP Studio again.",
                 ),
                 details=str(error),
+                reason=reason_of(error),
             ) from error
 
     async def _serve(self, door: socket.socket, files: PageFiles, ready: threading.Event) -> None:
@@ -205,3 +348,55 @@ class _Connections:
             caller.close()
             return
         self._open = [one for one in self._open if one.transport is not None] + [handler]
+
+
+# The phone page as a way that a phone's sensors reach the node.
+
+
+class PhonePageWay:
+    """Serves the page while the node runs; ``folder`` is where the certificate is kept."""
+
+    def __init__(self, settings: Settings, folder: Path | None = None) -> None:
+        self._settings = settings
+        self.page = PhonePage(settings, folder)
+
+    @property
+    def where(self) -> Text:
+        """What the node is ready for; the link is told only where nobody else knows its token."""
+        is_known = bool(self._settings.token)
+        page = text_of("its page on port {port}", port=self.page.port)
+        return text_of(
+            "waits for a phone that opens {told} ({where})",
+            told=page if is_known else self.page.urls[0],
+            where=self._settings.who,
+        )
+
+    @property
+    def missing(self) -> str:
+        """What to check when no phone has come."""
+        if self._settings.listen_on == "this computer":
+            return (
+                "No phone has come yet. Only this computer is let in: for a phone, set "
+                "“listen on” to network."
+            )
+        return (
+            "No phone has come yet. Is it in the same Wi-Fi as this computer, was the warning of "
+            "the browser accepted, and does this computer's firewall let it in?"
+        )
+
+    @property
+    def hand(self) -> str:
+        """Where the phone is, as chosen on it: left, right or hand; empty: not known yet."""
+        return self.page.hand
+
+    def open(self) -> None:
+        """Serve the page. Raises PortTaken, NodeStartError."""
+        self.page.start()
+
+    def readings(self, until_s: float) -> list[Arrived]:
+        """What the phone has sent up to then."""
+        return self.page.take(until_s)
+
+    def close(self) -> None:
+        """Serve it no more."""
+        self.page.stop()

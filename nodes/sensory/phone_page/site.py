@@ -3,19 +3,143 @@
 from __future__ import annotations
 
 import asyncio
+import hmac
+import html
+import ipaddress
 import json
 import logging
 import secrets
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nodes.sensory.phone_page.batch import MOST_BYTES, read_message
-from nodes.sensory.phone_page.guard import SERVER, headers, is_our_host, is_our_origin
-from nodes.sensory.phone_page.page_files import PageFiles, content_type
-from nodes.sensory.phone_page.receiving import FOLLOWED, Receiving
-from nodes.sensory.phone_page.token import is_token
-from nodes.sensory.phone_page.turn import Allowance
+from nodes.resources import resource_folder
+
+from .receiving import FOLLOWED, MOST_BYTES, Allowance, Receiving, read_message
+
+log = logging.getLogger(__name__)
+
+
+# Who may talk to the phone page, and what its answers tell the browser about safety.
+
+SERVER = "NEP Studio"
+HTTPS_PORT = 443  # is left out of links
+COMMON_HEADERS = {
+    "Cache-Control": "no-store",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "accelerometer=(self), gyroscope=(self), screen-wake-lock=(self), "
+    "camera=(), microphone=(), geolocation=()",
+    "Referrer-Policy": "no-referrer",  # the link has the token in it
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+}
+_NOTHING_ELSE = "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+
+
+def headers(host: str, nonce: str = "") -> dict[str, str]:
+    """The headers of every answer; ``nonce`` allows the one style of the page of refusal.
+
+    WebSockets are named with the host, as older browsers do not count them as 'self'.
+    """
+    style = f"'nonce-{nonce}'" if nonce else "'self'"
+    policy = (
+        f"default-src 'none'; script-src 'self'; style-src {style}; img-src 'self' data:; "
+        f"connect-src 'self' wss://{host}; {_NOTHING_ELSE}"
+    )
+    return {**COMMON_HEADERS, "Content-Security-Policy": policy}
+
+
+def is_our_host(host: str, own: tuple[str, int]) -> bool:
+    """Whether the page was asked for by the address (and port) that the connection came to.
+
+    A name of somebody else's that leads to our address is refused (DNS rebinding).
+    """
+    address, port = own
+    names = {address, "localhost"} if _is_loopback(address) else {address}
+    return host in {f"{name}:{port}" for name in names} or (port == HTTPS_PORT and host in names)
+
+
+def is_our_origin(given: Mapping[str, str], host: str) -> bool:
+    """Whether a request was made by our own page, by its headers."""
+    return given.get("Origin") == f"https://{host}"
+
+
+def _is_loopback(address: str) -> bool:
+    try:
+        return ipaddress.ip_address(address).is_loopback
+    except ValueError:
+        return False
+
+
+# The files of the phone page, and the page that refuses a wrong link.
+
+TYPES = {
+    ".css": "text/css",
+    ".html": "text/html",
+    ".js": "text/javascript",
+    ".json": "application/json",
+    ".svg": "image/svg+xml",
+}
+NAMES = (
+    *("index.html", "style.css", "page.js", "motion.js", "line.js", "graph.js"),
+    *("words.json", "icon.svg"),
+)
+ENGLISH = "en"
+
+
+@dataclass(frozen=True)
+class PageFiles:
+    """What is served: the text of each file by its name, and the texts by language."""
+
+    texts: dict[str, str]
+    words: dict[str, dict[str, str]]
+    refusal: str
+
+    def refused(self, accepted: str, nonce: str) -> str:
+        """The page for a wrong link, in the first language of ``Accept-Language`` that we have."""
+        language = self.language(accepted)
+        told = {name: html.escape(text) for name, text in self.words[language].items()}
+        return self.refusal.format(
+            language=language, nonce=nonce, style=self.texts["style.css"], **told
+        )
+
+    def language(self, accepted: str) -> str:
+        """The best language for an ``Accept-Language`` header, which lists them by preference."""
+        wanted = [part.strip().split(";")[0][:2].lower() for part in accepted.split(",")]
+        return next((name for name in wanted if name in self.words), ENGLISH)
+
+
+def page_files(folder: Path | None = None) -> PageFiles:
+    """Read the page. Raises OSError when a file is not there."""
+    folder = folder or resource_folder() / "phone_page"
+    texts = {name: (folder / name).read_text(encoding="utf-8") for name in NAMES}
+    refusal = (folder / "refused.html").read_text(encoding="utf-8")
+    return PageFiles(texts, json.loads(texts["words.json"]), refusal)
+
+
+def content_type(name: str) -> str:
+    """The media type of a file of the page."""
+    return TYPES[Path(name).suffix]
+
+
+# The secret part of the link that the QR code shows.
+
+TOKEN_BYTES = 9
+"""12 letters in the link: nobody guesses it, and the QR code stays coarse enough to scan."""
+
+
+def new_token() -> str:
+    """A token that nobody can guess, of letters that a link may have."""
+    return secrets.token_urlsafe(TOKEN_BYTES)
+
+
+def is_token(given: str, wanted: str) -> bool:
+    """Whether it is the token; takes the same time for every wrong one."""
+    return bool(wanted) and hmac.compare_digest(given.encode(), wanted.encode())
+
 
 if TYPE_CHECKING:
     from aiohttp import web
@@ -27,7 +151,6 @@ ANSWER_S = 1.0
 READ_S = 5.0  # for one batch
 REQUESTS_S, REQUESTS_AT_ONCE = 60.0, 200.0
 UNREADABLE, TOO_MUCH = 1007, 1008  # reasons for closing a WebSocket (RFC 6455)
-log = logging.getLogger(__name__)
 
 
 class Site:

@@ -7,10 +7,10 @@ import textwrap
 import pytest
 from block_building import B, build
 
-from nep_studio.blocks.from_python.made import CodeUnread
+from nep_studio.blocks.files import to_bytes
+from nep_studio.blocks.from_python.learning import CodeUnread
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.writing import to_bytes
 
 
 def updated(language, body: str):

@@ -5,14 +5,12 @@ from __future__ import annotations
 from block_building import B, build
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import AddProcedure
+from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.from_python.updating import read_program
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.operations.copying import copy, from_text, to_text
-from nep_studio.blocks.operations.moving import create_and_drop
-from nep_studio.blocks.operations.parameters_out import reporter_of
-from nep_studio.blocks.operations.pasting import paste
-from nep_studio.blocks.operations.subjects import definition_of, subjects_of, uses_of
+from nep_studio.blocks.operations.copying import copy, from_text, paste, to_text
+from nep_studio.blocks.operations.finding import definition_of, subjects_of, uses_of
+from nep_studio.blocks.operations.moving import create_and_drop, reporter_of
 from nep_studio.blocks.places import InInput
 from nep_studio.blocks.program import Parameter, Procedure, Project
 

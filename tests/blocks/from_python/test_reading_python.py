@@ -8,14 +8,13 @@ import pytest
 from block_building import B, build, karate
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.files import load
-from nep_studio.blocks.from_python.made import CodeUnread
-from nep_studio.blocks.from_python.reading_programs import read_snippet
+from nep_studio.blocks.files import load, to_bytes
+from nep_studio.blocks.from_python.learning import CodeUnread
+from nep_studio.blocks.from_python.reading import read_snippet
 from nep_studio.blocks.from_python.updating import read_program, update_from_python
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.operations.pasting import paste
+from nep_studio.blocks.operations.copying import paste
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.writing import to_bytes
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "resources/examples").glob("*.nep"))
 
@@ -161,7 +160,7 @@ def test_what_cannot_be_read_is_told_with_its_line_and_changes_nothing(language,
         update_from_python(editor, text)
 
     assert told.value.line == line
-    assert f"Line {line}" in told.value.sentence
+    assert f"Line {line}" in str(told.value.sentence)
     assert to_bytes(editor.project) == before
 
 

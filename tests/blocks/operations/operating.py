@@ -6,9 +6,8 @@ from contextlib import contextmanager
 
 from block_building import B, build
 
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
 
 
 def say(text: str) -> B:

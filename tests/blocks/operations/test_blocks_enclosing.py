@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.blocks.operations.enclosing import enclose, why_not_enclose, without_hat
+from nep_studio.blocks.files import to_bytes
+from nep_studio.blocks.operations.moving import enclose, why_not_enclose, without_hat
 from nep_studio.blocks.operations.selection import Run, runs
-from nep_studio.blocks.writing import to_bytes
 from tests.blocks.block_building import B, build
 
 

@@ -10,9 +10,15 @@ from operating import one_step, rule, say, texts
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused, ProjectFileError
-from nep_studio.blocks.operations.copying import copy, from_text, to_text
-from nep_studio.blocks.operations.deleting import delete
-from nep_studio.blocks.operations.pasting import duplicate, paste, paste_at
+from nep_studio.blocks.operations.copying import (
+    copy,
+    delete,
+    duplicate,
+    from_text,
+    paste,
+    paste_at,
+    to_text,
+)
 from nep_studio.blocks.places import InStack
 from nep_studio.blocks.program import Project
 
@@ -113,7 +119,7 @@ def test_a_clipboard_with_something_else_is_told_clearly(language, text):
     with pytest.raises(ProjectFileError) as told:
         from_text(text, language)
 
-    assert "clipboard" in told.value.sentence
+    assert "clipboard" in str(told.value.sentence)
     assert told.value.checklist
 
 

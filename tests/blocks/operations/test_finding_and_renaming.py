@@ -13,17 +13,23 @@ from sound_programs import WAIT, kinds, sound
 from nep_studio.blocks import checks
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.checks.problem import Problem
-from nep_studio.blocks.edits import DeleteBlocks, MoveBlocks, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.blocks.operations.comparing import compare
-from nep_studio.blocks.operations.finding import find
+from nep_studio.blocks.files import from_bytes, to_bytes
+from nep_studio.blocks.operations.copying import python_of
+from nep_studio.blocks.operations.finding import (
+    Subject,
+    compare,
+    definition_of,
+    find,
+    rename_robot,
+    rename_variable,
+    subjects_of,
+    uses_of,
+)
 from nep_studio.blocks.operations.fixes import FIXES, apply_fix, label_of
-from nep_studio.blocks.operations.renaming import rename_robot, rename_variable
-from nep_studio.blocks.operations.subjects import Subject, definition_of, subjects_of, uses_of
-from nep_studio.blocks.operations.to_python import python_of
 from nep_studio.blocks.places import InStack
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
 
 
 def test_blocks_are_found_by_words_without_case_and_accents(language):

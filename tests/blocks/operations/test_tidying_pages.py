@@ -9,9 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from operating import one_step, say
 
-from nep_studio.blocks.operations.bump import bumped
-from nep_studio.blocks.operations.spacing import GAP, Box, pushed_apart
-from nep_studio.blocks.operations.tidy import apart, in_columns, tidy
+from nep_studio.blocks.operations.moving import bumped
+from nep_studio.blocks.operations.tidy import GAP, Box, apart, in_columns, pushed_apart, tidy
 
 BOXES = st.lists(
     st.builds(Box, *[st.integers(-300, 300)] * 2, *[st.integers(1, 300)] * 2), max_size=25

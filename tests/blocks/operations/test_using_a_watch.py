@@ -10,8 +10,8 @@ from operating import one_step
 
 from nep_studio.blocks.deployment import NODE_BLOCK, node_entries
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.loading import load_language
-from nep_studio.blocks.operations.sensing import WATCH, free_watch_name, use_watch
+from nep_studio.blocks.operations.fixes import WATCH, free_watch_name, use_watch
+from nep_studio.run.installation import load_language
 
 RESOURCES = Path(__file__).resolve().parents[3] / "resources"
 NODES = ("perceptual/gesture", "sensory/smartwatch", "sensory/virtual_watch", "sensory/replay")

@@ -7,16 +7,20 @@ from block_building import B, build
 from operating import one_step, rule, say, texts
 
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.blocks.operations.flags import set_collapsed, set_comment, set_disabled, toggle
-from nep_studio.blocks.operations.moving import create_and_drop
-from nep_studio.blocks.operations.parameters_out import reporter_of
-from nep_studio.blocks.operations.reordering import (
+from nep_studio.blocks.operations.moving import create_and_drop, reporter_of
+from nep_studio.blocks.operations.wrapping import (
     add_part,
     move_part,
     remove_part,
+    set_collapsed,
+    set_comment,
+    set_disabled,
+    toggle,
+    unwrap,
     why_not_remove_part,
+    why_not_wrap,
+    wrap,
 )
-from nep_studio.blocks.operations.wrapping import unwrap, why_not_wrap, wrap
 from nep_studio.blocks.places import InInput
 
 

@@ -11,8 +11,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InInput, InStack
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.sentence import parse, slots_of
-from nep_studio.blocks.typing_in.creating import create, fitting
-from nep_studio.blocks.typing_in.suggesting import suggestions
+from nep_studio.blocks.typing_in.suggesting import create, fitting, suggestions
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ import pytest
 from block_building import B, add, build
 
 from nep_studio.blocks.typing_in.suggesting import suggestions
-from nep_studio.blocks.typing_in.unspaced import spaced
-from nep_studio.studio_language import studio_language
+from nep_studio.blocks.typing_in.vocabulary import spaced
+from nep_studio.run.installation import studio_language
 
 
 @pytest.fixture(scope="module")

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import pytest
 
 from nep_core.cli import main
-from nep_core.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
-from nep_core.node import Node
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.node import Node
+from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
 
 PAUSE_S = 0.01
 

@@ -11,11 +11,11 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from nep_core.broker import Broker
-from nep_core.cli import checks_of_network as network
-from nep_core.cli import checks_of_system as system
-from nep_core.endpoints import MASTER_VARIABLE
-from nep_core.master import Master
+from nep_core.cli import doctor as network
+from nep_core.cli import doctor as system
+from nep_core.networks.broker import Broker
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.master import Master
 from nep_core.places import NODES_VARIABLE
 from tests.nep_core.cli.conftest import Call
 
@@ -183,8 +183,8 @@ def test_a_full_disk_is_told() -> None:
 
 
 def test_a_robot_that_does_not_answer_is_told(taken_port: int, free_port: int) -> None:
-    assert network.robot("127.0.0.1", taken_port).state == "ok"
-    assert network.robot("127.0.0.1", free_port).state == "look"
+    assert network.check_robot("127.0.0.1", taken_port).state == "ok"
+    assert network.check_robot("127.0.0.1", free_port).state == "look"
 
 
 def test_the_service_of_another_network_is_looked_for(

@@ -15,13 +15,13 @@ import pytest
 
 from nep_core.cli import COMMANDS, explain, overview, parser_of
 from nep_core.cli.lessons import LESSONS
-from nep_core.endpoints import BROKER_VARIABLE, MASTER_VARIABLE
 from nep_core.errors import NepError
-from nep_core.messages import HUMAN_BEHAVIOR
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.endpoints import BROKER_VARIABLE, MASTER_VARIABLE
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.places import NODES_VARIABLE
-from nep_core.pubsub import Subscriber
 from nep_core.recordings.recorder import Recorder
+from nep_core.wire.messages import HUMAN_BEHAVIOR
+from nep_core.wire.pubsub import Subscriber
 from tests.conftest import PROJECT
 from tests.nep_core.cli.conftest import Call, nep, until
 from tests.nep_core.node_making import write_node

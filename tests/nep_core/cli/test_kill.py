@@ -13,16 +13,16 @@ from pathlib import Path
 import pytest
 
 from nep_core.cli.kill import process_of
-from nep_core.master import Master
-from nep_core.master_probe import ask_master
-from nep_core.p2p import PeerNetwork
-from nep_core.recordings.player import overview
-from nep_core.registry import Registration
+from nep_core.networks.master import Master
+from nep_core.networks.master_messages import ask_master
+from nep_core.networks.registry import Registration
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.recordings.file import overview
 from tests.nep_core.cli.conftest import Call, nep
 
 DEAF = """
 import sys, time
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.recordings.player import overview
 network = PeerNetwork("deaf")
 network.join()

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.p2p import PeerNetwork
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.places import NODES_VARIABLE
 from tests.nep_core.cli.conftest import Call
 from tests.nep_core.node_making import write_node
@@ -51,7 +51,7 @@ def test_launch_shows_how_a_node_is_doing_and_how_it_ended(
     exit_code: int,
     told: str,
 ) -> None:
-    monkeypatch.setattr("nep_core.launched.MOST_RESTARTS", 0)
+    monkeypatch.setattr("nep_core.processes.launcher.MOST_RESTARTS", 0)
     monkeypatch.setenv(NODES_VARIABLE, str(tmp_path))
     states = 'node.state("connecting", "to the lamp")\nnode.ready("")\nnode.wait(0.2)'
     write_node(tmp_path, "lamp", f"{states}\n{code}")

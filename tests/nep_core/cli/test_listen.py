@@ -8,13 +8,13 @@ from collections.abc import Callable
 import msgspec
 import pytest
 
-from nep_core.cli.arguments import seconds
+from nep_core.cli.console import seconds
 from nep_core.cli.listen import Pace
-from nep_core.frames import Encoding
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.recordings.raw import RawMessage
+from nep_core.wire.frames import Encoding
+from nep_core.wire.pubsub import Publisher
 from tests.nep_core.cli.conftest import Answer, Call
 
 

@@ -9,10 +9,10 @@ import msgspec
 import pytest
 
 from nep_core.cli.graph import dot_lines, text_lines
-from nep_core.node import Node
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
-from nep_core.topics import TopicEnds
+from nep_core.networks.transports import TopicEnds
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.node import Node
+from nep_core.wire.pubsub import Subscriber
 from tests.nep_core.cli.conftest import Call
 
 

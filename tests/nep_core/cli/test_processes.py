@@ -13,11 +13,12 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
-from nep_core.recordings.player import Player, overview
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.recordings.file import overview
+from nep_core.recordings.player import Player
 from nep_core.recordings.recorder import Recorder
+from nep_core.wire.pubsub import Publisher
 from tests.nep_core.cli.conftest import nep, until
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals")

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 import zmq
 
-from nep_core.frames import Encoding, join
+from nep_core.networks.zmq_networks import DirectNetwork
 from nep_core.recordings.raw import RawSubscriber, SteadyClock
-from nep_core.zmq_network import DirectNetwork
+from nep_core.wire.frames import Encoding, join
 from tests.nep_core.cli.conftest import until
 
 START = b"/x\0"

@@ -19,14 +19,13 @@ from hypothesis import strategies as some
 from mcap.reader import make_reader
 
 from nep_core.errors import RecordingError
-from nep_core.messages import BY_TOPIC, HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
-from nep_core.recordings.file import Recording
-from nep_core.recordings.format import plain_schema
-from nep_core.recordings.player import Player, overview, read_recording
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.recordings.file import Recording, overview, plain_schema, read_recording
+from nep_core.recordings.player import Player
 from nep_core.recordings.raw import RawMessage, RawSubscriber
 from nep_core.recordings.recorder import Recorder
+from nep_core.wire.messages import BY_TOPIC, HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior
+from nep_core.wire.pubsub import Publisher
 from tests.nep_core.cli.conftest import until
 
 Join = Callable[[str], PeerNetwork]
@@ -246,7 +245,7 @@ def long_recording(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """A whole recording of 300 messages in many chunks."""
     from mcap.writer import Writer
 
-    from nep_core.recordings.format import channel_of
+    from nep_core.recordings.file import channel_of
 
     path = tmp_path_factory.mktemp("long") / "long.mcap"
     with path.open("wb") as file:

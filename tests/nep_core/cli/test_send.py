@@ -7,9 +7,9 @@ import time
 
 import pytest
 
-from nep_core.messages import HUMAN_BEHAVIOR, HumanBehavior
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.wire.pubsub import Subscriber
 from tests.nep_core.cli.conftest import Call
 
 

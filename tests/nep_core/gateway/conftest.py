@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from nep_core.gateway import Gateway, Ports
-from nep_core.master import Master
+from nep_core.networks.gateway.gateway import Gateway, Ports
+from nep_core.networks.master import Master
 from tests.nep_core.gateway.raw_programs import RawPrograms, free_ports
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import zmq
 
-from nep_core.gateway import Ports
+from nep_core.networks.gateway.gateway import Ports
 
 WAIT_MS = 10_000
 

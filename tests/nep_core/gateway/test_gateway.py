@@ -14,11 +14,12 @@ import pytest
 import zmq
 
 from nep_core.errors import PortTaken
-from nep_core.gateway import Gateway, Ports, lines
-from nep_core.master import Master
-from nep_core.master_probe import ask_master
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.gateway import lines
+from nep_core.networks.gateway.gateway import Gateway, Ports
+from nep_core.networks.master import Master
+from nep_core.networks.master_messages import ask_master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.gateway.raw_programs import RawPrograms, free_ports, is_free, until
 
 Join = Callable[[str], PeerNetwork]

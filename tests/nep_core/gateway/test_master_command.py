@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.gateway import Ports
+from nep_core.networks.gateway.gateway import Ports
 from tests.nep_core.gateway.own_network import own_network
 from tests.nep_core.gateway.raw_programs import RawPrograms, is_free
 

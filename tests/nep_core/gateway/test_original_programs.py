@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from nep_core.gateway import Gateway
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.gateway.gateway import Gateway
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.gateway.originals import (
     OriginalProgram,
     javascript_package,

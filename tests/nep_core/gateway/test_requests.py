@@ -10,7 +10,7 @@ import zmq
 from hypothesis import example, given
 from hypothesis import strategies as some
 
-from nep_core.gateway import Gateway
+from nep_core.networks.gateway.gateway import Gateway
 from tests.nep_core.gateway.raw_programs import RawPrograms, free_ports
 
 JSON = some.recursive(

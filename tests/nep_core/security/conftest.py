@@ -12,12 +12,12 @@ import msgspec
 import pytest
 import zmq
 
-from nep_core.endpoints import MASTER_VARIABLE
-from nep_core.master import Master
-from nep_core.p2p import PeerNetwork
-from nep_core.security import KEYS_VARIABLE
-from nep_core.security.addresses import HOST_VARIABLE
-from nep_core.security.keys import KeyFile, Keys, new_keys
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.master import Master
+from nep_core.networks.security import KEYS_VARIABLE
+from nep_core.networks.security.addresses import HOST_VARIABLE
+from nep_core.networks.security.keys import KeyFile, Keys, new_keys
+from nep_core.networks.zmq_networks import PeerNetwork
 
 
 def wait_until(condition: Callable[[], object], seconds: float = 5.0) -> bool:

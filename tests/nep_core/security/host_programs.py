@@ -4,8 +4,8 @@ import json
 import sys
 
 from nep_core.cli import main
-from nep_core.messages import NODE_STATE, NodeState
-from nep_core.node import Node
+from nep_core.processes.node import Node
+from nep_core.wire.messages import NODE_STATE, NodeState
 
 
 def watch() -> None:

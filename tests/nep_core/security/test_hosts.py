@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.security.keys import KeyFile, Keys
+from nep_core.networks.security.keys import KeyFile, Keys
 from tests.nep_core.security.conftest import keys_of_a_guest
 from tests.nep_core.security.hosts import Host, are_apart, three_hosts
 

@@ -5,17 +5,16 @@ from pathlib import Path
 
 import pytest
 
-from nep_core import discovery
 from nep_core.cli import main
 from nep_core.cli.pair import _address_and_code, _door_at
-from nep_core.discovery import Announcement, Found, announce, find
 from nep_core.errors import KeyFileError, NetworkError, PairingError
-from nep_core.master import Master
-from nep_core.security import addresses
-from nep_core.security.door import DoorEvent
-from nep_core.security.joining import pair
-from nep_core.security.keys import KeyFile, new_keys
-from nep_core.security.opening import Opening
+from nep_core.networks import discovery
+from nep_core.networks.discovery import Announcement, Found, announce, find
+from nep_core.networks.master import Master
+from nep_core.networks.security import addresses
+from nep_core.networks.security.keys import KeyFile, new_keys
+from nep_core.networks.security.opening import Opening
+from nep_core.networks.security.pairing import DoorEvent, pair
 
 HOST = "127.0.0.1"
 

@@ -6,8 +6,8 @@ import numpy as np
 from nao_skeleton import NAO
 from numpy.typing import NDArray
 
-from nodes.action.naobody.body import Angles, load_body
-from nodes.action.naobody.skeleton import Skeleton
+from robots.body.body import Angles, load_body
+from robots.body.kinematics import Skeleton
 
 BODY = load_body(NAO)
 SKELETON = Skeleton(BODY)

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from nep_core.messages import ActionRequest, ActionResult
-from nodes.action.naobody.actor import FINAL, Actor
-from nodes.action.naobody.animations import load_animations
-from nodes.action.naobody.body import Angles, load_body
-from nodes.action.naobody.body_language import load_gesture_words
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.virtual import VirtualDriver
+from nep_core.wire.messages import ActionRequest, ActionResult
+from robots.body.actor import FINAL, Actor
+from robots.body.animations import load_animations
+from robots.body.body import Angles, load_body
+from robots.body.pose import VirtualRobot
+from robots.body.speech import load_gesture_words
+from robots.body.virtual import VirtualDriver
 
 NAO = Path(__file__).resolve().parents[3] / "resources" / "robots" / "nao"
 BODY = load_body(NAO)

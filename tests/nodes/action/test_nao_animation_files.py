@@ -8,8 +8,8 @@ import pytest
 from nao_stage import BODY
 
 from nep_core.errors import NodeStartError
-from nodes.action.naobody.animations import load_animation
-from nodes.action.naobody.keyframes import Track
+from robots.body.animations import load_animation
+from robots.body.keyframes import Track
 
 KEYS = """
 title = "Wave"
@@ -81,4 +81,4 @@ def test_a_wrong_file_is_told_by_name_and_place(
     with pytest.raises(NodeStartError) as told:
         load_animation(path, BODY)
 
-    assert "mine.toml" in told.value.sentence and place in told.value.sentence
+    assert "mine.toml" in str(told.value.sentence) and place in str(told.value.sentence)

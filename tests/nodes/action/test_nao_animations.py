@@ -10,11 +10,11 @@ from nao_capsules import ALLOWED_M, balance_m, depths
 from nao_skeleton import NAO, point
 from nao_stage import ANIMATIONS, BODY, Stage
 
-from nodes.action.naobody.animations import NO_GESTURE, Animation, load_animation
-from nodes.action.naobody.body import Angles
-from nodes.action.naobody.body_language import CONTEXTUAL, RANDOM
-from nodes.action.naobody.limbs import Limb
-from nodes.action.naobody.motion import TICK_S, keyframe_motion
+from robots.body.animations import NO_GESTURE, Animation, load_animation
+from robots.body.body import Angles
+from robots.body.limbs import Limb
+from robots.body.motion import TICK_S, keyframe_motion
+from robots.body.speech import CONTEXTUAL, RANDOM
 
 WAVE = (NAO / "animations" / "wave.toml").read_text()
 

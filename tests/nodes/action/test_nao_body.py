@@ -8,9 +8,8 @@ from nao_skeleton import frames, point
 from nao_stage import BODY
 
 from nep_core.errors import ActionFailed, NodeStartError
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.limbs import MOVING, Limb
-from nodes.action.naobody.postures import posture_name, posture_path
+from robots.body.body import load_body, posture_name, posture_path
+from robots.body.limbs import MOVING, Limb
 
 
 def test_it_has_the_26_joints_of_nao_with_their_limits() -> None:

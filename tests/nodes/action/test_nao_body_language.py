@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from nao_stage import ANIMATIONS, NAO, Stage
 
 from nep_core.errors import NodeStartError
-from nodes.action.naobody.animations import NO_GESTURE
-from nodes.action.naobody.body_language import load_gesture_words, spoken_parts
+from robots.body.animations import NO_GESTURE
+from robots.body.speech import load_gesture_words, spoken_parts
 
 WORDS = load_gesture_words(NAO)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from nao_stage import BODY, Stage
 
-from nodes.action.naobody import leds
+from robots.body import body
 
 
 def sensors(stage: Stage) -> dict[str, float]:
@@ -115,15 +115,15 @@ def test_colours_go_round_the_eyes_lamp_by_lamp() -> None:
     second = dict(stage.robot.leds)
     stage.finish()
 
-    lamps = leds.LAMPS["LeftFaceLeds"]
+    lamps = body.LAMPS["LeftFaceLeds"]
     assert {first[lamp] for lamp in lamps} == {0x00FF00, 0xFFFF00, 0xFF0000}
     assert [first[lamp] for lamp in lamps] != [second[lamp] for lamp in lamps]
-    assert stage.robot.leds == leds.AT_START
+    assert stage.robot.leds == body.AT_START
 
 
-@pytest.mark.parametrize("group", [*leds.GROUPS, "Brain7", "LeftEarLed10", "FaceLedRight0"])
+@pytest.mark.parametrize("group", [*body.GROUPS, "Brain7", "LeftEarLed10", "FaceLedRight0"])
 def test_every_group_and_lamp_can_be_lit(group: str) -> None:
     stage = Stage()
 
     assert stage.do("leds", group=group, colour="#123456", seconds=0.2).state == "done"
-    assert all(leds.shining(stage.robot.leds, light) == 0x123456 for light in leds.lights(group))
+    assert all(body.shining(stage.robot.leds, light) == 0x123456 for light in body.lights(group))

@@ -14,10 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from nao_stage import Stage
 
-from nep_core.messages import Thing
-from nodes.action.naobody import camera_tasks
-from nodes.action.naobody.camera_view import SIZE, Picture, picture
-from nodes.action.naobody.picture_files import frames_in, safe_name, write_picture
+from nep_core.wire.messages import Thing
+from robots.body import sense_tasks
+from robots.body.camera import SIZE, Picture, frames_in, picture, safe_name, write_picture
 
 BALL = Thing(id="b", kind="ball", place=(0.7, 0.0, 0.3), size=(0.12, 0.12, 0.12))
 WALL = Thing(id="w", kind="wall", place=(0.5, 0.0, 0.0), heading=math.pi, size=(2.0, 0.1, 2.0))
@@ -35,7 +34,7 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def at_leisure(monkeypatch: pytest.MonkeyPatch) -> None:
     """The robot has time for every frame, however fast the test lets it live."""
-    monkeypatch.setattr(camera_tasks, "RESTING", 0.0)
+    monkeypatch.setattr(sense_tasks, "RESTING", 0.0)
 
 
 def stage_with(*things: Thing) -> Stage:

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from nao_stage import Stage
 
-from nep_core.messages import SenseRequest, Thing
-from nodes.action.naobody.sound_files import length_s
+from nep_core.wire.messages import SenseRequest, Thing
+from robots.body.sense_tasks import length_s
 
 NOBODY = [Thing(id="b", kind="ball", place=(5.0, 0.0, 0.0), size=(0.1, 0.1, 0.1))]
 

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from nao_stage import BODY, TICK_S, Stage
 
-from nodes.action.naobody.gait import GRAVITY_M_S2, Walk, plan_walk
-from nodes.action.naobody.resting import hull, inside_by
-from nodes.action.naobody.skeleton import Skeleton, turned
+from robots.body.gait import GRAVITY_M_S2, Walk, plan_walk
+from robots.body.kinematics import Skeleton, turned
+from robots.body.settling import hull, inside_by
 
 STANDING = BODY.posture_angles("StandInit")
 SKELETON = Skeleton(BODY)

@@ -6,12 +6,12 @@ import math
 
 import pytest
 
-from nep_core.messages import SenseRequest
-from nodes.action.naobody.animations import load_animations
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.virtual import VirtualDriver
+from nep_core.wire.messages import SenseRequest
 from nodes.resources import resource_folder
+from robots.body.animations import load_animations
+from robots.body.body import load_body
+from robots.body.pose import VirtualRobot
+from robots.body.virtual import VirtualDriver
 
 
 @pytest.fixture

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from nao_stage import Stage
 
-from nodes.action.naobody.animations import Animation, Animations
-from nodes.action.naobody.keyframes import Keyframes, Track
-from nodes.action.naobody.limbs import Limb
+from robots.body.animations import Animation, Animations
+from robots.body.keyframes import Keyframes, Track
+from robots.body.limbs import Limb
 
 NAN = math.nan
 HANDLES = [[NAN] * 4]

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.inverse import Goal, Reach, mirrored_pose, turn_between
-from nodes.action.naobody.skeleton import Skeleton, rotation
 from nodes.resources import resource_folder
+from robots.body.body import load_body
+from robots.body.inverse import Goal, Reach, mirrored_pose, turn_between
+from robots.body.kinematics import Skeleton, rotation
 
 BODY = load_body(resource_folder() / "robots" / "nao")
 REACH = Reach(Skeleton(BODY))

@@ -6,10 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from nao_stage import BODY
 
-from nodes.action.naobody.body import Angles
-from nodes.action.naobody.curves import track_angles
-from nodes.action.naobody.keyframes import Keyframes, Track
-from nodes.action.naobody.motion import TICK_S, Motion, braking, keyframe_motion, move
+from robots.body.body import Angles
+from robots.body.keyframes import Keyframes, Track, track_angles
+from robots.body.motion import TICK_S, Motion, braking, keyframe_motion, move
 
 ALL = range(26)
 postures = st.sampled_from(sorted(BODY.postures))

@@ -14,8 +14,10 @@ from typing import Any
 import pytest
 
 from nep_core.errors import ActionFailed
-from nep_core.manifest import read_manifest
-from nep_core.messages import (
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.manifest import read_manifest
+from nep_core.program.robot import Robot
+from nep_core.wire.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
     ROBOT_STATE,
@@ -23,9 +25,7 @@ from nep_core.messages import (
     ActionResult,
     RobotState,
 )
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.robot import Robot
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.node_running import NODES, NodeRunner, until
 
 MANIFEST = NODES / "action" / "nao.toml"

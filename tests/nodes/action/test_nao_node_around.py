@@ -8,7 +8,9 @@ from collections.abc import Iterator
 import pytest
 
 from nep_core.errors import ActionFailed
-from nep_core.messages import (
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program.robot import Robot
+from nep_core.wire.messages import (
     HUMAN_BEHAVIOR,
     ROBOT_STATE,
     SURROUNDINGS,
@@ -17,9 +19,7 @@ from nep_core.messages import (
     Surroundings,
     Thing,
 )
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
-from nep_core.robot import Robot
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.node_running import NodeRunner, until
 
 ANNA = Thing(

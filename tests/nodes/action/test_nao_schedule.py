@@ -3,9 +3,9 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.action.naobody.actions import Turn
-from nodes.action.naobody.limbs import Limb
-from nodes.action.naobody.schedule import Command, Schedule
+from robots.body.actions import Turn
+from robots.body.limbs import Limb
+from robots.body.schedule import Command, Schedule
 
 NOTHING = Turn(0.0)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from nao_stage import Stage
 
-from nep_core.messages import RobotState, SenseRequest
+from nep_core.wire.messages import RobotState, SenseRequest
 
 
 def sense(stage: Stage, what: str, value: float = 1.0, **more: object) -> list[str]:

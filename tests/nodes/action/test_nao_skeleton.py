@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from nao_stage import BODY
 
-from nodes.action.naobody.resting import hull, inside_by, nearest_in_hull, settled, tilt_for
-from nodes.action.naobody.skeleton import Skeleton, rotation
+from robots.body.kinematics import Skeleton, rotation
+from robots.body.settling import hull, inside_by, nearest_in_hull, settled, tilt_for
 
 SKELETON = Skeleton(BODY)
 ANGLES = st.builds(

@@ -5,9 +5,9 @@ import pytest
 from nao_stage import ANIMATIONS, BODY, Stage
 
 from nep_core.errors import ActionFailed
-from nodes.action.naobody import leds
-from nodes.action.naobody.limbs import Limb
-from nodes.action.naobody.speech import speaking_time_s
+from robots.body import body
+from robots.body.limbs import Limb
+from robots.body.speech import speaking_time_s
 
 
 def test_speaking_takes_about_a_second_for_14_characters() -> None:
@@ -82,7 +82,7 @@ def test_lights_fade_from_one_colour_to_another() -> None:
 
     assert f"{half:06x}" == "804000"
     assert stage.robot.leds["RightFaceLeds"] == 0xFF8000
-    assert stage.robot.leds["ChestLeds"] == leds.OFF
+    assert stage.robot.leds["ChestLeds"] == body.OFF
 
 
 def test_all_lights_are_every_light() -> None:
@@ -96,7 +96,7 @@ def test_all_lights_are_every_light() -> None:
 @pytest.mark.parametrize("colour", ["red", "#12", "#gggggg", "#1234567", ""])
 def test_text_that_is_no_colour_is_refused(colour: str) -> None:
     with pytest.raises(ActionFailed, match="Write one like #ff8000"):
-        leds.colour_number(colour)
+        body.colour_number(colour)
 
 
 def test_an_unknown_group_is_answered_with_those_there_are() -> None:

@@ -14,19 +14,18 @@ import numpy as np
 import pytest
 
 from nep_core.errors import NodeStartError
-from nep_core.messages import ROBOT_STATE, ActionRequest, ActionResult, RobotState, Thing
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Subscriber
-from nep_core.robot import Robot
-from nodes.action.naobody.actor import FINAL, Actor
-from nodes.action.naobody.animations import NO_GESTURE, load_animations
-from nodes.action.naobody.body import Body, load_body
-from nodes.action.naobody.body_language import CONTEXTUAL, RANDOM
-from nodes.action.naobody.models import model_of, robot_folder
-from nodes.action.naobody.motion import keyframe_motion
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.virtual import VirtualDriver
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.program.robot import Robot
+from nep_core.wire.messages import ROBOT_STATE, ActionRequest, ActionResult, RobotState, Thing
+from nep_core.wire.pubsub import Subscriber
 from nodes.resources import resource_folder
+from robots.body.actor import FINAL, Actor
+from robots.body.animations import NO_GESTURE, load_animations
+from robots.body.body import Body, load_body, model_of, robot_folder
+from robots.body.motion import keyframe_motion
+from robots.body.pose import VirtualRobot
+from robots.body.speech import CONTEXTUAL, RANDOM
+from robots.body.virtual import VirtualDriver
 from tests.node_running import NodeRunner, until
 
 ROBOTS = resource_folder() / "robots"
@@ -165,7 +164,7 @@ def test_an_unknown_model_is_told_with_those_that_there_are() -> None:
     with pytest.raises(NodeStartError, match='no robot model "zora"') as told:
         robot_folder("zora")
 
-    assert "nao, pepper" in told.value.checklist[0]
+    assert "nao, pepper" in str(told.value.checklist[0])
 
 
 def test_a_model_is_named_by_its_folder(tmp_path: Path) -> None:

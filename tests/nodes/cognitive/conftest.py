@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from program_following import Followed
 
-from nep_core import tasks
-from nodes.cognitive.tracing.settrace import SettraceWatch
+from nep_core.program import tasks
 from nodes.cognitive.tracing.tracer import WatchMaker
+from nodes.cognitive.tracing.watches import SettraceWatch
 
 Follow = Callable[[str], Followed]
 
@@ -30,7 +30,7 @@ def make_watch(request: pytest.FixtureRequest) -> WatchMaker:
         return SettraceWatch
     if sys.version_info < (3, 12):
         pytest.skip("sys.monitoring begins with Python 3.12")
-    from nodes.cognitive.tracing.monitoring import MonitoringWatch
+    from nodes.cognitive.tracing.watches import MonitoringWatch
 
     return MonitoringWatch
 

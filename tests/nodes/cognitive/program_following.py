@@ -9,8 +9,8 @@ from pathlib import Path
 from textwrap import dedent
 from typing import Any
 
-from nep_core.messages import ProgramControl, ProgramState
-from nep_core.tasks import PROGRAM, Cancelled
+from nep_core.program.tasks import PROGRAM, Cancelled
+from nep_core.wire.messages import ProgramControl, ProgramState
 from nodes.cognitive.tracing.tracer import Tracer, WatchMaker
 
 WAIT_S = 20.0

@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 from program_following import WAIT_S, Heard
 
-from nep_core.launcher import LaunchedNode, Launcher
-from nep_core.messages import (
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.launcher import LaunchedNode, Launcher
+from nep_core.wire.messages import (
     ACTION_REQUEST,
     ACTION_RESULT,
     HUMAN_BEHAVIOR,
@@ -24,8 +25,7 @@ from nep_core.messages import (
     ProgramControl,
     ProgramState,
 )
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.wire.pubsub import Publisher, Subscriber
 
 RULES = """
     from nep_core import Behavior, wait
@@ -160,7 +160,7 @@ def test_a_failure_tells_its_line_and_a_checklist(studio: Studio, trace: bool) -
     assert (failed.line, failed.description) == (2, sentence)
     assert launched.ended.wait(WAIT_S)
     assert launched.outcome is not None
-    assert launched.outcome.checklist[0] == "Check the number: the first item is number 1."
+    assert str(launched.outcome.checklist[0]) == "Check the number: the first item is number 1."
 
 
 @pytest.mark.parametrize("command", ["pause", "step", "resume", "set"])

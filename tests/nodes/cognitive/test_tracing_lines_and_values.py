@@ -8,15 +8,15 @@ from collections.abc import Callable
 import pytest
 from program_following import Followed
 
-from nep_core import tasks
-from nep_core.tasks import PROGRAM
+from nep_core.program import tasks
+from nep_core.program.tasks import PROGRAM
 
 Follow = Callable[[str], Followed]
 
 
 def test_the_lines_of_own_functions_are_told_the_outermost_first(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import wait
+        from nep_core.program.tasks import wait
 
         def inner():
             wait(600)
@@ -34,7 +34,7 @@ def test_the_lines_of_own_functions_are_told_the_outermost_first(follow: Follow)
 
 def test_of_very_many_calls_the_first_and_the_last_are_told(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import wait
+        from nep_core.program.tasks import wait
 
         def deeper(n):
             if n:
@@ -61,7 +61,7 @@ def test_a_program_that_ends_before_anybody_looks_tells_its_values(follow: Follo
 
 
 def test_an_end_is_told_after_every_line(follow: Follow) -> None:
-    program = follow("from nep_core.tasks import wait\nwait(600)")
+    program = follow("from nep_core.program.tasks import wait\nwait(600)")
 
     heard = program.start()
     heard.lines(lambda lines: lines == {"program": [2]})
@@ -71,7 +71,7 @@ def test_an_end_is_told_after_every_line(follow: Follow) -> None:
 
 
 def test_nothing_is_told_twice(follow: Follow) -> None:
-    program = follow("from nep_core.tasks import wait\nx = 1\nwait(600)")
+    program = follow("from nep_core.program.tasks import wait\nx = 1\nwait(600)")
     heard = program.start()
     heard.lines(lambda lines: lines == {"program": [3]})
     heard.value("x", "1")
@@ -85,7 +85,7 @@ def test_nothing_is_told_twice(follow: Follow) -> None:
 
 def test_the_parts_of_a_program_have_names_of_their_own(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import together, wait
+        from nep_core.program.tasks import together, wait
 
         def one():
             together(leaf, leaf)
@@ -141,7 +141,7 @@ def test_a_quick_loop_is_told_30_times_a_second_at_most(follow: Follow) -> None:
 
 def test_only_values_that_have_changed_are_told(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import wait
+        from nep_core.program.tasks import wait
         kept = "same"
         words = ["a"]
         x = 1
@@ -161,7 +161,7 @@ def test_only_values_that_have_changed_are_told(follow: Follow) -> None:
 
 def test_no_code_of_the_program_is_run_to_show_a_value(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import wait
+        from nep_core.program.tasks import wait
 
         class Sly(int):
             def __repr__(self):
@@ -186,8 +186,8 @@ def test_no_code_of_the_program_is_run_to_show_a_value(follow: Follow) -> None:
 
 def test_what_a_call_gives_is_told_with_its_place(follow: Follow) -> None:
     program = follow("""
-        from nep_core.colours import mix_colours
-        from nep_core.tasks import wait, wait_until
+        from nep_core.program.robot import mix_colours
+        from nep_core.program.tasks import wait, wait_until
         colour = "is " + mix_colours("#ff0000", "#ff0000")
         wait_until(lambda: mix_colours("#000000", "#000000"))
         wait(600)
@@ -215,7 +215,7 @@ def test_an_error_keeps_its_line_and_its_kind(follow: Follow) -> None:
 
 def test_generators_go_in_and_out_of_their_lines(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import wait
+        from nep_core.program.tasks import wait
 
         def numbers():
             yield 1

@@ -144,7 +144,7 @@ def test_where_rules_are_the_program_what_makes_them_is_no_step(follow: Follow) 
 
 def test_a_step_of_one_thread_leaves_the_others_paused(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import together
+        from nep_core.program.tasks import together
 
         def one():
             a = 1
@@ -174,7 +174,7 @@ def test_a_step_of_one_thread_leaves_the_others_paused(follow: Follow) -> None:
 
 def test_a_thread_that_is_in_a_long_wait_pauses_at_its_next_line(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import wait_until
+        from nep_core.program.tasks import wait_until
         gate = []
         wait_until(lambda: gate)
         x = 1
@@ -246,7 +246,7 @@ def test_slow_motion_can_be_paused(follow: Follow) -> None:
 
 def test_a_program_may_end_by_an_error_while_one_of_its_parts_is_paused(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import together, wait_until
+        from nep_core.program.tasks import together, wait_until
         gate = []
 
         def failing():
@@ -270,7 +270,7 @@ def test_a_program_may_end_by_an_error_while_one_of_its_parts_is_paused(follow: 
 
 def test_a_condition_is_a_piece_of_its_line_and_is_never_held(follow: Follow) -> None:
     program = follow("""
-        from nep_core.tasks import wait_until
+        from nep_core.program.tasks import wait_until
         looks = []
         wait_until(lambda: looks.append(1) or len(looks) > 3)
         x = 1

@@ -7,7 +7,7 @@ import ast
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.cognitive.tracing.values import LONGEST, ProgramValues, shown
+from nodes.cognitive.tracing.state import LONGEST, ProgramValues, shown
 
 PLAIN = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(),

@@ -7,7 +7,7 @@ import pytest
 from nodes.perceptual.recognition.model import Model
 from nodes.perceptual.recognition.training import train
 from nodes.recordings import Recording
-from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
 GESTURES = ("hand_up", "karate")
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.model_file import read_model, write_model
+from nodes.perceptual.recognition.model import read_model, write_model
 from tests.nodes.perceptual.changed_models import rewritten
 
 SENSOR = {"device": "watch", "rate_hz": 50.0, "gravity": True, "gyroscope": True}
@@ -68,7 +68,7 @@ def test_any_flipped_byte_is_noticed_or_harmless(file):
         try:
             read_model(file)
         except RecordingError as error:
-            assert "mine.gestures" in error.sentence
+            assert "mine.gestures" in str(error.sentence)
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,9 @@ import sys
 import pytest
 
 from nodes.perceptual.recognition.command import main
-from nodes.perceptual.recognition.model_file import read_model
+from nodes.perceptual.recognition.model import read_model
 from nodes.recordings import write_recording
-from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
 
 @pytest.fixture(scope="module")

@@ -8,13 +8,12 @@ from functools import partial
 import numpy as np
 import pytest
 
-from nep_core.messages import Imu
-from nodes.perceptual.recognition.ear import SensorEar
-from nodes.perceptual.recognition.matching import match
-from nodes.perceptual.recognition.passages import takes_of
+from nep_core.wire.messages import Imu
+from nodes.perceptual.recognition.sensor_input import SensorEar
 from nodes.perceptual.recognition.spotting import Spotter
+from nodes.perceptual.recognition.streams import mirrored, takes_of
 from nodes.perceptual.recognition.training import train
-from nodes.perceptual.recognition.wrist import mirrored
+from nodes.perceptual.recognition.validation import match
 from nodes.recordings import read_recordings
 
 TURNED = np.array([-1.0, -1.0, 1.0])

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from nodes.perceptual.recognition.features import feature_count
-from nodes.perceptual.recognition.model_file import write_model
+from nodes.perceptual.recognition.model import write_model
 
 PAGE = (Path(__file__).parents[3] / "docs" / "gesture_models.md").read_text(encoding="utf-8")
 ASKED = """

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from nep_core.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
-from nep_core.pubsub import Publisher, Subscriber
-from nodes.perceptual.recognition.model_file import write_model
-from nodes.perceptual.recognition.passages import takes_of
+from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
+from nep_core.wire.pubsub import Publisher, Subscriber
+from nodes.perceptual.recognition.model import write_model
+from nodes.perceptual.recognition.streams import takes_of
 from tests.node_running import WAIT_S, NodeRunner, until
 
 

@@ -6,10 +6,15 @@ import numpy as np
 import pytest
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.features import Channels
-from nodes.perceptual.recognition.features_1 import describe_1, feature_count_1
-from nodes.perceptual.recognition.model import TRIGGER, Sensor, with_triggers
-from nodes.perceptual.recognition.model_file import model_bytes, read_model, write_model
+from nodes.perceptual.recognition.features import Channels, describe_1, feature_count_1
+from nodes.perceptual.recognition.model import (
+    TRIGGER,
+    Sensor,
+    model_bytes,
+    read_model,
+    with_triggers,
+    write_model,
+)
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.training import train
 from tests.nodes.perceptual.changed_models import rewritten

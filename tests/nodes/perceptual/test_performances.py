@@ -7,10 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nodes.perceptual.recognition.performances import PerformanceFinder, find_performances
-from nodes.perceptual.recognition.segments import Movement
+from nodes.perceptual.recognition.segments import Movement, PerformanceFinder, find_performances
 from nodes.recordings import read_recording
-from nodes.sensory.arm.simulate import perform
+from nodes.sensory.arm.people import perform
 from tests.nodes.perceptual.test_segments import marked, overlap, signal
 
 RATE_HZ = 50.0

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nodes.perceptual.recognition.everyday import simulated_everyday
-from nodes.perceptual.recognition.matching import Tally, match
-from nodes.perceptual.recognition.passages import takes_of
+from nodes.perceptual.recognition.dataset import simulated_everyday
 from nodes.perceptual.recognition.spotting import Spotter
+from nodes.perceptual.recognition.streams import takes_of
 from nodes.perceptual.recognition.training import train
+from nodes.perceptual.recognition.validation import Tally, match
 from nodes.recordings import read_recordings
 
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.matching import match
-from nodes.perceptual.recognition.passages import takes_of
 from nodes.perceptual.recognition.spotting import Spotter
-from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+from nodes.perceptual.recognition.streams import takes_of
+from nodes.perceptual.recognition.validation import match
+from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
 
 def spotted(model, recording, *, gyroscope=True, **wishes):
@@ -105,7 +105,7 @@ def test_a_sensor_without_gravity_is_refused_by_a_model_that_needs_it(model, str
 def test_a_gesture_or_method_that_the_model_lacks_is_refused_by_name(model):
     with pytest.raises(RecordingError, match='does not know "karaty"') as told:
         Spotter(model, gestures=["karaty"])
-    assert "hand_up, karate" in told.value.checklist[0]
+    assert "hand_up, karate" in str(told.value.checklist[0])
 
     only_trees = replace(model, recognisers=model.recognisers[:1])
     with pytest.raises(RecordingError, match='cannot recognise by "gmr"'):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.perceptual.recognition.stream import MAX_GAP_S, EvenStream, Memory
+from nodes.perceptual.recognition.streams import MAX_GAP_S, EvenStream, Memory
 
 ramps = st.lists(st.floats(0.001, MAX_GAP_S * 0.99), min_size=2, max_size=60)
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.material import learn, read_material
-from nodes.perceptual.recognition.wrist import mirrored
+from nodes.perceptual.recognition.dataset import learn, read_material
+from nodes.perceptual.recognition.streams import mirrored
 from nodes.recordings import write_recording
-from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
 
 @pytest.fixture(scope="module")

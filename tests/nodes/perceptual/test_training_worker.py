@@ -10,9 +10,9 @@ import psutil
 import pytest
 
 from nodes.perceptual.recognition import worker
-from nodes.perceptual.recognition.model_file import read_model
+from nodes.perceptual.recognition.model import read_model
 from nodes.recordings import write_recording
-from nodes.sensory.arm.simulate import simulate_everyday, simulate_session
+from nodes.sensory.arm.people import simulate_everyday, simulate_session
 from tests.node_running import WAIT_S
 
 

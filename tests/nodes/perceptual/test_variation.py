@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from nodes.perceptual.recognition.examples import varied
 from nodes.perceptual.recognition.features import POINTS, Channels, signals_of
-from nodes.perceptual.recognition.variation import varied
 
 CHANCE = np.random.default_rng(0)
 RAW = CHANCE.normal(size=(40, POINTS, 6)) * 4

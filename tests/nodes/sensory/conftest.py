@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from nep_core.messages import IMU, Imu, NodeState
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher, Subscriber
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import IMU, Imu, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.node_running import NodeRunner, until
 
 

@@ -4,8 +4,8 @@ import contextlib
 
 import pytest
 
+from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.phone_page.server import PhonePage
-from nodes.sensory.ways.way import Settings
 from tests.nodes.sensory.page_client import (
     TOKEN,
     finish,

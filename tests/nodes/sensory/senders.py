@@ -2,7 +2,7 @@
 
 ``python -m tests.nodes.sensory.senders sensor_logger http://127.0.0.1:8000/data recording.csv``
 plays one from a process of its own. Sources of the formats: nodes/sensory/lines.py and
-nodes/sensory/ways/*_format.py.
+nodes/sensory/connectors/.
 """
 
 from __future__ import annotations

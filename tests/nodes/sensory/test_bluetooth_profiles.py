@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import dev
 from nep_core.errors import NodeStartError
-from nodes.sensory.bluetooth import profile as rooms
-from nodes.sensory.bluetooth.profile import Decoder, profiles, read_profile
+from nodes.sensory.connectors import bluetooth as rooms
+from nodes.sensory.connectors.bluetooth import Decoder, profiles, read_profile
 
 G = 9.80665
 ROOT = Path(dev.__file__).parent

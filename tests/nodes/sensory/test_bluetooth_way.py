@@ -9,10 +9,9 @@ import time
 import pytest
 
 from nep_core.errors import NodeStartError
-from nodes.sensory.bluetooth import way as bluetooth_way
-from nodes.sensory.bluetooth.profile import profiles
-from nodes.sensory.bluetooth.way import BluetoothWay
-from nodes.sensory.ways.way import Settings
+from nodes.sensory.connectors import bluetooth as bluetooth_way
+from nodes.sensory.connectors.bluetooth import BluetoothWay, profiles
+from nodes.sensory.connectors.connector import Settings
 from tests.nodes.sensory.chromium import wait_until
 
 needs_bus = pytest.mark.skipif(
@@ -145,7 +144,7 @@ def test_without_bleak_it_says_what_to_install(monkeypatch):
         way.open()
     way.close()
 
-    assert 'pip install "nep-studio[bluetooth]"' in told.value.checklist[0]
+    assert 'pip install "nep-studio[bluetooth]"' in str(told.value.checklist[0])
 
 
 def test_the_way_says_what_it_looks_for():

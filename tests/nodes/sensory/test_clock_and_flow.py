@@ -5,9 +5,8 @@ from itertools import pairwise
 
 import pytest
 
-from nodes.sensory.clock_fit import ClockFit
-from nodes.sensory.flow import Flow
-from nodes.sensory.thinning import Thinning
+from nodes.sensory.hearing import Thinning
+from nodes.sensory.sample_stream import ClockFit, Flow
 
 
 def arrivals(seconds, *, drift_ppm=0.0, rate_hz=50, delay_s=0.005):

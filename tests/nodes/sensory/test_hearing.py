@@ -4,9 +4,9 @@ from itertools import pairwise
 
 import pytest
 
+from nodes.sensory.connectors.connector import Arrived
 from nodes.sensory.hearing import Hearing
 from nodes.sensory.reading import Reading
-from nodes.sensory.ways.way import Arrived
 
 ACC, GYR = (0.0, 0.0, 9.81), (0.1, 0.2, 0.3)
 

@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nep_core.errors import ParameterError
-from nodes.sensory.line_columns import named_columns
-from nodes.sensory.line_reader import LineReader, own_columns
+from nodes.sensory.line_reader import LineReader, named_columns, own_columns
 
 G = 9.80665
 RATE_HZ = 50

@@ -7,9 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.sensory.phone_page.batch import MOST_SAMPLES, read_message, readings_of
-from nodes.sensory.phone_page.receiving import Receiving
-from nodes.sensory.phone_page.turn import Allowance, Turn
+from nodes.sensory.phone_page.receiving import (
+    MOST_SAMPLES,
+    Allowance,
+    Receiving,
+    Turn,
+    read_message,
+    readings_of,
+)
 
 GOOD = {"id": "a1", "t": [1.0], "acc": [[0.0, 1.0, 9.81]]}
 

@@ -10,10 +10,9 @@ import aiohttp
 import pytest
 
 from nep_core.errors import PortTaken
+from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.phone_page import server, site
-from nodes.sensory.phone_page.server import PhonePage
-from nodes.sensory.phone_page.way import PhonePageWay
-from nodes.sensory.ways.way import Settings
+from nodes.sensory.phone_page.server import PhonePage, PhonePageWay
 from tests.nodes.sensory.page_client import (
     TOKEN,
     ask,

@@ -11,9 +11,9 @@ from types import SimpleNamespace
 import pytest
 from cryptography import x509
 
-from nodes.sensory import addresses
-from nodes.sensory.phone_page import certificate
-from nodes.sensory.phone_page.certificate import own_certificate
+from nodes.sensory.connectors import addresses
+from nodes.sensory.phone_page import server
+from nodes.sensory.phone_page.server import own_certificate
 
 
 def content(made):
@@ -69,9 +69,9 @@ def test_a_new_address_makes_a_new_one_that_is_good_for_the_old_address_too(tmp_
 
 
 def test_one_that_ends_soon_is_made_anew(tmp_path, monkeypatch):
-    monkeypatch.setattr(certificate, "VALID_DAYS", 10)
+    monkeypatch.setattr(server, "VALID_DAYS", 10)
     first = own_certificate([], tmp_path).spki_sha256
-    monkeypatch.setattr(certificate, "VALID_DAYS", 397)
+    monkeypatch.setattr(server, "VALID_DAYS", 397)
 
     second = own_certificate([], tmp_path).spki_sha256
 

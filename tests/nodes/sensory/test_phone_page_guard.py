@@ -2,9 +2,8 @@
 
 import pytest
 
-from nodes.sensory.phone_page.guard import headers, is_our_host, is_our_origin
 from nodes.sensory.phone_page.server import page_urls
-from nodes.sensory.phone_page.token import is_token, new_token
+from nodes.sensory.phone_page.site import headers, is_our_host, is_our_origin, is_token, new_token
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from nodes.resources import resource_folder
-from nodes.sensory.phone_page.page_files import NAMES, TYPES, page_files
+from nodes.sensory.phone_page.site import NAMES, TYPES, page_files
 
 FOLDER = resource_folder() / "phone_page"
 FILES = page_files()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from nodes.recordings import read_recording, write_recording
-from nodes.sensory.arm.simulate import perform
+from nodes.sensory.arm.people import perform
 
 
 @pytest.fixture

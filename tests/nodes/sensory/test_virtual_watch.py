@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from nep_core.messages import GESTURE_REQUEST, GestureRequest
+from nep_core.wire.messages import GESTURE_REQUEST, GestureRequest
 from nodes.recordings import write_recording
-from nodes.sensory.arm.simulate import simulate_session
+from nodes.sensory.arm.people import simulate_session
 
 
 def test_it_sends_small_batches_in_real_time_and_says_that_it_is_simulated(listener):

@@ -8,13 +8,13 @@ import time
 
 import pytest
 
+from nodes.sensory.connectors import lines
+from nodes.sensory.connectors.sensor_logger import read_message
+from nodes.sensory.connectors.servers import Background
 from nodes.sensory.line_reader import LineReader
-from nodes.sensory.phone_page.batch import read_message as read_batch
+from nodes.sensory.phone_page.receiving import read_message as read_batch
 from nodes.sensory.reading import Reading
 from nodes.sensory.sample_stream import SampleStream
-from nodes.sensory.ways import tcp
-from nodes.sensory.ways.background import Background
-from nodes.sensory.ways.sensor_logger_format import read_message
 from tests.nodes.sensory.senders import TcpSender
 from tests.nodes.sensory.way_hearing import free_port, opened, turned
 
@@ -46,7 +46,7 @@ def test_an_address_that_no_host_can_have_is_told(address):
 
 
 def test_silent_connections_make_room_for_a_device_that_sends(monkeypatch):
-    monkeypatch.setattr(tcp, "_GONE_S", 0.0)
+    monkeypatch.setattr(lines, "_GONE_S", 0.0)
     with opened("tcp") as heard:
         gone = [socket.create_connection(("127.0.0.1", heard.port)) for _ in range(16)]
         heard.until(lambda: len(heard.arrivals) >= 16)

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_core.errors import PortTaken
-from nodes.sensory.ways import WAYS
-from nodes.sensory.ways.tcp import Client
-from nodes.sensory.ways.way import Settings
+from nodes.sensory.connectors import WAYS
+from nodes.sensory.connectors.connector import Settings
+from nodes.sensory.connectors.lines import Client
 from tests.nodes.sensory.senders import (
     TcpSender,
     UdpSender,
@@ -77,7 +77,7 @@ def test_a_taken_port_is_told_with_what_to_do():
             other.open()
         other.close()
 
-    assert f"TCP port {heard.port} cannot be opened" in told.value.sentence
+    assert f"TCP port {heard.port} cannot be opened" in str(told.value.sentence)
     assert told.value.checklist
 
 

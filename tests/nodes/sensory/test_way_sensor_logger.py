@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.sensory.ways.sensor_logger_format import read_message, readings_of
+from nodes.sensory.connectors.sensor_logger import read_message, readings_of
 from tests.nodes.sensory.senders import SensorLogger, resting
 from tests.nodes.sensory.way_hearing import assert_same, opened, turned
 

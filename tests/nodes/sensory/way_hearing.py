@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from nodes.recordings import Recording
-from nodes.sensory.ways import WAYS
-from nodes.sensory.ways.way import Arrived, Settings, Way
+from nodes.sensory.connectors import WAYS
+from nodes.sensory.connectors.connector import Arrived, Settings, Way
 
 WAIT_S = 8.0
 G = 9.80665

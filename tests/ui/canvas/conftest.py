@@ -13,11 +13,11 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.loading import load_language
-from nep_studio.blocks.writing import to_bytes
+from nep_studio.run.installation import load_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 
 RESOURCES = Path(__file__).resolve().parents[3] / "resources"

@@ -7,11 +7,12 @@ from PySide6.QtCore import QPoint
 from PySide6.QtGui import QAccessible
 
 from nep_studio.blocks.checks.problem import Problem
-from nep_studio.blocks.edits import DeleteBlocks, SetComment, SetFlag
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.accessibility.installing import interface_of, make_accessible
-from nep_studio.ui.canvas.scrolling import ScrollingView
-from nep_studio.ui.theme import load_theme
+from nep_studio.blocks.edits.content import SetComment, SetFlag
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.accessibility import interface_of, make_accessible
+from nep_studio.ui.canvas.view import ScrollingView
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 
 NAME, DESCRIPTION = QAccessible.Text.Name, QAccessible.Text.Description

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtCore import QPointF
 
-from nep_studio.ui.canvas.camera import LARGEST, SMALLEST, Camera
+from nep_studio.ui.canvas.layout.index import LARGEST, SMALLEST, Camera
 
 pixels = st.floats(0, 2000)
 scales = st.floats(SMALLEST, LARGEST)

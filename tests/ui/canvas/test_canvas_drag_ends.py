@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.edits import SetField
-from nep_studio.ui.canvas.gestures.drag_blocks import DragBlocks
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.ui.canvas.editing.drag_blocks import DragBlocks
 from tests.blocks.block_building import B
 
 FREE = QPointF(620, 480)

@@ -10,12 +10,12 @@ from PySide6.QtGui import QInputMethodEvent, QKeyEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
 
-from nep_studio.blocks.edits import AddNote
+from nep_studio.blocks.edits.content import AddNote
 from nep_studio.blocks.program import Note
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.canvas.note_editing import edit_note
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.canvas.editing.notes import edit_note
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 
 SPACE = Qt.Key.Key_Space

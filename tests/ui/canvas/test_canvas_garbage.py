@@ -15,8 +15,8 @@ from itertools import product
 from PySide6.QtGui import QAccessible, QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.accessibility.installing import make_accessible
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.accessibility import make_accessible
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme import load_theme
 from tests.blocks.block_building import B, build

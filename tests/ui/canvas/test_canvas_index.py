@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.ui.canvas.index import GridIndex, Rect
+from nep_studio.ui.canvas.layout.index import GridIndex, Rect
 
 places = st.floats(-5000, 5000, allow_nan=False)
 sizes = st.floats(0, 3000, allow_nan=False)

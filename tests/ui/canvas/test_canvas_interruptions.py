@@ -9,9 +9,10 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialog
 
-from nep_studio.blocks.edits import DeleteBlocks, SetField
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.theme import load_theme
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 
 CONTROL = Qt.KeyboardModifier.ControlModifier

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import QPoint, Qt
 
+from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.text import sentence
-from nep_studio.blocks.writing import to_bytes
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 
 Key, Modifier = Qt.Key, Qt.KeyboardModifier

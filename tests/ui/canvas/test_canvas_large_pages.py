@@ -7,8 +7,8 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from nep_studio.ui.canvas import page as page_module
-from nep_studio.ui.canvas import stacks as stacks_module
+from nep_studio.ui.canvas.layout import page as page_module
+from nep_studio.ui.canvas.layout import page as stacks_module
 from tests.blocks.block_building import B
 
 CONTROL = Qt.KeyboardModifier.ControlModifier

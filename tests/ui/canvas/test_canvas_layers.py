@@ -10,12 +10,14 @@ from PySide6.QtCore import QPointF
 from PySide6.QtGui import QImage
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import DeleteBlocks, MoveStack, SetField, SetFlag
+from nep_studio.blocks.edits.content import SetField, SetFlag
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.edits.project import MoveStack
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.scrolling import ScrollingView
-from nep_studio.ui.canvas.sprite import make_sprite
-from nep_studio.ui.theme import load_theme
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.painting.layers import make_sprite
+from nep_studio.ui.canvas.view import ScrollingView
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 
 

@@ -6,15 +6,15 @@ from collections.abc import Iterator
 
 import pytest
 
-from nep_studio.blocks.edits import DeleteBlocks, MoveBlocks, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InBody, InStack
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.boxes import Box, Chain
-from nep_studio.ui.canvas.index import Rect
-from nep_studio.ui.canvas.layout import Gap
-from nep_studio.ui.canvas.measures import Measures
-from nep_studio.ui.canvas.page import PageLayout, boxes_of
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.layout.boxes import Box, Chain, Measures
+from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.canvas.layout.layout import Gap
+from nep_studio.ui.canvas.layout.page import PageLayout, boxes_of
 from tests.blocks.block_building import B, build
 
 LINE = 18.0

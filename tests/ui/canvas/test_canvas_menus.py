@@ -8,7 +8,7 @@ from PySide6.QtGui import QAction, QContextMenuEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 
-from nep_studio.ui.canvas.menu_entries import MenuEntry
+from nep_studio.ui.canvas.editing.menu import MenuEntry
 from tests.blocks.block_building import B
 
 EMPTY = QPoint(700, 500)

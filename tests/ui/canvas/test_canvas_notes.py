@@ -8,11 +8,12 @@ from PySide6.QtTest import QTest
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.canvas.note_editing import NoteEditor
-from nep_studio.ui.canvas.notes import NEW_HEIGHT, NEW_WIDTH
-from nep_studio.ui.theme import load_theme, text_font
+from nep_studio.ui.canvas.editing.notes import NoteEditor
+from nep_studio.ui.canvas.painting.notes import NEW_HEIGHT, NEW_WIDTH
+from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.theme.look import text_font
 
 PLAIN = Qt.KeyboardModifier.NoModifier
 LEFT = Qt.MouseButton.LeftButton

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import QPointF, Qt
 
-from nep_studio.blocks.edits import SetField
-from nep_studio.blocks.operations.reordering import add_part
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.operations.wrapping import add_part
 from nep_studio.blocks.places import InBody, InInput
 from tests.blocks.block_building import B
 

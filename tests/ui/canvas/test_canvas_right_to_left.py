@@ -6,7 +6,8 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.edits import AddNote, MoveStack
+from nep_studio.blocks.edits.content import AddNote
+from nep_studio.blocks.edits.project import MoveStack
 from nep_studio.blocks.program import Note
 from tests.blocks.block_building import B
 

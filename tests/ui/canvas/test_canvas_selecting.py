@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
 from nep_studio.blocks.checks.problem import Problem
-from nep_studio.ui.canvas.overlay import badge_rect
+from nep_studio.ui.canvas.painting.overlay import badge_rect
 from tests.blocks.block_building import B
 
 CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier

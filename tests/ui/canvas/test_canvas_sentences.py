@@ -10,16 +10,14 @@ from hypothesis import strategies as st
 from PySide6.QtWidgets import QApplication
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import AddGroup, SetField
+from nep_studio.blocks.edits.content import AddGroup, SetField
 from nep_studio.blocks.program import Parameter, Project
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.boxes import Box, Piece
-from nep_studio.ui.canvas.index import Rect
-from nep_studio.ui.canvas.measures import Measures
-from nep_studio.ui.canvas.page import PageLayout, boxes_of
-from nep_studio.ui.canvas.rows import flow
-from nep_studio.ui.canvas.texts import TextWidths
-from nep_studio.ui.theme import text_font
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, TextWidths
+from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.canvas.layout.page import PageLayout, boxes_of
+from nep_studio.ui.canvas.layout.pieces import flow
+from nep_studio.ui.theme.look import text_font
 from nep_studio.ui.words import PSEUDO, use_language
 from tests.blocks.block_building import B, build
 

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPointF
 
 from nep_studio.blocks.places import InInput
-from nep_studio.ui.canvas.page import PageLayout
-from nep_studio.ui.canvas.snapping import (
+from nep_studio.ui.canvas.editing.snapping import (
     PREFERENCE_PX,
     RADIUS_PX,
     Ends,
@@ -19,6 +18,7 @@ from nep_studio.ui.canvas.snapping import (
     search,
     slots,
 )
+from nep_studio.ui.canvas.layout.page import PageLayout
 from tests.blocks.block_building import B
 from tests.ui.canvas.test_canvas_snapping import (
     PAGES,

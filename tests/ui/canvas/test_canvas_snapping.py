@@ -11,11 +11,8 @@ from hypothesis import strategies as st
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.selection import Run
 from nep_studio.blocks.places import InBody, InInput, InStack
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.layout import Gap
-from nep_studio.ui.canvas.measures import Measures
-from nep_studio.ui.canvas.page import PageLayout, boxes_of
-from nep_studio.ui.canvas.snapping import (
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.editing.snapping import (
     PREFERENCE_PX,
     RADIUS_PX,
     Ends,
@@ -25,6 +22,9 @@ from nep_studio.ui.canvas.snapping import (
     slots,
     targets,
 )
+from nep_studio.ui.canvas.layout.boxes import Measures
+from nep_studio.ui.canvas.layout.layout import Gap
+from nep_studio.ui.canvas.layout.page import PageLayout, boxes_of
 from tests.blocks.block_building import B, build
 from tests.ui.canvas.test_canvas_layout import EVERYWHERE
 

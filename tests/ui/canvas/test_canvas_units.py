@@ -8,8 +8,8 @@ import pytest
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.slot_looks import shown_text, unit_of
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.layout.slot_style import shown_text, unit_of
 from nep_studio.ui.words import available_languages, use_language
 
 

@@ -16,11 +16,11 @@ from PySide6.QtWidgets import QApplication, QLabel, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.program import Block, Project
-from nep_studio.blocks.writing import to_bytes
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.palette.palette import Palette
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.workbench.palette.palette import Palette
 from tests.blocks.block_building import B, build
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton

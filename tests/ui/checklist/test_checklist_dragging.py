@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import QPoint
 
-from nep_studio.ui.canvas.snapping import PREFERENCE_PX, RADIUS_PX
+from nep_studio.ui.canvas.editing.snapping import PREFERENCE_PX, RADIUS_PX
 from tests.blocks.block_building import B
 from tests.ui.checklist.person import ALT, CTRL, Fingers, Key, Person, is_dragging, say_block, story
 

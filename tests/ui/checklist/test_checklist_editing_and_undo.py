@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 
-from nep_studio.ui.canvas.menu_entries import MenuEntry
+from nep_studio.ui.canvas.editing.menu import MenuEntry
 from tests.blocks.block_building import B
 from tests.ui.checklist.person import CTRL, LEFT, SHIFT, Key, Person, say, story
 

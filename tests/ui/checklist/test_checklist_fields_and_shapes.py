@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import QPoint
 from PySide6.QtWidgets import QListWidget
 
-from nep_studio.blocks.values import FieldValue
+from nep_studio.blocks.slots import FieldValue
 from tests.blocks.block_building import B
 from tests.ui.canvas.fields.kinds_language import kinds_language
 from tests.ui.checklist.person import ALT, CTRL, Key, Person, say, say_block

@@ -7,7 +7,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
 
-from nep_studio.ui.canvas.accessibility.installing import interface_of
+from nep_studio.ui.canvas.accessibility import interface_of
 from tests.blocks.block_building import B
 from tests.ui.checklist.person import (
     CTRL,

@@ -9,9 +9,9 @@ import pytest
 from PySide6.QtCore import QPoint
 from PySide6.QtWidgets import QApplication
 
-from nep_studio.blocks.edits import MoveStack
+from nep_studio.blocks.edits.project import MoveStack
 from nep_studio.blocks.files import load, save
-from nep_studio.ui.canvas.block_painter import BlockPainter
+from nep_studio.ui.canvas.painting.painter import BlockPainter
 from tests.blocks.block_building import B
 from tests.ui.checklist.person import Key, PaintedPixels, Person, say, story
 

@@ -10,10 +10,10 @@ from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from nep_core.messages import PROGRAM_STATE, ProgramState
+from nep_core.wire.messages import PROGRAM_STATE, ProgramState
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.ui.canvas.overlay import badge_rect
-from nep_studio.ui.theme import load_theme, themes
+from nep_studio.ui.canvas.painting.overlay import badge_rect
+from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.words import PSEUDO, available_languages
 from tests.blocks.block_building import B
 from tests.ui.checklist.person import CTRL, LEFT, Key, PaintedPixels, Person, say, story

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from nep_studio.ui.command_palette.palette import CommandPalette
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.command_palette import CommandPalette
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
 __all__ = ["answer", "chooser", "home", "karate", "palette", "studio", "window"]

@@ -9,9 +9,9 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from nep_studio.settings import Settings
-from nep_studio.ui.command_palette.commands import Command
-from nep_studio.ui.command_palette.palette import CommandPalette, add_command_palette
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.command_palette import CommandPalette, add_command_palette
+from nep_studio.ui.shell.commands import Command
+from nep_studio.ui.shell.main_window import MainWindow
 
 Key = Qt.Key
 CONTROL = Qt.KeyboardModifier.ControlModifier

@@ -6,8 +6,8 @@ from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QApplication, QLineEdit
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.command_palette.palette import CommandPalette
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.command_palette import CommandPalette
+from nep_studio.ui.shell.main_window import MainWindow
 
 
 def test_it_closes_when_the_field_from_which_it_was_opened_is_gone(

@@ -6,9 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.ui.command_palette.commands import Command
-from nep_studio.ui.command_palette.matching import match
-from nep_studio.ui.command_palette.ranking import ranked
+from nep_studio.ui.shell.commands import Command, match, ranked
 
 WORDS = [
     "Save",

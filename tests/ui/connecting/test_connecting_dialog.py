@@ -13,12 +13,12 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 from zeroconf import ServiceInfo, Zeroconf
 
-from nep_studio.ui.connecting.dialog import ConnectDialog
-from nep_studio.ui.connecting.found_list import ADDRESS
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.theme import Look, themes
-from nodes.action.naoqi.discovery import SERVICE
-from nodes.action.naoqi.logins import FOLDER_VARIABLE, SavedLogin, saved_login
+from nep_studio.ui.plugins.connecting.dialog import ConnectDialog
+from nep_studio.ui.plugins.connecting.search import ADDRESS
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.theme.colours import themes
+from nep_studio.ui.theme.look import Look
+from robots.naoqi.discovery import FOLDER_VARIABLE, SERVICE, SavedLogin, saved_login
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "nodes" / "action" / "naoqi"))

@@ -11,9 +11,8 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.exporting.actions import add_exporting
-from nep_studio.ui.exporting.python import save_python
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.plugins.exporting import add_exporting, save_python
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]

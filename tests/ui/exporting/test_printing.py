@@ -18,20 +18,20 @@ from nep_studio import paths
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.files import load
 from nep_studio.blocks.program import Project
-from nep_studio.ui.app import Studio
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.exporting.actions import add_exporting
-from nep_studio.ui.exporting.cutting import cut
-from nep_studio.ui.exporting.paper import (
+from nep_studio.ui.plugins.exporting import add_exporting
+from nep_studio.ui.plugins.exporting.paper import (
     SMALLEST_SCALE,
     USUAL_SCALE,
     BlocksSheet,
     CodeSheet,
     block_sheets,
     code_sheets,
+    cut,
 )
-from nep_studio.ui.exporting.print_dialog import ProgramPrintDialog
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.plugins.exporting.print_dialog import ProgramPrintDialog
+from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]

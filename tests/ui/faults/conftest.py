@@ -12,12 +12,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.own_master import MASTER
-from nep_studio.ui.main_window import MainWindow
+from nep_core.wire import messages as m
+from nep_studio.run.local_network import MASTER
 from nep_studio.ui.messages import Message
-from nep_studio.ui.panels.nodes.adding import add_nodes_panel
-from nep_studio.ui.panels.nodes.panel import NodesPanel
+from nep_studio.ui.plugins.nodes import add_nodes_panel
+from nep_studio.ui.plugins.nodes.panel import NodesPanel
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
 pytest.importorskip("resource", reason="signals and limits of processes are those of Unix")

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from nep_studio import settings
-from nep_studio.blocks.edits import RenameProject
+from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.files import load
-from nep_studio.journal import recover
+from nep_studio.project.journal import recover
 from tests.ui.faults.conftest import Scene
 
 FIRST = "Show me a karate chop!"
@@ -69,7 +69,7 @@ def test_work_is_kept_again_when_a_full_disk_has_room(
     scene.until(lambda: "Save often" in scene.shown)
 
     [alarm] = scene.alarms
-    assert "Is there room on the disk?" in alarm.checklist
+    assert "Is there room on the disk?" in tuple(map(str, alarm.checklist))
     filler.unlink()
     scene.until(lambda: "Save often" not in scene.shown)
     document, scene.window.files.document = scene.window.files.document, None
@@ -107,7 +107,7 @@ def test_without_room_for_the_program_it_does_not_run_without_room_for_logs_it_d
         no_room.setattr(tempfile, "tempdir", str(full))
         stage.press("run")
         stage.until(lambda: title in stage.shown)
-    assert "Is there room on the disk?" in stage.alarms[0].checklist
+    assert "Is there room on the disk?" in tuple(map(str, stage.alarms[0].checklist))
     stage.state_is("idle")
 
     stage.press_answer(title, "Run again")

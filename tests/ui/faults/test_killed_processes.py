@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from tests.ui.faults.conftest import Scene
 
 FIRST, ANSWER = "Show me a karate chop!", "Impressive!"
@@ -29,7 +29,7 @@ def test_nodes_killed_in_turn_are_each_told_once_and_the_program_goes_on(stage: 
     assert titles == [
         f"“{name}” ended unexpectedly and is started again" for name in ("NAO", "karate", "watch")
     ]
-    assert all("was killed" in one.sentence and one.checklist for one in stage.alarms)
+    assert all("was killed" in str(one.sentence) and one.checklist for one in stage.alarms)
     assert not set(titles) & set(stage.shown)
     assert sentence in stage.results("done")
     assert stage.said[:2] == [FIRST, ANSWER]

@@ -12,8 +12,8 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio import settings
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.recovery import RecoveryDialog
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.recovery import RecoveryDialog
 from tests.nep_core.node_making import write_node
 
 GONE_S = 20
@@ -24,9 +24,9 @@ import json, sys
 from PySide6.QtCore import QTimer
 from nep_studio import paths
 from nep_studio.blocks.edits import RenameProject
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.app import Studio, make_application
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.shell.main_window import MainWindow
 
 app = make_application()
 window = MainWindow(Studio(app))

@@ -12,8 +12,8 @@ from contextlib import closing, suppress
 import pytest
 from PySide6.QtCore import QTimer
 
-from nep_studio.blocks.edits import SetField
-from nep_studio.plan import PlannedNode
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.run.plan import PlannedNode
 from tests.ui.faults.conftest import Scene
 
 FIRST = "Show me a karate chop!"
@@ -77,7 +77,7 @@ def test_a_watch_that_is_switched_off_is_told_until_it_sends_again(
     stage.until(lambda: title in stage.shown)
 
     [alarm] = stage.alarms
-    assert "sent nothing" in alarm.sentence
+    assert "sent nothing" in str(alarm.sentence)
     assert alarm.checklist
     with closing(Watch(udp_port)):
         stage.until(lambda: title not in stage.shown)

@@ -11,13 +11,13 @@ from pytestqt.qtbot import QtBot
 from nep_studio import paths
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.app import Studio
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.help.book import Book
-from nep_studio.ui.help.desk import HelpDesk
-from nep_studio.ui.help.panel import HelpPanel
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.plugins.help.help_controller import HelpDesk
+from nep_studio.ui.plugins.help.panel import HelpPanel
+from nep_studio.ui.plugins.help.repository import Book
+from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import home, studio
 from tests.ui.window.putting_away import put_away
 

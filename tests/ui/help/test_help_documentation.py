@@ -10,8 +10,8 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.help.documentation import open_documentation
 from nep_studio.ui.messages import Messages
+from nep_studio.ui.plugins.help.help_controller import open_documentation
 from nep_studio.ui.words import use_language
 
 
@@ -31,7 +31,7 @@ class Browser(QObject):
 @pytest.fixture
 def pages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The first pages in English and German."""
-    monkeypatch.setattr("nep_studio.documentation.documentation_folder", lambda: tmp_path)
+    monkeypatch.setattr("nep_studio.paths.documentation_folder", lambda: tmp_path)
     (tmp_path / "de").mkdir()
     for page in (tmp_path / "index.html", tmp_path / "de" / "index.html"):
         page.touch()
@@ -75,5 +75,5 @@ def test_pages_that_are_not_there_are_told_with_what_to_do(
 
     [told] = [each.message for each in messages.history]
     assert told.title == "The documentation cannot be shown"
-    assert "docs/build_site.py" in told.checklist[0] and "F1" in told.checklist[-1]
+    assert "docs/build_site.py" in str(told.checklist[0]) and "F1" in str(told.checklist[-1])
     assert browser.opened == []

@@ -8,11 +8,11 @@ from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QDialog
 
 from nep_core.errors import RobotNotAnswering
-from nep_studio.ui.help.page_names import HOME
-from nep_studio.ui.help.places import page_of_action
-from nep_studio.ui.help_card import HelpCard
-from nep_studio.ui.messages_card import MessageCard
-from nep_studio.ui.settings_dialog import SettingsDialog
+from nep_studio.help.page_names import HOME
+from nep_studio.ui.message_cards import MessageCard
+from nep_studio.ui.plugins.help.help_controller import page_of_action
+from nep_studio.ui.shell.settings_dialog import SettingsDialog
+from nep_studio.ui.workbench.help_card import HelpCard
 from tests.ui.help.conftest import centre
 
 KEY, LEFT = Qt.Key, Qt.MouseButton.LeftButton
@@ -254,7 +254,7 @@ def test_every_action_of_the_window_has_a_page_or_is_found_by_its_words(karate, 
 
 
 def test_every_panel_of_the_window_has_a_page(karate, desk):
-    from nep_studio.ui.help.places import page_at
+    from nep_studio.ui.plugins.help.help_controller import page_at
 
     for panel in karate.workbench.panels.all:
         page = page_at(panel.widget)

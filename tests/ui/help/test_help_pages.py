@@ -8,16 +8,12 @@ import tomllib
 import pytest
 
 from nep_core.errors import NepError
-from nep_core.manifest import NodeCatalog, read_manifest
 from nep_core.places import node_folders
+from nep_core.processes.manifest import NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.help import markdown
-from nep_studio.help.texts import block_texts, category_texts, error_texts, page_texts
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.help.block_pages import EVERY_BLOCK
-from nep_studio.ui.help.book import Book
-from nep_studio.ui.help.page_names import (
+from nep_studio.help.page_names import (
     BLOCK,
     HOME,
     HOW_TO,
@@ -27,6 +23,10 @@ from nep_studio.ui.help.page_names import (
     error_anchor,
     split,
 )
+from nep_studio.help.texts import block_texts, category_texts, error_texts, page_texts
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.plugins.help.pages import EVERY_BLOCK
+from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.words import use_language
 
 LANGUAGE = studio_language()
@@ -169,7 +169,6 @@ def titles_of(error: type) -> set[str]:
 
 
 def test_every_message_has_its_place_among_what_can_go_wrong(book):
-    import nodes.action.naoqi.wire.errors
     import nodes.cognitive.failures  # noqa: F401  they define more errors
 
     titles = {t for kind in (NepError, BlocksError) for t in titles_of(kind)}

@@ -6,8 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from nep_studio.ui.help.panel import HelpPanel
-from nep_studio.ui.help.printing import print_page
+from nep_studio.ui.plugins.help.panel import HelpPanel, print_page
 from tests.ui.help.conftest import LANGUAGE
 
 KEY, LEFT = Qt.Key, Qt.MouseButton.LeftButton

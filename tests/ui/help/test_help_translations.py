@@ -10,17 +10,17 @@ from pathlib import Path
 import pytest
 
 from nep_studio.help import markdown
-from nep_studio.help.examples import examples
+from nep_studio.help.page_names import split
 from nep_studio.help.texts import (
     ENGLISH,
     block_texts,
     category_texts,
     error_texts,
+    examples,
     help_folder,
     node_texts,
     page_texts,
 )
-from nep_studio.ui.help.page_names import split
 from nep_studio.ui.words import use_language
 
 LANGUAGES = sorted(path.name for path in help_folder().iterdir() if path.is_dir())

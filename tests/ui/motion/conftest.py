@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.motion.adding import MotionKit, add_motion
-from nep_studio.ui.motion.window import MotionWindow
+from nep_studio.ui.plugins.motion import MotionKit, add_motion
+from nep_studio.ui.plugins.motion.window import MotionWindow
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.running.conftest import open_program
 from tests.ui.window.conftest import answer, chooser, home, studio, window
 

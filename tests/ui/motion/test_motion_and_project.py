@@ -10,16 +10,15 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from nep_studio.blocks.own_animations import OwnAnimation, own_animations
-from nep_studio.ui.canvas.menu_entries import MenuPlace
-from nep_studio.ui.canvas.page import Hit
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.messages_question import QuestionDialog
-from nep_studio.ui.motion import editing
-from nep_studio.ui.motion.adding import MotionKit
-from nep_studio.ui.motion.importing import ImportDialog
-from nep_studio.ui.motion.window import MotionWindow
+from nep_studio.ui.canvas.editing.menu import MenuPlace
+from nep_studio.ui.canvas.layout.page import Hit
+from nep_studio.ui.message_cards import QuestionDialog
+from nep_studio.ui.plugins.motion import MotionKit, editing
+from nep_studio.ui.plugins.motion.importing import ImportDialog
+from nep_studio.ui.plugins.motion.window import MotionWindow
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import WAIT_MS, block_of
 

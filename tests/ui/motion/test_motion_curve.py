@@ -8,9 +8,9 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.motion import editing
-from nep_studio.ui.motion.curve import CurveView
-from nep_studio.ui.motion.window import MotionWindow
+from nep_studio.ui.plugins.motion import editing
+from nep_studio.ui.plugins.motion.curve import CurveView
+from nep_studio.ui.plugins.motion.window import MotionWindow
 
 
 @pytest.fixture

@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
-from nep_studio.ui.motion import editing
-from nep_studio.ui.motion.desk import MotionDesk
-from nodes.action.naobody.body import load_body
+from nep_studio.ui.plugins.motion import editing
+from nep_studio.ui.plugins.motion.motion_controller import MotionDesk
 from nodes.resources import resource_folder
+from robots.body.body import load_body
 
 BODY = load_body(resource_folder() / "robots" / "nao")
 RIGHT_ARM = {"RShoulderPitch", "RShoulderRoll", "RElbowYaw", "RElbowRoll", "RWristYaw", "RHand"}

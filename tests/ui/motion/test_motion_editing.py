@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation, why_not_animation
-from nep_studio.ui.motion import editing
-from nep_studio.ui.motion.rehearsal import Rehearsal, given_time
-from nodes.action.naobody.body import Body, load_body
+from nep_studio.ui.plugins.motion import editing
+from nep_studio.ui.plugins.motion.rehearsal import Rehearsal, given_time
 from nodes.resources import resource_folder
+from robots.body.body import Body, load_body
 
 NODS = OwnAnimation(
     "Nods",

@@ -7,13 +7,13 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.own_animations import own_animations
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.messages_question import QuestionDialog
-from nep_studio.ui.motion import editing
-from nep_studio.ui.motion.stage import ROBOT
-from nep_studio.ui.motion.window import MotionWindow
+from nep_studio.ui.message_cards import QuestionDialog
+from nep_studio.ui.plugins.motion import editing
+from nep_studio.ui.plugins.motion.stage import ROBOT
+from nep_studio.ui.plugins.motion.window import MotionWindow
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import block_of, press, state_is
 

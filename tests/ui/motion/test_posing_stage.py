@@ -7,11 +7,11 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.own_animations import OwnAnimation
-from nep_studio.ui.app import Studio
-from nep_studio.ui.motion.desk import MotionDesk
-from nep_studio.ui.motion.stage import ROBOT, PosingStage
+from nep_studio.ui.plugins.motion.motion_controller import MotionDesk
+from nep_studio.ui.plugins.motion.stage import ROBOT, PosingStage
 from nep_studio.ui.robot_view.view import RobotView, nao_folder
-from nodes.action.naobody.body import load_body
+from nep_studio.ui.shell.app import Studio
+from robots.body.body import load_body
 from tests.ui.window.conftest import home, studio
 
 __all__ = ["home", "studio"]

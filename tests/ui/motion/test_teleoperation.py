@@ -13,13 +13,12 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
-from nep_core import messages as m
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.motion.adding import MotionKit
-from nep_studio.ui.motion.teleoperation.drive import STILL, Drive, sum_of
-from nep_studio.ui.motion.teleoperation.gamepad import Gamepad, Sticks
-from nep_studio.ui.motion.teleoperation.tilt import Tilt
-from nep_studio.ui.motion.teleoperation.window import TeleoperationWindow
+from nep_core.wire import messages as m
+from nep_studio.ui.plugins.motion import MotionKit
+from nep_studio.ui.plugins.motion.drive import STILL, Drive, Tilt, sum_of
+from nep_studio.ui.plugins.motion.gamepad import Gamepad, Sticks
+from nep_studio.ui.plugins.motion.teleoperation import TeleoperationWindow
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 
 EARTH = 9.81

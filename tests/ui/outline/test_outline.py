@@ -9,14 +9,14 @@ from PySide6.QtCore import QAbstractItemModel, QModelIndex, Qt
 from PySide6.QtTest import QAbstractItemModelTester
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import DeleteBlocks, MoveBlocks, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.places import InBody, InStack
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.outline.model import OutlineModel
-from nep_studio.ui.outline.view import Outline
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.workbench.outline import Outline, OutlineModel
 from tests.blocks.block_building import B, build
 
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
+from nep_studio.run.installation import studio_language
 from nep_studio.settings import Settings
-from nep_studio.studio_language import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.palette.palette import Palette
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.workbench.palette.palette import Palette
 from tests.blocks.block_building import B, build, karate
 
 LANGUAGE = studio_language()

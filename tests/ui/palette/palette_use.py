@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.ui.palette.palette import Palette
-from nep_studio.ui.palette.shelf import Shelf
+from nep_studio.ui.workbench.palette.palette import Palette
+from nep_studio.ui.workbench.palette.shelf import Shelf
 
 LEFT = Qt.MouseButton.LeftButton
 

@@ -6,9 +6,9 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.edits import SetFlag
-from nep_studio.blocks.operations.subjects import Subject
-from nep_studio.ui.find_bar import FindBar
+from nep_studio.blocks.edits.content import SetFlag
+from nep_studio.blocks.operations.finding import Subject
+from nep_studio.ui.workbench.find_bar import FindBar
 from tests.blocks.block_building import B, build
 
 KEY = Qt.Key

@@ -6,12 +6,12 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication
 
-from nep_studio.blocks.edits import AddProcedure
+from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.places import NewStack
 from nep_studio.blocks.procedures import CALL, DEFINE
 from nep_studio.blocks.program import Parameter, Procedure
-from nep_studio.ui.find_bar import FindBar
-from nep_studio.ui.help_card import BlockOpening, HelpCard
+from nep_studio.ui.workbench.find_bar import FindBar
+from nep_studio.ui.workbench.help_card import BlockOpening, HelpCard
 from tests.blocks.block_building import B, add
 
 KEY = Qt.Key

@@ -7,7 +7,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
 from nep_studio.blocks.places import InInput
-from nep_studio.ui.insert_bar import InsertBar, open_insert_bar
+from nep_studio.ui.workbench.insert_bar import InsertBar, open_insert_bar
 
 KEY = Qt.Key
 

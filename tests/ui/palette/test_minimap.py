@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.edits import MoveStack
-from nep_studio.ui.minimap import Minimap
+from nep_studio.blocks.edits.project import MoveStack
+from nep_studio.ui.workbench.minimap import Minimap
 
 LEFT = Qt.MouseButton.LeftButton
 

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.edits import RenameVariable
+from nep_studio.blocks.edits.project import RenameVariable
 from tests.ui.palette.palette_use import (
     LEFT,
     click,

@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible
 
-from nep_studio.ui.palette.tips import tip
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.workbench.palette.entries import tip
 from tests.ui.palette.palette_use import (
     LEFT,
     click,

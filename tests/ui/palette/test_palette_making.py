@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 
 from nep_studio.blocks.procedures import title
-from nep_studio.ui.palette.palette import Palette
+from nep_studio.ui.workbench.palette.palette import Palette
 
 LEFT = Qt.MouseButton.LeftButton
 

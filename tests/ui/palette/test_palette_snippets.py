@@ -12,9 +12,9 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import load
 from nep_studio.blocks.program import Project
-from nep_studio.ui.canvas.context_menu import menu_for
-from nep_studio.ui.palette.palette import Palette
-from nep_studio.ui.snippets import Snippets, read_snippet, write_out
+from nep_studio.ui.canvas.editing.menu import menu_for
+from nep_studio.ui.workbench.palette.palette import Palette
+from nep_studio.ui.workbench.snippets import Snippets, read_snippet, write_out
 
 LEFT = Qt.MouseButton.LeftButton
 

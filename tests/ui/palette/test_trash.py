@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.ui.trash_panel import TrashButton
+from nep_studio.ui.workbench.trash import TrashButton
 
 LEFT = Qt.MouseButton.LeftButton
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.network.panel import NetworkPanel
-from nep_studio.ui.panels.nodes.panel import NodesPanel
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.network.panel import NetworkPanel
+from nep_studio.ui.plugins.nodes.panel import NodesPanel
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
@@ -38,8 +38,8 @@ class Bench:
 
 
 def find_panel(window: MainWindow, kind: type):
-    from nep_studio.ui.panels.network.adding import add_network_panel
-    from nep_studio.ui.panels.nodes.adding import add_nodes_panel
+    from nep_studio.ui.plugins.network import add_network_panel
+    from nep_studio.ui.plugins.nodes import add_nodes_panel
 
     found = window.findChild(kind)
     if found is None:

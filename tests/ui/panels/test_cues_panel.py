@@ -8,15 +8,14 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.blocks.edits import SetField
-from nep_studio.cues import kept_cues
+from nep_core.wire import messages as m
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.project.triggers import kept_cues
 from nep_studio.ui.documents import Document
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.cues.arranging import ArrangeDialog
-from nep_studio.ui.panels.cues.board import columns_for
-from nep_studio.ui.panels.cues.looks import COLOURS, ink_on
-from nep_studio.ui.panels.cues.panel import CuePanel, add_cues_panel
+from nep_studio.ui.plugins.cues.arranging import ArrangeDialog
+from nep_studio.ui.plugins.cues.board import COLOURS, columns_for, ink_on
+from nep_studio.ui.plugins.cues.panel import CuePanel, add_cues_panel
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.theme.colour_seeing import contrast
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window

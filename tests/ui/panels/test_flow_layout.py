@@ -7,8 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.panels.flow import FlowLayout
-from nep_studio.ui.panels.human.columns import COLUMN_LINES, Columns
+from nep_studio.ui.widgets.layouts import COLUMN_LINES, Columns, FlowLayout
 
 
 @pytest.fixture

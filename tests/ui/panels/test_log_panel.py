@@ -11,14 +11,13 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QFileDialog, QMainWindow
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.studio_language import studio_language
+from nep_core.wire import messages as m
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.messages import Message, Messages
-from nep_studio.ui.panels.log.lines import MOST_LINES, Line, LinesModel
-from nep_studio.ui.panels.log.panel import LogPanel
-from nep_studio.ui.panels.log.what_happens import MOST_AT_ONCE, WhatHappens
+from nep_studio.ui.plugins.log.lines import MOST_LINES, Line, LinesModel
+from nep_studio.ui.plugins.log.panel import MOST_AT_ONCE, LogPanel, WhatHappens
 from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.theme import Look, load_fonts
+from nep_studio.ui.theme.look import Look, load_fonts
 
 SAY = m.ActionRequest(id="1", robots=["NAO"], action="say", args={"text": "Impressive!"})
 STARTED = m.ActionResult(id="1", robot="NAO", state="started")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.panels.network.graph_layout import Graph
-from nep_studio.ui.panels.network.graph_view import GraphView
-from nep_studio.ui.panels.network.seen import NodeSeen, Seen, TopicSeen
+from nep_studio.ui.network_feed import NodeSeen, Seen, TopicSeen
+from nep_studio.ui.plugins.network.graph import Graph
+from nep_studio.ui.plugins.network.graph_view import GraphView
 from tests.ui.panels.conftest import Bench
 
 

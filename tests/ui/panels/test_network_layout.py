@@ -7,8 +7,7 @@ import math
 from hypothesis import given
 from hypothesis import strategies as some
 
-from nep_studio.ui.panels.network.graph_layout import MOST_IN_COLUMN, Graph, lay_out
-from nep_studio.ui.panels.network.graph_shapes import shapes_of
+from nep_studio.ui.plugins.network.graph import MOST_IN_COLUMN, Graph, lay_out, shapes_of
 
 KARATE = Graph(
     {"watch": "sensory", "karate": "perceptual", "program": "cognitive", "NAO": "action"},

@@ -10,11 +10,11 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.panels.network.graph_layout import Key
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire import messages as m
+from nep_core.wire.pubsub import Publisher
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.network.graph import Key
 from tests.ui.panels.conftest import KARATE, WAIT_MS, WATCH, Bench
 
 Start = Callable[[PlannedNode], None]

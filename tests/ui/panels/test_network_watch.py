@@ -10,12 +10,9 @@ from collections.abc import Callable, Iterator
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_core.p2p import PeerNetwork
-from nep_core.pubsub import Publisher
-from nep_studio.ui.panels.network.process_meter import ProcessMeter
-from nep_studio.ui.panels.network.seen import Seen
-from nep_studio.ui.panels.network.traffic import Traffic
-from nep_studio.ui.panels.network.watch import NetworkWatch
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.pubsub import Publisher
+from nep_studio.ui.network_feed import NetworkWatch, ProcessMeter, Seen, Traffic
 
 Join = Callable[[str], PeerNetwork]
 

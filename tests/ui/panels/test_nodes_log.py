@@ -10,9 +10,8 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.app import Studio
-from nep_studio.ui.panels.nodes.log_tail import PIECE_LINES, LogTail
-from nep_studio.ui.panels.nodes.log_view import MOST_LINES, LogView
+from nep_studio.ui.plugins.nodes.log_view import MOST_LINES, PIECE_LINES, LogTail, LogView
+from nep_studio.ui.shell.app import Studio
 
 
 @pytest.fixture

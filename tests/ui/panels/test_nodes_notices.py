@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from nep_studio.node_board import NodeStatus
-from nep_studio.ui.panels.nodes.notices import (
+from nep_studio.run.node_board import NodeStatus
+from nep_studio.ui.plugins.nodes.notices import (
     Circumstances,
     is_recovered,
     master_notice,

@@ -12,11 +12,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
-from nep_core.node import Node
-from nep_core.p2p import PeerNetwork
-from nep_studio.blocks.edits import SetField
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.panels.nodes.card import NodeCard
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes.node import Node
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.nodes.card import NodeCard
 from tests.ui.panels.conftest import KARATE, WAIT_MS, Bench
 
 Start = Callable[[PlannedNode], None]

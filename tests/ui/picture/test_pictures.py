@@ -14,28 +14,28 @@ from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtSvg import QSvgRenderer
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import RenameProject, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.reading import from_bytes
-from nep_studio.blocks.writing import to_bytes
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.picture import png_chunk, svg_metadata
-from nep_studio.ui.picture.dialog import PictureDialog
-from nep_studio.ui.picture.reading import project_bytes_from
-from nep_studio.ui.picture.scene import scene_of
-from nep_studio.ui.picture.writing import (
+from nep_studio.ui.plugins.picture import embedding
+from nep_studio.ui.plugins.picture.dialog import PictureDialog
+from nep_studio.ui.plugins.picture.embedding import project_bytes_from
+from nep_studio.ui.plugins.picture.writing import (
     LARGEST_PIXELS,
     PictureOptions,
     copy_picture,
     fitting_scale,
     image_of,
     png_of,
+    scene_of,
     svg_of,
     write_picture,
 )
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build, karate
 
 LANGUAGE = studio_language()
@@ -204,11 +204,11 @@ def test_the_dialog_says_why_a_picture_cannot_be_saved(canvas, tmp_path):
 @given(st.binary(max_size=3000))
 def test_any_bytes_come_back_from_a_picture(program):
     header = struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)
-    png = png_chunk.SIGNATURE + png_chunk._chunk(b"IHDR", header) + png_chunk._chunk(b"IEND", b"")
+    png = embedding.SIGNATURE + embedding._chunk(b"IHDR", header) + embedding._chunk(b"IEND", b"")
 
-    assert png_chunk.program_in(png_chunk.with_program(png, program)) == program
-    svg = svg_metadata.with_program(b"<svg></svg>", program)
-    assert svg_metadata.program_in(svg) == (program or None)
+    assert embedding.program_in_png(embedding.png_with_program(png, program)) == program
+    svg = embedding.svg_with_program(b"<svg></svg>", program)
+    assert embedding.program_in_svg(svg) == (program or None)
 
 
 @settings(max_examples=80, deadline=None)
@@ -216,24 +216,24 @@ def test_any_bytes_come_back_from_a_picture(program):
 def test_a_damaged_picture_gives_the_program_or_nothing(data):
     program = b'{"format": "x"}' * 20
     header = struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)
-    png = png_chunk.SIGNATURE + png_chunk._chunk(b"IHDR", header) + png_chunk._chunk(b"IEND", b"")
-    whole = png_chunk.with_program(png, program)
+    png = embedding.SIGNATURE + embedding._chunk(b"IHDR", header) + embedding._chunk(b"IEND", b"")
+    whole = embedding.png_with_program(png, program)
     at = data.draw(st.integers(0, len(whole) - 1))
 
-    cut = png_chunk.program_in(whole[:at])
-    changed = png_chunk.program_in(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1 :])
+    cut = embedding.program_in_png(whole[:at])
+    changed = embedding.program_in_png(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1 :])
 
     assert cut in (None, program)
     assert changed in (None, program)
 
 
 HOSTILE = {
-    "bomb": png_chunk.SIGNATURE
-    + png_chunk._chunk(
-        b"iTXt", png_chunk.KEY + b"\0\x01\0\0\0" + zlib.compress(b"\0" * 65_000_000, 1)
+    "bomb": embedding.SIGNATURE
+    + embedding._chunk(
+        b"iTXt", embedding.KEY + b"\0\x01\0\0\0" + zlib.compress(b"\0" * 65_000_000, 1)
     ),
-    "long": png_chunk.SIGNATURE + struct.pack(">I", 0xFFFFFFFF) + b"iTXt" + b"x" * 50,
-    "short": png_chunk.SIGNATURE + png_chunk._chunk(b"iTXt", png_chunk.KEY + b"\0"),
+    "long": embedding.SIGNATURE + struct.pack(">I", 0xFFFFFFFF) + b"iTXt" + b"x" * 50,
+    "short": embedding.SIGNATURE + embedding._chunk(b"iTXt", embedding.KEY + b"\0"),
     "laughs": b'<!DOCTYPE s [<!ENTITY a "ha"><!ENTITY b "&a;&a;">]><svg>'
     b'<metadata id="nep-studio-project">&b;&b;</metadata></svg>',
     "open": b'<svg><metadata id="nep-studio-project">QUJD',

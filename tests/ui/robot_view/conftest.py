@@ -8,10 +8,10 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import RobotState
+from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.figure import RobotFigure, load_figure
 from nep_studio.ui.robot_view.view import RobotView, nao_folder
-from nep_studio.ui.theme import Look
+from nep_studio.ui.theme.look import Look
 
 NAMES = {"head_front": "the front of the head", "chest_button": "the chest button"}
 

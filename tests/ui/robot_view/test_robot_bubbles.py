@@ -8,7 +8,7 @@ from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QFont
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.robot_view.bubbles import Said, placed_bubbles
+from nep_studio.ui.robot_view.painter import Said, placed_bubbles
 
 LONG = "Once upon a time there was a robot that liked to tell stories, and it told them all. " * 8
 

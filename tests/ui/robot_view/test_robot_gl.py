@@ -13,9 +13,9 @@ from PySide6.QtWidgets import QApplication
 
 from benchmarks.virtual_display import NoDisplay, virtual_display
 from nep_studio.ui.robot_view.drawing import NoContext, gl_bodies
+from nep_studio.ui.robot_view.gl_bodies import mesh_of
 from nep_studio.ui.robot_view.gl_context import GlContext
-from nep_studio.ui.robot_view.gl_meshes import mesh_of
-from nep_studio.ui.robot_view.shapes import Blob, Solids
+from nep_studio.ui.robot_view.parts import Blob, Solids
 
 ROOT = Path(__file__).resolve().parents[3]
 NO_CONTEXT = 77
@@ -23,7 +23,7 @@ CHILD = """
 import json, sys
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QApplication
-from nep_core.messages import RobotState
+from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.drawing import NoContext, gl_bodies
 from nep_studio.ui.robot_view.figure import load_figure
 from nep_studio.ui.robot_view.view import RobotView, nao_folder

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.messages import RobotState
+from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.figure import load_figure
-from nep_studio.ui.robot_view.room_picture import folder_of, nao_folder
-from nep_studio.ui.robot_view.view import RobotView
+from nep_studio.ui.robot_view.view import RobotView, folder_of, nao_folder
 
 PEPPER = nao_folder().parent / "pepper"
 TOUCHED = {"head_front", "head_middle", "head_rear", "hand_left", "hand_right", "chest_button"}

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from nep_core.messages import RobotState
-from nep_studio.ui.robot_view.motion import Motion, between
+from nep_core.wire.messages import RobotState
+from nep_studio.ui.robot_view.scene import Motion, between
 
 
 def told(angle: float, **more: object) -> RobotState:

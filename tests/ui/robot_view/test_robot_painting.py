@@ -10,13 +10,13 @@ import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QColor, QImage
 
-from nep_core.messages import RobotState, Thing
+from nep_core.wire.messages import RobotState, Thing
 from nep_studio.ui.robot_view.camera import Camera, Lens
 from nep_studio.ui.robot_view.figure import RobotFigure
-from nep_studio.ui.robot_view.shadows import cast_shadow
-from nep_studio.ui.robot_view.things import KIND_SIZES, placed_thing
+from nep_studio.ui.robot_view.scene import KIND_SIZES, placed_thing
+from nep_studio.ui.robot_view.shading import cast_shadow
 from nep_studio.ui.robot_view.view import RobotView
-from nep_studio.ui.theme import Theme
+from nep_studio.ui.theme.colours import Theme
 
 StateMaker = Callable[..., RobotState]
 SIZE = QSize(320, 240)

@@ -11,11 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_core.errors import NodeStartError
-from nep_core.messages import RobotState
+from nep_core.wire.messages import RobotState
 from nep_studio import paths
 from nep_studio.ui.robot_view.figure import load_figure
-from nep_studio.ui.robot_view.parts import all_parts, facing, read_view, rotation
-from nep_studio.ui.robot_view.shapes import Blob, Solids
+from nep_studio.ui.robot_view.parts import Blob, Solids, all_parts, facing, read_view, rotation
 from nep_studio.ui.robot_view.view import nao_folder
 
 sizes = st.tuples(*[st.floats(0.01, 1.0)] * 3)

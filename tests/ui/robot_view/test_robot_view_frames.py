@@ -10,7 +10,7 @@ from PySide6.QtCore import QSize
 from PySide6.QtGui import QPainter, QPdfWriter
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import RobotState
+from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.view import RobotView
 
 StateMaker = Callable[..., RobotState]

@@ -10,7 +10,7 @@ from PySide6.QtGui import QFocusEvent, QHelpEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication, QToolTip
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import RobotState, Thing
+from nep_core.wire.messages import RobotState, Thing
 from nep_studio.ui.robot_view.scene import Marked
 from nep_studio.ui.robot_view.view import RobotView
 

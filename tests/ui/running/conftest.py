@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.ui.documents import Document
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.running.window_use import Seen
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window

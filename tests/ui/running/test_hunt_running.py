@@ -11,10 +11,10 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QObject
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from nep_studio import paths
-from nep_studio.blocks.edits import SetField
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.running.window_use import LONG_WAIT, WAIT_MS, Seen, block_of, press, state_is
 
@@ -25,7 +25,7 @@ OTHER = paths.examples() / "dance.nep"
 @pytest.fixture
 def slow_checks(monkeypatch: pytest.MonkeyPatch) -> None:
     """As in a project of thousands of blocks: the checks take many turns."""
-    monkeypatch.setattr("nep_studio.ui.problems.live_checks.SLICE_S", 0.0)
+    monkeypatch.setattr("nep_studio.ui.workbench.live_checks.SLICE_S", 0.0)
 
 
 def settled(window: MainWindow, qtbot: QtBot) -> None:

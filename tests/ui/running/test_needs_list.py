@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import socket
 
-from nep_studio.blocks.checks import Problem
-from nep_studio.blocks.checks.problem import Fix
-from nep_studio.node_board import NodeStatus
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.running.needs_list import Need, answers_at, needs_of
+from nep_studio.blocks.checks.problem import Fix, Problem
+from nep_studio.run.node_board import NodeStatus
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.running.control import Need, answers_at, needs_of
 
 KARATE = PlannedNode("perceptual/gesture", "karate", {}, "a rule waits for this gesture")
 REAL = PlannedNode("action/nao", "NAO", {"driver": "naoqi", "address": "10.0.0.9"}, block_id="b1")
@@ -41,7 +40,7 @@ def test_a_program_that_has_all_needs_only_what_run_starts() -> None:
 def test_a_node_says_why_it_is_needed_and_can_be_started_now() -> None:
     node = needs(nodes=[KARATE])[1]
 
-    assert "A rule waits for this gesture" in node.sentence
+    assert "A rule waits for this gesture" in str(node.sentence)
     assert fixes(node) == ["start_node"]
 
 

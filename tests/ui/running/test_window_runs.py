@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QDialog, QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.blocks.edits import SetField
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.running.needs import NeedsDialog
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.ui.running.control import NeedsDialog
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import (
     WAIT_MS,
@@ -98,7 +98,7 @@ def test_an_error_marks_its_block_and_is_told_with_what_to_do(
     state_is(window, qtbot, "idle")
 
     problem = window.workbench.canvas.problems.problems[block]
-    assert "zero" in problem.sentence
+    assert "zero" in str(problem.sentence)
     assert any("zero" in card.message.sentence for card in window.message_area.cards)
 
 

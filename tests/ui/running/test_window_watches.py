@@ -7,8 +7,8 @@ import time
 import psutil
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.ui.main_window import MainWindow
+from nep_core.wire import messages as m
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import (
     LONG_WAIT,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.ui.main_window import MainWindow
+from nep_core.wire import messages as m
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 
 WAIT_MS = 30_000

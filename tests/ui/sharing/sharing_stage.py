@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_core.security.joining import pair
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.sharing import dialog as dialog_module
-from nep_studio.ui.sharing.adding import SharingKit
-from nep_studio.ui.sharing.dialog import SharingDialog
-from nep_studio.ui.sharing.places import Place
+from nep_core.networks.security.pairing import pair
+from nep_studio.ui.plugins.sharing import SharingKit
+from nep_studio.ui.plugins.sharing import dialog as dialog_module
+from nep_studio.ui.plugins.sharing.dialog import SharingDialog
+from nep_studio.ui.plugins.sharing.refusal_words import Place
+from nep_studio.ui.shell.main_window import MainWindow
 
 HOST = "127.0.0.1"
 WAIT_MS = 20_000
@@ -36,7 +36,7 @@ def here_only(monkeypatch: pytest.MonkeyPatch) -> None:
     assert defaults is not None
     places = (*defaults[:-1], lambda: [Place(HOST, "lo")])
     monkeypatch.setattr(SharingDialog.__init__, "__defaults__", places)
-    monkeypatch.setattr("nep_studio.ui.sharing.join_page.SEARCH_S", 0.0)
+    monkeypatch.setattr("nep_studio.ui.plugins.sharing.pages.SEARCH_S", 0.0)
 
 
 def opened_dialog(window: MainWindow, kit: SharingKit) -> dialog_module.SharingDialog:

@@ -10,11 +10,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from nep_core.security.refusals import Refusals
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.network.panel import NetworkPanel
-from nep_studio.ui.settings_dialog import SettingsDialog
-from nep_studio.ui.sharing.adding import SharingKit
+from nep_core.networks.security.curve import Refusals
+from nep_studio.ui.plugins.network.panel import NetworkPanel
+from nep_studio.ui.plugins.sharing import SharingKit
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from tests.blocks.block_building import B
 from tests.ui.running.conftest import open_program
 from tests.ui.running.window_use import LONG_WAIT, press, state_is

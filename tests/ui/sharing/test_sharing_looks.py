@@ -11,14 +11,14 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
-from nep_core.discovery import Found
-from nep_studio.refusals import Refusal
+from nep_core.networks.discovery import Found
 from nep_studio.settings import Settings
-from nep_studio.sharing import Sharing
+from nep_studio.sharing import Refusal, Sharing
+from nep_studio.ui.plugins.sharing.dialog import SharingDialog
+from nep_studio.ui.plugins.sharing.refusal_words import Place
 from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.sharing.dialog import SharingDialog
-from nep_studio.ui.sharing.places import Place
-from nep_studio.ui.theme import Look, themes
+from nep_studio.ui.theme.colours import themes
+from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import use_language
 
 HOST = "127.0.0.1"

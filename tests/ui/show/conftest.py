@@ -9,9 +9,9 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.documents import Document
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.show.mode import ShowMode
-from nep_studio.ui.show.window import ShowWindow
+from nep_studio.ui.plugins.show import ShowMode
+from nep_studio.ui.plugins.show.window import ShowWindow
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 

@@ -14,11 +14,13 @@ import psutil
 import pytest
 
 from nep_studio.settings import ShowOptions
-from nep_studio.ui.show.command import parser, show_options
+from nep_studio.ui.plugins.show.command import parser, show_options
 from tests.blocks.block_building import B, build
 
 WAIT_S = 40.0
-SHOW = "import sys; from nep_studio.ui.show.command import main; sys.exit(main(sys.argv[1:]))"
+SHOW = (
+    "import sys; from nep_studio.ui.plugins.show.command import main; sys.exit(main(sys.argv[1:]))"
+)
 
 
 def until(is_so: Callable[[], bool]) -> None:
@@ -48,7 +50,7 @@ def begin(tmp_path: Path) -> Iterator[Callable[..., psutil.Process]]:
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     from nep_studio.blocks.files import save
-    from nep_studio.studio_language import studio_language
+    from nep_studio.run.installation import studio_language
 
     language = studio_language()
     editor = build(language, [B("event.gesture", {"gesture": "karate"})], name="Waiting")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.ui.show.restarts import LONGEST_PAUSE_S, PAUSE_S, STEADY_S, Restarts
+from nep_studio.ui.plugins.show.performance import LONGEST_PAUSE_S, PAUSE_S, STEADY_S, Restarts
 
 
 def fail(restarts: Restarts, began_s: float, after_s: float = 1.0) -> float | None:

@@ -9,12 +9,12 @@ import sys
 
 import pytest
 
-from nep_studio.ui.show.staying_awake import StayingAwake
+from nep_studio.ui.plugins.show.leaving import StayingAwake
 
 DESKTOP_AND_SHOW = """
 from PySide6.QtCore import QCoreApplication, QTimer, Slot, QObject, ClassInfo
 from PySide6.QtDBus import QDBusConnection, QDBusServiceWatcher
-from nep_studio.ui.show.staying_awake import StayingAwake
+from nep_studio.ui.plugins.show.leaving import StayingAwake
 
 @ClassInfo({"D-Bus Interface": "org.freedesktop.ScreenSaver"})
 class Desktop(QObject):

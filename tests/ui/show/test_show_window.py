@@ -14,9 +14,9 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.show import leaving, performance
-from nep_studio.ui.show.window import ShowWindow
+from nep_studio.ui.plugins.show import leaving, performance
+from nep_studio.ui.plugins.show.window import ShowWindow
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 
 Begin = Callable[..., ShowWindow]

@@ -12,9 +12,9 @@ import pytest
 from PySide6.QtCore import QObject
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.ui.speech.robot_sounds import RobotSounds, find_player
-from nep_studio.ui.speech.utterance import Utterance
+from nep_core.wire import messages as m
+from nep_studio.ui.plugins.speech.robot_voices import RobotSounds, find_player
+from nep_studio.ui.plugins.speech.voices import Utterance
 
 PLAYER = """
     #!{python}

@@ -22,17 +22,16 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.theme import (
+from nep_studio.ui.theme import style_sheet
+from nep_studio.ui.theme.colours import Theme, load_theme
+from nep_studio.ui.theme.look import (
     Fonts,
     Look,
-    Theme,
     apply_theme,
     base_point_size,
-    load_theme,
-    style_sheet,
+    system_theme_name,
     text_font,
 )
-from nep_studio.ui.theme.look import system_theme_name
 
 
 def test_the_palette_has_the_colours_of_the_theme(plain_app: QApplication, theme: Theme) -> None:

@@ -11,8 +11,7 @@ from colour_seeing import EYES, Matrix, contrast, distance
 from PySide6.QtGui import QColor
 
 from nep_studio import paths
-from nep_studio.ui.theme import (
-    CATEGORY_ICONS,
+from nep_studio.ui.theme.colours import (
     DISABLED,
     HIGH_CONTRAST,
     PLACEHOLDER,
@@ -20,8 +19,9 @@ from nep_studio.ui.theme import (
     UnknownColour,
     load_theme,
     themes,
+    to_colour,
 )
-from nep_studio.ui.theme.colours import to_colour
+from nep_studio.ui.theme.icons import CATEGORY_ICONS
 
 WORDS = [
     (words, ground)

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtGui import QFont, QFontInfo, QFontMetricsF, QRawFont
 
 from nep_studio import paths
-from nep_studio.ui.theme import Fonts, code_font, text_font
+from nep_studio.ui.theme.look import Fonts, code_font, text_font
 
 FOLDER = paths.resources() / "fonts"
 JAPANESE = FOLDER / "NotoSansJPNEP-Regular.ttf"

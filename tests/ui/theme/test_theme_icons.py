@@ -9,9 +9,9 @@ from PySide6.QtSvg import QSvgRenderer
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.ui.theme import (
+from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.theme.icons import (
     CATEGORY_ICONS,
-    Theme,
     UnknownIcon,
     application_icon,
     category_icon_name,

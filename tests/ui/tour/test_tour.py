@@ -11,11 +11,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import ActionRequest
-from nep_studio.blocks.edits import RenameProject
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.tour.steps import place_of, say_block
-from nep_studio.ui.tour.tour import Tour
+from nep_core.wire.messages import ActionRequest
+from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.ui.plugins.tour.steps import place_of, say_block
+from nep_studio.ui.plugins.tour.tour import Tour
+from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import PSEUDO
 
 LEFT = Qt.MouseButton.LeftButton

@@ -11,15 +11,15 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QApplication, QSplitter, QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import Imu
+from nep_core.wire.messages import Imu
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.messages import Messages
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.page import TrainerPage
+from nep_studio.ui.plugins.gestures.results.training import Training
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard, Tap
-from nep_studio.ui.theme import Look
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.page import TrainerPage
-from nep_studio.ui.trainer.results.training import Training
+from nep_studio.ui.theme.look import Look
 from tests.ui.trainer.results_desk import OpenProject
 from tests.ui.window.conftest import answer, chooser, home, studio, window
 

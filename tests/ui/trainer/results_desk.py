@@ -12,10 +12,10 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 from nep_studio.ui.messages import Messages
-from nep_studio.ui.theme import Look
-from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.theme.look import Look
 
 
 class OpenProject(QObject):

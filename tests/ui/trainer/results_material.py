@@ -16,12 +16,12 @@ from nep_studio.blocks.own_gestures import (
     keep_recogniser,
     keep_recording,
 )
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.kept_samples import packed
-from nep_studio.ui.trainer.live import Samples
-from nodes.perceptual.recognition.curves import CERTAINTIES
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.live import Samples
+from nep_studio.ui.plugins.gestures.packed_arrays import packed
+from nodes.perceptual.recognition.validation import CERTAINTIES
 from nodes.recordings import Recording
-from nodes.sensory.arm.simulate import simulate_session
+from nodes.sensory.arm.people import simulate_session
 
 
 def session(gestures: list[str], takes: int, person: int = 0, seed: int = 0) -> Recording:

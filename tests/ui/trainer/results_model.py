@@ -7,10 +7,9 @@ from dataclasses import replace
 from functools import cache
 
 from nep_studio.blocks.own_gestures import OwnRecogniser
-from nodes.perceptual.recognition.model import Model
-from nodes.perceptual.recognition.model_file import model_bytes
+from nodes.perceptual.recognition.model import Model, model_bytes
 from nodes.perceptual.recognition.training import train
-from nodes.sensory.arm.simulate import simulate_everyday
+from nodes.sensory.arm.people import simulate_everyday
 from tests.ui.trainer.results_material import session
 
 GESTURES = ["karate", "katana"]

@@ -7,9 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.own_gestures import OwnGesture
-from nep_studio.ui.trainer.results.advice import advice_on, false_triggers, headline
-from nep_studio.ui.trainer.results.advice_parts import Known
-from nep_studio.ui.trainer.results.findings import (
+from nep_studio.ui.plugins.gestures.results.advice import Known, advice_on, false_triggers, headline
+from nep_studio.ui.plugins.gestures.results.findings import (
     Findings,
     LeftOut,
     Point,
@@ -17,7 +16,7 @@ from nep_studio.ui.trainer.results.findings import (
     findings_of,
     id_of_take,
 )
-from nep_studio.ui.trainer.results.point_words import both_sides
+from nep_studio.ui.plugins.gestures.results.threshold import both_sides
 from tests.ui.trainer.results_material import report, takes_of
 
 NAMES = {"karate": "Karate", "katana": "Katana"}

@@ -6,7 +6,7 @@ from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.own_gestures import keep_gesture
-from nep_studio.ui.trainer.desk import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
 from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.test_results_training import LEARNS, MakeTraining, make_training, recorded
 

@@ -12,12 +12,11 @@ from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.own_gestures import keep_gesture, own_recogniser
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.results.findings import findings_of
-from nep_studio.ui.trainer.results.training import Training
-from nep_studio.ui.trainer.results.training_folder import TrainingFolder
-from nep_studio.ui.trainer.results.worker_lines import Done, Failed, Progress, Ready, read_line
-from nodes.perceptual.recognition.passages import UNKNOWN
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.results.findings import findings_of
+from nep_studio.ui.plugins.gestures.results.training import Training, TrainingFolder
+from nep_studio.ui.plugins.gestures.results.worker import Done, Failed, Progress, Ready, read_line
+from nodes.perceptual.recognition.streams import UNKNOWN
 from nodes.recordings import read_recordings
 from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import put_session, report, session, spans_of
@@ -138,7 +137,7 @@ def test_a_training_that_does_not_go_says_why_and_can_be_tried_again(
     with qtbot.waitSignal(training.failed):
         training.train()
 
-    assert says in training.problem.sentence
+    assert says in str(training.problem.sentence)
     assert training.problem.checklist
     assert not training.is_training
     assert not training.why_not
@@ -173,13 +172,13 @@ def test_a_full_disk_is_told(
     def no_room(path: Path, recording: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("nep_studio.ui.trainer.results.training_folder.write_recording", no_room)
+    monkeypatch.setattr("nep_studio.ui.plugins.gestures.results.training.write_recording", no_room)
     training = make_training()
 
     with qtbot.waitSignal(training.failed):
         training.train()
 
-    assert "disk is full" in training.problem.sentence
+    assert "disk is full" in str(training.problem.sentence)
 
 
 def test_it_trains_by_itself_after_a_change_but_not_after_undo(

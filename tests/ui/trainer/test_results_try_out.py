@@ -10,16 +10,16 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import Imu
+from nep_core.wire.messages import Imu
 from nep_studio.blocks.own_gestures import OwnGesture, keep_gesture, keep_recogniser
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.results.band import band_of, in_words
+from nep_studio.ui.plugins.gestures.results.certainties import LookedAt, Looks
+from nep_studio.ui.plugins.gestures.results.training import Training
+from nep_studio.ui.plugins.gestures.results.try_out import TryOut
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.results.band import band_of, in_words
-from nep_studio.ui.trainer.results.looks import LookedAt, Looks
-from nep_studio.ui.trainer.results.training import Training
-from nep_studio.ui.trainer.results.try_out import TryOut
 from nodes.recordings import Recording
-from nodes.sensory.arm.simulate import perform
+from nodes.sensory.arm.people import perform
 from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import samples_of, spans_of
 from tests.ui.trainer.results_model import GESTURES, small_model, small_recogniser
@@ -62,7 +62,7 @@ def play(desk: TrainerDesk) -> Play:
 @pytest.fixture
 def try_out(desk: TrainerDesk, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[TryOut]:
     """What flashes is not over before a busy computer has looked at it."""
-    monkeypatch.setattr("nep_studio.ui.trainer.results.try_out.FLASH_MS", 60_000)
+    monkeypatch.setattr("nep_studio.ui.plugins.gestures.results.try_out.FLASH_MS", 60_000)
     training = Training(desk, command=lambda: ["/no/such/program"])
     made = TryOut(desk, training)
     qtbot.addWidget(made)

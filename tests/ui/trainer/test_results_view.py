@@ -10,13 +10,12 @@ from PySide6.QtGui import QAccessible, QColor
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.theme import themes
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.results.confusion_view import ConfusionView
-from nep_studio.ui.trainer.results.failures import worker_ended
-from nep_studio.ui.trainer.results.results_view import ResultsView
-from nep_studio.ui.trainer.results.shades import contrast, legible, mixed
-from nep_studio.ui.trainer.results.training import Training
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.results.confusion import ConfusionView
+from nep_studio.ui.plugins.gestures.results.labels import contrast, legible, mixed
+from nep_studio.ui.plugins.gestures.results.training import Training, worker_ended
+from nep_studio.ui.plugins.gestures.results.view import ResultsView
+from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.words import use_language
 from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import put_gestures, report

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QObject
 
-from nep_core.messages import Imu, NodeState
-from nep_studio.plan import VIRTUAL_WATCH, PlannedNode
+from nep_core.wire.messages import Imu, NodeState
+from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.page import TrainerPage
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.page import TrainerPage
 from nodes.perceptual.recognition.segments import Movement
 
 

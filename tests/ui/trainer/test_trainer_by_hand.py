@@ -9,9 +9,9 @@ from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.page import TrainerPage
-from nep_studio.ui.trainer.takes_list import TAKES_MIME
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.page import TrainerPage
+from nep_studio.ui.plugins.gestures.samples import TAKES_MIME
 from tests.ui.trainer.test_trainer_desk import samples
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import Imu
+from nep_core.wire.messages import Imu
 from nep_studio.blocks.own_gestures import (
     OwnGesture,
     OwnRecording,
@@ -15,10 +15,10 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 from nep_studio.blocks.program import PAGES
+from nep_studio.ui.plugins.gestures.gesture_controller import SILENT_S, TrainerDesk
+from nep_studio.ui.plugins.gestures.live import KEPT_S, LiveStream, Samples
+from nep_studio.ui.plugins.gestures.packed_arrays import packed, thinned, unpacked
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.trainer.desk import SILENT_S, TrainerDesk
-from nep_studio.ui.trainer.kept_samples import packed, thinned, unpacked
-from nep_studio.ui.trainer.live import KEPT_S, LiveStream, Samples
 
 REST = np.tile([0.0, 0.0, 9.81], (100, 1))
 

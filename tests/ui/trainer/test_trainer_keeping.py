@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from nep_studio.ui.trainer.badges import Badges
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.keeping import Keeping
-from nep_studio.ui.trainer.live import Samples
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.live import Samples
+from nep_studio.ui.plugins.gestures.project_gestures import Keeping
+from nep_studio.ui.plugins.gestures.samples import Badges
 from tests.ui.trainer.test_trainer_desk import samples
 from tests.ui.trainer.trainer_data import stroke
 

@@ -9,10 +9,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.trainer.desk import TrainerDesk
-from nep_studio.ui.trainer.hint import hint_words, next_step
-from nep_studio.ui.trainer.page import TrainerPage
-from nep_studio.ui.trainer.shape import shape_for
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.page import TrainerPage, hint_words, next_step, shape_for
 from tests.ui.trainer.test_trainer_by_hand import choose, with_takes
 from tests.ui.trainer.test_trainer_desk import samples
 from tests.ui.trainer.trainer_data import rest, takes

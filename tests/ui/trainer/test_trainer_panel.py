@@ -8,13 +8,13 @@ import pytest
 from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
-from nep_core.messages import Imu
-from nep_studio.ui.app import Studio
-from nep_studio.ui.main_window import MainWindow
+from nep_core.wire.messages import Imu
+from nep_studio.ui.plugins.gestures.page import next_step
+from nep_studio.ui.plugins.gestures.panel import TrainerPanel, add_trainer_panel
+from nep_studio.ui.plugins.gestures.results.training import Training
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.trainer.hint import next_step
-from nep_studio.ui.trainer.panel import TrainerPanel, add_trainer_panel
-from nep_studio.ui.trainer.results.training import Training
+from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.shell.main_window import MainWindow
 
 
 @pytest.fixture

@@ -7,10 +7,15 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.trainer.desk import SILENT_S, TrainerDesk
-from nep_studio.ui.trainer.keeping import Keeping
-from nep_studio.ui.trainer.outcome import keep_session, session_words
-from nep_studio.ui.trainer.session import COUNT_MS, Session, TakeSession
+from nep_studio.ui.plugins.gestures.gesture_controller import SILENT_S, TrainerDesk
+from nep_studio.ui.plugins.gestures.project_gestures import Keeping
+from nep_studio.ui.plugins.gestures.recording import (
+    COUNT_MS,
+    Session,
+    TakeSession,
+    keep_session,
+    session_words,
+)
 from tests.ui.trainer.trainer_data import joined, real, rest, stroke, takes
 
 

@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.watches.choosing import offers
-from nep_studio.ui.watches.ways import WAYS
+from nep_studio.ui.plugins.watches.choosing import offers
+from nep_studio.ui.plugins.watches.connectors import WAYS
+from nodes.sensory.connectors import WAYS as WAYS_OF_THE_NODE
 from nodes.sensory.phone_page.server import page_urls
-from nodes.sensory.ways import WAYS as WAYS_OF_THE_NODE
 from tests.ui.watches.watch_stage import (
     ADDRESS,
     TOKEN,

@@ -6,8 +6,9 @@ import pytest
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.theme import Look, themes
-from nep_studio.ui.watches.dialog import Plan, WatchDialog
+from nep_studio.ui.plugins.watches.dialog import Plan, WatchDialog
+from nep_studio.ui.theme.colours import themes
+from nep_studio.ui.theme.look import Look
 from nodes.sensory.phone_page.server import page_urls
 from tests.ui.watches.watch_stage import (
     ADDRESS,
@@ -22,7 +23,7 @@ __all__ = ["open_dialog", "runner", "settles_at_once"]
 
 
 def test_a_code_is_drawn_in_whole_pixels_black_on_white(qtbot: QtBot, qapp: QApplication) -> None:
-    from nep_studio.ui.watches.qr_code import QUIET, QrCode, modules_of
+    from nep_studio.ui.plugins.watches.qr_code import QUIET, QrCode, modules_of
 
     Look(qapp, "dark")
     code = QrCode()

@@ -10,11 +10,11 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import NodeState
+from nep_core.wire.messages import NodeState
 from nep_studio.blocks.deployment import node_entries
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.watches.adding import open_watches
-from nep_studio.ui.watches.dialog import WatchDialog
+from nep_studio.ui.plugins.watches import open_watches
+from nep_studio.ui.plugins.watches.dialog import WatchDialog
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.watches.watch_stage import (
     choose,
     press,
@@ -126,7 +126,7 @@ def test_a_port_that_is_taken_is_told_in_a_sentence(
 def test_a_watch_that_is_in_use_is_asked_about(
     karate: MainWindow, qtbot: QtBot, answer: Callable
 ) -> None:
-    from nep_studio.blocks.operations.sensing import use_watch
+    from nep_studio.blocks.operations.fixes import use_watch
 
     editor = karate.workbench.canvas.editor
     use_watch(editor, {"through": "udp", "port": 8085}, "use")

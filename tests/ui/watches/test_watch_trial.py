@@ -5,9 +5,9 @@ from __future__ import annotations
 from pytestqt.qtbot import QtBot
 
 from nep_core.errors import NodeStartError
-from nep_core.launcher import LaunchedNode
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.watches.dialog import Plan
+from nep_core.processes.launcher import LaunchedNode
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.watches.dialog import Plan
 from tests.ui.watches.watch_stage import (
     Open,
     RecordingRunner,

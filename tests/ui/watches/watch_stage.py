@@ -11,13 +11,13 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import Imu, NodeState
-from nep_studio.plan import PlannedNode
+from nep_core.wire.messages import Imu, NodeState
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.watches import dialog as dialog_module
+from nep_studio.ui.plugins.watches.dialog import Plan, WatchDialog
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.theme import Look
-from nep_studio.ui.watches import dialog as dialog_module
-from nep_studio.ui.watches.dialog import Plan, WatchDialog
+from nep_studio.ui.theme.look import Look
 
 ADDRESS, TOKEN = "192.168.1.23", "abcDEF123456"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QDialog
 
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.main_window import MainWindow
 
 
 def put_away(window: MainWindow) -> None:

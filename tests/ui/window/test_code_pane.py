@@ -6,9 +6,10 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication, QTextCursor
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import RenameProject, SetField
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.main_window import MainWindow
 
 
 def say_block(window: MainWindow, text: str = "Impressive!") -> str:

@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.ui.code_pane.text_view import CodeText
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.workbench.code_text import CodeText
 from tests.blocks.block_building import B, build
 
 KEY, CONTROL = Qt.Key, Qt.KeyboardModifier.ControlModifier

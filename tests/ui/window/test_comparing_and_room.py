@@ -8,9 +8,11 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import DeleteBlocks, RenameProject, SetField
-from nep_studio.ui.comparing import ComparingDialog
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.ui.shell.comparing import ComparingDialog
+from nep_studio.ui.shell.main_window import MainWindow
 
 LEFT = Qt.MouseButton.LeftButton
 

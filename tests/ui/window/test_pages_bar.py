@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.main_window import MainWindow
 
 LEFT = Qt.MouseButton.LeftButton
 

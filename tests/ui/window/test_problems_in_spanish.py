@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QApplication, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.blocks.edits import DeleteBlocks
-from nep_studio.ui.canvas.overlay import badge_rect
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.ui.canvas.painting.overlay import badge_rect
+from nep_studio.ui.shell.main_window import MainWindow
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -96,5 +96,7 @@ def test_a_file_that_is_no_project_is_told_in_spanish(
     qtbot.waitUntil(lambda: bool(in_spanish.message_area.cards))
     told = in_spanish.message_area.cards[-1].message
     assert told.title == "Este proyecto no se puede usar"
-    assert told.sentence == "cuento.nep no es un proyecto de NEP Studio."
-    assert told.checklist == ("Elige un archivo guardado por NEP Studio; su nombre acaba en .nep.",)
+    assert str(told.sentence) == "cuento.nep no es un proyecto de NEP Studio."
+    assert tuple(map(str, told.checklist)) == (
+        "Elige un archivo guardado por NEP Studio; su nombre acaba en .nep.",
+    )

@@ -8,10 +8,10 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import DeleteBlocks, RenameProject
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.problems.live_checks import _sliced_check
-from nep_studio.ui.problems.slices import Cancelled, RestingMapping, SlicedCall
+from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.workbench.live_checks import Cancelled, RestingMapping, SlicedCall, _sliced_check
 
 
 @pytest.fixture

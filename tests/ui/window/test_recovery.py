@@ -11,11 +11,11 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio import settings
-from nep_studio.blocks.edits import RenameProject
-from nep_studio.journal import recover
+from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.project.journal import recover
 from nep_studio.ui.documents import new_document
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.recovery import RecoveryDialog
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.recovery import RecoveryDialog
 
 WORK = """
 import sys
@@ -23,8 +23,8 @@ from pathlib import Path
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtTest import QTest
 from nep_studio import paths
-from nep_studio.ui.app import Studio, make_application
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.shell.main_window import MainWindow
 
 app = make_application()
 window = MainWindow(Studio(app))

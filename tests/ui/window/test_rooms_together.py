@@ -7,11 +7,11 @@ from collections import Counter
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.command_palette.palette import add_command_palette
-from nep_studio.ui.exporting.actions import NEEDS_PROJECT, add_exporting
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.cues.panel import add_cues_panel
-from nep_studio.ui.show.mode import add_show_mode
+from nep_studio.ui.plugins.cues.panel import add_cues_panel
+from nep_studio.ui.plugins.exporting import NEEDS_PROJECT, add_exporting
+from nep_studio.ui.plugins.show import add_show_mode
+from nep_studio.ui.shell.command_palette import add_command_palette
+from nep_studio.ui.shell.main_window import MainWindow
 
 
 def add_missing(window: MainWindow) -> None:

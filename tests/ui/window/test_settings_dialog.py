@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QFileDialog, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio.settings import Settings, ShowOptions, usual_folder
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.settings_dialog import SettingsDialog
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.settings_dialog import SettingsDialog
 
 
 @pytest.fixture

@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.examples import examples
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.start_page import StartPage
-from nep_studio.ui.start_page_examples import Card
+from nep_studio.project.examples import examples
+from nep_studio.ui.shell.gallery import Card
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.start_page import StartPage
 from nep_studio.ui.words import PSEUDO
 
 LEFT = Qt.MouseButton.LeftButton

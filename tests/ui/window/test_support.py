@@ -15,15 +15,13 @@ from PySide6.QtWidgets import QFileDialog, QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import PORTABLE_VARIABLE
-from nep_studio import portable, safe_mode
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.settings_dialog import SettingsDialog
-from nep_studio.ui.support import asking
-from nep_studio.ui.support import dialog as dialogs
-from nep_studio.ui.support.adding import tell_how_it_runs
-from nep_studio.ui.support.after_a_crash import AfterACrash
-from nep_studio.ui.support.dialog import SupportDialog
-from nep_studio.updates import Newest, UpdateChoice
+from nep_studio.support import portable, safe_mode
+from nep_studio.support.updates import Newest, UpdateChoice
+from nep_studio.ui.shell import settings_dialog
+from nep_studio.ui.shell import support as dialogs
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.settings_dialog import SettingsDialog
+from nep_studio.ui.shell.support import AfterACrash, SupportDialog, tell_how_it_runs
 
 
 @pytest.fixture
@@ -191,8 +189,8 @@ def test_whoever_answers_without_end_is_not_waited_for(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     parent, answers = QObject(), list[Newest | None]()
-    monkeypatch.setattr(asking, "LONGEST_MS", 50)
-    question = asking.Asking(parent)
+    monkeypatch.setattr(settings_dialog, "LONGEST_MS", 50)
+    question = settings_dialog.Asking(parent)
     question.answered.connect(answers.append)
     with socket.socket() as silent:
         silent.bind(("127.0.0.1", 0))
@@ -209,7 +207,7 @@ def test_whoever_answers_without_end_is_not_waited_for(
 
 
 def test_an_error_that_nobody_expected_offers_the_report(window: MainWindow) -> None:
-    from nep_studio.ui.last_resort import _message
+    from nep_studio.ui.shell.crash_handler import _message
 
     message = _message(window, "details", Path("nep-studio.log"))
     message.answers[0].do()

@@ -10,10 +10,9 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.app import Studio
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.main_window_later import MODULES
-from nep_studio.ui.tour.tour import Tour
+from nep_studio.ui.plugins.tour.tour import Tour
+from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.shell.main_window import MODULES, MainWindow
 
 
 @pytest.fixture

@@ -13,9 +13,9 @@ from PySide6.QtWidgets import QDialog, QMenu
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.blocks.edits import RenameProject
-from nep_studio.ui.actions_file import fill_recent
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.menus import fill_recent
 
 KARATE = paths.examples() / "karate_greeting.nep"
 Answer = Callable[[object, str], None]

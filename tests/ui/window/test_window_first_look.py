@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.theme import category_icon_name
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.theme.icons import category_icon_name
 from nep_studio.ui.words import use_language
 
 LEFT = Qt.MouseButton.LeftButton

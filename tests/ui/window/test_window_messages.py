@@ -10,10 +10,10 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QPlainTextEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import RenameProject
-from nep_studio.ui.last_resort import LastResort
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.shell.crash_handler import LastResort
+from nep_studio.ui.shell.main_window import MainWindow
 
 LEFT = Qt.MouseButton.LeftButton
 

@@ -6,11 +6,11 @@ import pytest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_core.master import Master
+from nep_core.networks.master import Master
 from nep_studio import paths
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.log.panel import LogPanel, add_log_panel
-from nep_studio.ui.panels.robots.panel import RobotsPanel, add_robots_panel
+from nep_studio.ui.plugins.log.panel import LogPanel, add_log_panel
+from nep_studio.ui.plugins.robots.panel import RobotsPanel, add_robots_panel
+from nep_studio.ui.shell.main_window import MainWindow
 
 RUN_MS = 30_000
 

@@ -11,10 +11,10 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.blocks.edits import RenameProject
+from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.settings import Settings
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.settings_dialog import SettingsDialog
+from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from nep_studio.ui.words import PSEUDO
 
 KARATE = paths.examples() / "karate_greeting.nep"
@@ -161,7 +161,7 @@ SMOKE = """
 import sys
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-from nep_studio.ui import app
+from nep_studio.ui.shell import app
 
 make, timer = app.make_application, []
 

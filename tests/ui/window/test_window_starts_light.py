@@ -15,8 +15,8 @@ START = """
 import sys
 from pathlib import Path
 from nep_studio.settings import Settings
-from nep_studio.ui.app import Studio, make_application
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.shell.main_window import MainWindow
 
 app = make_application()
 window = MainWindow(Studio(app, Settings(Path(sys.argv[1]))), is_gradual=True)

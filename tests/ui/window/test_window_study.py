@@ -11,21 +11,20 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import RenameProject
+from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.help.page_names import block_page
 from nep_studio.problems import Problem
-from nep_studio.session import Ending
+from nep_studio.run.session import Ending
 from nep_studio.study.records import Reply, Sitting, StudyFolder
 from nep_studio.study.sus import BROOKE
-from nep_studio.ui.help.adding import add_help
-from nep_studio.ui.help.desk import HelpDesk
-from nep_studio.ui.help.page_names import block_page
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.study.adding import add_study
-from nep_studio.ui.study.form import QuestionnaireDialog
-from nep_studio.ui.study.recorder import StudyRecorder
-from nep_studio.ui.study.results import ResultsDialog
-from nep_studio.ui.study.sign import StudySign
-from nep_studio.ui.study.start import StartDialog
+from nep_studio.ui.plugins.help import add_help
+from nep_studio.ui.plugins.help.help_controller import HelpDesk
+from nep_studio.ui.plugins.study import StudySign, add_study
+from nep_studio.ui.plugins.study.form import QuestionnaireDialog
+from nep_studio.ui.plugins.study.recorder import StudyRecorder
+from nep_studio.ui.plugins.study.results import ResultsDialog
+from nep_studio.ui.plugins.study.start import StartDialog
+from nep_studio.ui.shell.main_window import MainWindow
 
 Click = Callable[[QWidget, str], None]
 

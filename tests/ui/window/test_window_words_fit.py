@@ -18,8 +18,8 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.ui.app import Studio
-from nep_studio.ui.main_window import MainWindow
+from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import PSEUDO, use_language
 
 SIZE = (1280, 800)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, cast
 
@@ -9,29 +10,158 @@ from PySide6.QtCore import QEvent, QObject
 from PySide6.QtGui import QHelpEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.wrapping import add_part, move_part, remove_part, set_collapsed
+from nep_studio.blocks.program import Project, split_slot
+from nep_studio.blocks.sentence import Slot
 from nep_studio.ui.words import tr
 
-from . import buttons
-from .angle_popup import AnglePopup
-from .choice_popup import ChoicePopup, StatePopup
-from .colour_popup import ColourPopup
+from .angle import AnglePopup
+from .choice import ChoicePopup, StatePopup
+from .colour import ColourPopup
 from .comments import Comments
-from .date_popup import DatePopup
-from .field_edit import Editing, FieldEdit, ParameterEdit
-from .file_popup import FilePopup
-from .focus import give_back_focus
-from .line_editor import LineEditor
-from .lines_editor import LinesEditor
-from .naming_popups import RobotPopup, VariablePopup
-from .number_popups import DurationPopup, SliderPopup
-from .order import Place, field_after
-from .places import page_rect_of
-from .ring import FieldRing
-from .settings_popup import SettingsPopup
-from .titles import hint_of, title_of
+from .date import DatePopup
+from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
+from .file import FilePopup
+from .line_editor import LineEditor, LinesEditor
+from .naming import RobotPopup, VariablePopup
+from .number import DurationPopup, SliderPopup
+from .popup import FieldRing, give_back_focus
+from .settings import SettingsPopup
 
 if TYPE_CHECKING:
-    from ..canvas import Canvas
+    from nep_studio.ui.canvas.canvas import Canvas
+
+
+# What the buttons inside blocks do: add and remove parts, unfold.
+
+_BESIDE = 40.0
+"""How far to the side of its block a part's blocks are put when the part goes."""
+
+
+def add(canvas: Canvas, block: str, group: str) -> str:
+    """Add a part at the end; gives the key of its first field, where there is one."""
+    made: list[int] = []
+    if not canvas.attempt(lambda: made.append(add_part(canvas.editor, block, group))):
+        return ""
+    canvas.announced.emit(tr("Added"))
+    definition = canvas.editor.language.definitions[canvas.editor.project.blocks[block].type]
+    keys = (
+        f"{name}.{made[0]}"
+        for name in definition.group_slots(group)
+        if definition.slots[name].kind.typed
+    )
+    return next(keys, "")
+
+
+def remove(canvas: Canvas, block: str, group: str, number: int) -> None:
+    """Remove a part; blocks in it are put beside the block."""
+    placed = canvas.page_layout.placed(block)
+    side = _BESIDE * (-1 if canvas.measures.is_mirrored else 1)
+    beside = None
+    if placed is not None:
+        edge = placed.x if canvas.measures.is_mirrored else placed.x + placed.box.width
+        beside = (edge + side, placed.y)
+    if canvas.attempt(lambda: remove_part(canvas.editor, block, group, number, beside)):
+        canvas.announced.emit(tr("Removed"))
+
+
+def expand(canvas: Canvas, block: str) -> None:
+    """Show a collapsed block again."""
+    canvas.attempt(lambda: set_collapsed(canvas.editor, [block], False))
+
+
+def move_part_of(canvas: Canvas, block: str, key: str, *, down: bool) -> str:
+    """Move the part that a slot is in; gives the slot's key in its new place, or nothing."""
+    name, number = split_slot(key)
+    there = canvas.editor.project.blocks[block]
+    definition = canvas.editor.language.definitions[there.type]
+    group = definition.slots[name].group
+    to = number + (1 if down else -1)
+    if not group or not 1 <= to <= there.groups.get(group, 0):
+        return ""
+    if not canvas.attempt(lambda: move_part(canvas.editor, block, group, number, to)):
+        return ""
+    canvas.announced.emit(tr("Moved to place {n}", n=to))
+    return f"{name}.{to}"
+
+
+# What a field is called: for the screen reader, and as the tool tip of its place.
+
+
+def slot_name(slot: Slot) -> str:
+    """The name of a slot as words."""
+    return slot.label or slot.name.replace("_", " ")
+
+
+def title_of(slot: Slot) -> str:
+    """A field by its name and kind, such as "seconds: a time in seconds"."""
+    return tr("{name}: {kind}", name=tr(slot_name(slot)), kind=tr(slot.kind.noun))
+
+
+def hint_of(slot: Slot) -> str:
+    """What goes into a place, for the tool tip over it."""
+    if slot.kind.name == "parameter":
+        return tr("{name}. Drag it out to use it, press it to rename it.", name=slot.label)
+    if slot.low is not None and slot.high is not None:
+        ends = {"low": f"{slot.low:g}", "high": f"{slot.high:g}"}
+        return tr("{title} from {low} to {high}", title=title_of(slot), **ends)
+    if not slot.kind.typed:
+        return tr("{title}. Put a block here.", title=title_of(slot))
+    return title_of(slot)
+
+
+# The order in which the fields of a stack follow each other: as they are read.
+
+_SKIPPED = frozenset({"checkbox"})
+"""Kinds without an editor: pressing them changes them."""
+
+Place = tuple[str, str]
+"""A block and the key of one of its fields."""
+
+
+def fields_within(project: Project, language: Language, root: str) -> Iterator[Place]:
+    """The fields of a block and of those inside it that can be seen and edited."""
+    waiting: list[Place] = [(root, "")]
+    while waiting:
+        block_id, key = waiting.pop()
+        if key:
+            yield block_id, key
+            continue
+        block = project.blocks[block_id]
+        definition = language.definitions.get(block.type)
+        if block.collapsed or definition is None:
+            continue
+        found: list[Place] = []
+        for slot_key, slot in definition.keys(block.groups):
+            if slot_key in block.inputs:
+                found.append((block.inputs[slot_key], ""))
+            elif slot.kind.name == "body":
+                found += [(child, "") for child in block.bodies.get(slot_key, ())]
+            elif slot.kind.typed and slot.kind.name not in _SKIPPED:
+                found.append((block_id, slot_key))
+        waiting += reversed(found)
+
+
+def field_after(
+    project: Project, language: Language, place: Place, *, forward: bool
+) -> Place | None:
+    """The field that follows (or comes before) another in its stack, or None at the end."""
+    top = place[0]
+    while (parent := project.parents[top]).owner in project.blocks:
+        top = parent.owner
+    body = project.stacks[parent.owner].body
+    at = body.index(top)
+    near = list(fields_within(project, language, top))
+    index = near.index(place) if place in near else -1 if forward else len(near)
+    index += 1 if forward else -1
+    if 0 <= index < len(near):
+        return near[index]
+    for root in body[at + 1 :] if forward else reversed(body[:at]):
+        fields = list(fields_within(project, language, root))
+        if fields:
+            return fields[0 if forward else -1]
+    return None
 
 
 class OpenEditor(Protocol):
@@ -135,11 +265,11 @@ class FieldEditors(QObject):
         """Do what a button inside a block says: add, remove, expand, comment."""
         self.close()
         if action == "add":
-            buttons.add(self.canvas, block, group)
+            add(self.canvas, block, group)
         elif action == "remove":
-            buttons.remove(self.canvas, block, group, number)
+            remove(self.canvas, block, group, number)
         elif action == "expand":
-            buttons.expand(self.canvas, block)
+            expand(self.canvas, block)
         elif action == "comment" and self._left_comment != block:
             self.comments.open(block)
 
@@ -177,7 +307,7 @@ class FieldEditors(QObject):
         if place is None:
             return
         self.close()
-        key = buttons.move_item(self.canvas, *place, down=down)
+        key = move_part_of(self.canvas, *place, down=down)
         self.open(place[0], key or place[1])
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
+from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt
+from PySide6.QtGui import QFont
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
+
+from faults import Text, Words
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import ChangeProcedure, SetField
+from nep_studio.blocks.edits.content import ChangeProcedure, SetField
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Parameter, Procedure
 from nep_studio.blocks.sentence import Slot
-from nep_studio.blocks.values import FieldValue, why_not_name
+from nep_studio.blocks.slots import FieldValue, why_not_name
+from nep_studio.ui.canvas.layout.boxes import Piece
+from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.canvas.layout.page import Placed
+from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.theme.icons import icon_pixmap
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.ui.canvas.canvas import Canvas
 
 
 class Editing(Protocol):
@@ -23,7 +37,7 @@ class Editing(Protocol):
     def value(self) -> FieldValue | None:
         """What the field holds now."""
 
-    def set(self, value: FieldValue) -> str:
+    def set(self, value: FieldValue) -> Text | None:
         """Hold another value; gives why it does not fit, and then nothing is changed."""
 
     def restore(self) -> None:
@@ -50,17 +64,17 @@ class FieldEdit:
             return None
         return self._editor.language.definitions[block.type].value(block, self.key)
 
-    def why_not(self, value: FieldValue) -> str:
+    def why_not(self, value: FieldValue) -> Text | None:
         """Why the field cannot hold a value, or nothing."""
-        return self._editor.why_not(SetField(self.block, self.key, value)) or ""
+        return self._editor.why_not(SetField(self.block, self.key, value))
 
-    def set(self, value: FieldValue) -> str:
+    def set(self, value: FieldValue) -> Text | None:
         """Hold another value; gives why it does not fit, and then nothing is changed."""
         if self.block not in self._editor.project.blocks:
-            return "This block is not there any more."
+            return Text("This block is not there any more.")
         now = self.value
         if now == value and type(now) is type(value):
-            return ""
+            return None
         reason = self.why_not(value)
         if not reason:
             self._editor.apply(SetField(self.block, self.key, value))
@@ -90,14 +104,14 @@ class ParameterEdit:
         """The name as it is typed so far."""
         return self._name
 
-    def set(self, value: FieldValue) -> str:
+    def set(self, value: FieldValue) -> Text | None:
         """Take another name; gives why it cannot be one."""
         reason = why_not_name(value)
         if reason is None:
             reason = self._editor.why_not(ChangeProcedure(self._renamed(str(value))))
         if reason is None:
             self._name = str(value)
-        return reason or ""
+        return reason
 
     def restore(self) -> None:
         """Keep the name that it has."""
@@ -119,3 +133,135 @@ class ParameterEdit:
             for part in self._procedure.parts
         )
         return Procedure(self._procedure.id, parts, self._procedure.gives_value)
+
+
+# Says below a field why what is typed in it does not fit.
+
+
+class ReasonBubble(QFrame):
+    """An icon and a sentence in a red frame; hidden while there is no reason."""
+
+    def __init__(self, theme: Theme, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("reason")
+        self._line = self.fontMetrics().height()
+        error, text = theme.colour("error"), theme.colour("text").name()
+        width = max(2, self._line // 9)
+        self.setStyleSheet(
+            f"#reason {{ background: {theme.colour('error_panel').name()};"
+            f" border: {width}px solid {error.name()}; border-radius: {self._line // 3}px; }}"
+            f"#reason QLabel {{ color: {text}; background: transparent; border: none; }}"
+        )
+        sign = QLabel(self)
+        sign.setPixmap(icon_pixmap("circle-alert", error, self._line, self.devicePixelRatioF()))
+        self.words = QLabel(self)
+        self.words.setWordWrap(True)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(*(self._line // 3,) * 4)
+        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(self.words, 1)
+        self.hide()
+
+    @property
+    def text(self) -> str:
+        """The sentence that is shown, or nothing."""
+        return self.words.text() if not self.isHidden() else ""
+
+    def tell(self, words: Words | None) -> None:
+        """Show a sentence; an empty one takes the bubble away."""
+        reason = tr(words or "")
+        self.words.setText(reason)
+        self.setAccessibleName(reason)
+        self.setVisible(bool(reason))
+        if reason:
+            widest = 16 * self._line
+            needed = self.words.fontMetrics().horizontalAdvance(reason) + self._line
+            self.words.setMinimumWidth(min(widest, needed))
+            self.words.setMinimumHeight(self.words.heightForWidth(min(widest, needed)))
+            self.adjustSize()
+
+
+# Where the editor of a field goes: over the field, and a popup below it or above it.
+
+SMALLEST_EDITOR_SCALE = 0.75
+"""Zoomed out further, an editor is larger than its field: what is typed must be readable."""
+
+
+def piece_of(canvas: Canvas, block: str, key: str) -> tuple[Placed, Piece] | None:
+    """A block on the page and the piece that shows one of its fields, or None."""
+    placed = canvas.page_layout.placed(block)
+    if placed is None:
+        return None
+    fields = (p for p in placed.box.pieces if p.piece == "field" and p.key == key)
+    piece = next(fields, None)
+    return (placed, piece) if piece is not None else None
+
+
+def page_rect_of(canvas: Canvas, block: str, key: str) -> Rect | None:
+    """Where a field is on the page, or None when it cannot be seen there."""
+    found = piece_of(canvas, block, key)
+    if found is None:
+        return None
+    placed, piece = found
+    return Rect(placed.x + piece.x, placed.y + piece.y, piece.width, piece.height)
+
+
+def view_rect_of(canvas: Canvas, block: str, key: str) -> QRectF | None:
+    """Where a field is in the viewport, or None."""
+    rect = page_rect_of(canvas, block, key)
+    return canvas.camera.view_rect(rect) if rect is not None else None
+
+
+def editor_scale(canvas: Canvas) -> float:
+    """How large an editor is drawn."""
+    return max(canvas.camera.scale, SMALLEST_EDITOR_SCALE)
+
+
+def editor_font(canvas: Canvas) -> QFont:
+    """The font of the fields at the size in which an editor shows it."""
+    font = QFont(canvas.block_font)
+    font.setPointSizeF(font.pointSizeF() * editor_scale(canvas))
+    return font
+
+
+def beside(field: QRect, size: QSize, room: QRect, *, is_mirrored: bool, gap: int = 4) -> QPoint:
+    """The corner of a popup of this size: below a field, above it where there is no room."""
+    x = field.right() + 1 - size.width() if is_mirrored else field.left()
+    y = field.bottom() + 1 + gap
+    if y + size.height() > room.bottom():
+        above = field.top() - gap - size.height()
+        y = above if above >= room.top() else room.bottom() + 1 - size.height()
+    x = min(x, room.right() + 1 - size.width())
+    return QPoint(max(x, room.left()), max(y, room.top()))
+
+
+# The style of the editors: that of their fields, in the colours of the theme.
+
+_RADII = {"round": 11.0, "square": 4.0, "bracket": 4.0}
+
+
+def line_style(canvas: Canvas, shape: str, *, is_wrong: bool) -> str:
+    """The style of a line or a text that lies over a field."""
+    theme = canvas.theme
+    scale = canvas.measures.unit * editor_scale(canvas)
+    width = max(2, round(2.4 * scale))
+    border = theme.colour("error" if is_wrong else "focus").name()
+    return (
+        "QLineEdit, QPlainTextEdit {"
+        f" background: {theme.colour('field').name()}; color: {theme.colour('field_text').name()};"
+        f" border: {width}px {'dashed' if is_wrong else 'solid'} {border};"
+        f" border-radius: {round(_RADII.get(shape, 9.0) * scale)}px;"
+        f" padding: 0 {round(2 * scale)}px; min-height: 0; margin: 0;"
+        f" selection-background-color: {theme.colour('selection').name()};"
+        f" selection-color: {theme.colour('selection_text').name()}; }}"
+    )
+
+
+def note_style(canvas: Canvas) -> str:
+    """The style of the small text beside a number: what it comes to."""
+    theme = canvas.theme
+    return (
+        f"QLabel {{ background: {theme.colour('tooltip').name()};"
+        f" color: {theme.colour('tooltip_text').name()};"
+        " padding: 2px 6px; border-radius: 4px; }"
+    )

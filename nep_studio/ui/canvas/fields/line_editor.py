@@ -2,25 +2,88 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
-from PySide6.QtWidgets import QLabel, QLineEdit
+from PySide6.QtWidgets import QLabel, QLineEdit, QPlainTextEdit
 
-from nep_studio.blocks.values import FieldValue
+from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate, number_of
+from nep_studio.blocks.slots import FieldValue
 from nep_studio.ui.words import tr
 
-from .field_edit import Editing
-from .looks import line_style, note_style
-from .numbers import is_number, number_text, result_text, stepped, typed_number
-from .places import beside, editor_font, editor_scale, view_rect_of
-from .reason import ReasonBubble
+from .field_edit import (
+    Editing,
+    ReasonBubble,
+    beside,
+    editor_font,
+    editor_scale,
+    line_style,
+    note_style,
+    view_rect_of,
+)
 
 if TYPE_CHECKING:
     from .editors import FieldEditors
+
+
+# Numbers as people type them into a field, and one step up or down from them.
+
+_PLAIN = re.compile(r"[+-]?(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)")
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is one number, not arithmetic."""
+    return _PLAIN.fullmatch(text.strip()) is not None
+
+
+def typed_number(text: str) -> int | float | str:
+    """The number that a text is; what is arithmetic (or nothing) stays a text.
+
+    Both a point and a comma are taken for the decimal sign.
+    """
+    plain = text.strip().replace("−", "-")  # noqa: RUF001 the minus sign that some keyboards give
+    if not is_number(plain):
+        return text.strip()
+    plain = plain.replace(",", ".")
+    number = float(plain)
+    if "." in plain and not number.is_integer():
+        return number
+    return int(Decimal(plain)) if math.isfinite(number) else number
+
+
+def number_text(value: object) -> str:
+    """A number as a person would write it."""
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return "" if value is None else str(value)
+
+
+def result_text(text: str) -> str:
+    """What arithmetic comes to, as "= 2.094"; empty for a plain number, or for no arithmetic."""
+    if is_number(text) or not text.strip():
+        return ""
+    try:
+        value = calculate(text).value
+    except ArithmeticRefused:
+        return ""
+    return f"= {value:.4g}" if isinstance(value, float) else f"= {value}"
+
+
+def stepped(value: object, steps: int) -> int | float:
+    """A number so many ones higher or lower, without the dust of binary fractions."""
+    try:
+        number = number_of(value)
+    except (ArithmeticRefused, TypeError):
+        number = 0
+    moved = Decimal(repr(number)) + steps
+    return int(moved) if moved == moved.to_integral_value() else float(moved)
+
 
 NUMBERS = frozenset({"number", "angle", "slider", "duration"})
 _KEPT_FOCUS = (
@@ -145,11 +208,11 @@ class LineEditor(QLineEdit):
 
     def _on_edited(self, text: str) -> None:
         reason = self.edit.set(self._reading.read(text))
-        if reason != self.reason.text:
+        if (words := tr(reason or "")) != self.reason.text:
             self.reason.tell(reason)
-            self.setAccessibleDescription(reason)
-            if reason:
-                self._editors.canvas.announced.emit(reason)
+            self.setAccessibleDescription(words)
+            if words:
+                self._editors.canvas.announced.emit(words)
         self._tell_result()
         self.follow()
 
@@ -176,3 +239,94 @@ class LineEditor(QLineEdit):
             self.reason.resize(self.reason.sizeHint())
             self.reason.move(corner)
             self.reason.raise_()
+
+
+# Text of several lines, typed in an editor that grows over the field.
+
+_FEWEST_LINES, _MOST_LINES = 3, 12
+
+
+class LinesEditor(QPlainTextEdit):
+    """Enter begins a new line; Ctrl+Enter, Tab or a press elsewhere ends."""
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors.canvas.viewport())
+        self.edit, self._editors = edit, editors
+        self._look: tuple[float, bool] | None = None
+        self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
+        self.setAccessibleName(title)
+        self.setPlainText(str(edit.value or ""))
+        self.selectAll()
+        self.setTabChangesFocus(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.textChanged.connect(self._on_changed)
+
+    def follow(self) -> None:
+        """Stay over the field, as high as the text is."""
+        canvas = self._editors.canvas
+        rect = view_rect_of(canvas, self.edit.block, self.edit.key)
+        if rect is None:
+            return
+        look = (editor_scale(canvas), bool(self.reason.text))
+        if look != self._look:  # a style sheet costs more than a key may
+            self._look = look
+            self.setFont(editor_font(canvas))
+            self.setStyleSheet(line_style(canvas, "square", is_wrong=look[1]))
+        line = self.fontMetrics().lineSpacing()
+        unit = canvas.measures.unit * editor_scale(canvas)
+        room = canvas.viewport().rect()
+        width = round(min(max(rect.width(), 240 * unit), room.width()))
+        rows = min(max(round(self.document().size().height()), _FEWEST_LINES), _MOST_LINES)
+        height = round(rows * line + 16 * unit)
+        left = rect.right() - width if canvas.measures.is_mirrored else rect.left()
+        top = max(0.0, min(rect.top(), room.height() - height))
+        left = max(0.0, min(left, room.width() - width))
+        self.setGeometry(round(left), round(top), width, height)
+        if self.reason.text:
+            self.reason.resize(self.reason.sizeHint())
+            mirrored = canvas.measures.is_mirrored
+            corner = beside(self.geometry(), self.reason.size(), QRect(room), is_mirrored=mirrored)
+            self.reason.move(corner)
+            self.reason.raise_()
+
+    def show_editor(self) -> None:
+        """Begin to edit."""
+        self.follow()
+        self.show()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def dispose(self) -> None:
+        """Go away."""
+        for widget in (self.reason, self):
+            widget.hide()
+            widget.deleteLater()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc restores, Ctrl+Enter keeps; the rest is typed."""
+        is_enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        if event.key() == Qt.Key.Key_Escape:
+            self._editors.cancel()
+        elif is_enter and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self._editors.close()
+        else:
+            super().keyPressEvent(event)
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        """Tab goes from field to field."""
+        self._editors.go(forward=forward)
+        return True
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """A press elsewhere keeps what was typed."""
+        super().focusOutEvent(event)
+        if event.reason() not in _KEPT_FOCUS:
+            self._editors.close_if(self)
+
+    def _on_changed(self) -> None:
+        reason = self.edit.set(self.toPlainText())
+        if (words := tr(reason or "")) != self.reason.text:
+            self.reason.tell(reason)
+            self.setAccessibleDescription(words)
+            if words:
+                self._editors.canvas.announced.emit(words)
+        self.follow()

@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRect, Qt
-from PySide6.QtGui import QHideEvent, QKeyEvent
-from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
+from PySide6.QtGui import QHideEvent, QKeyEvent, QPainter, QPen
+from PySide6.QtWidgets import (
+    QApplication,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
-from nep_studio.blocks.values import FieldValue
-from nep_studio.ui.screens import room_around
+from nep_studio.blocks.slots import FieldValue
+from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.words import tr
 
-from .field_edit import Editing
-from .places import beside, view_rect_of
-from .reason import ReasonBubble
+from .field_edit import Editing, ReasonBubble, beside, piece_of, view_rect_of
 
 if TYPE_CHECKING:
+    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.view import PageView
+
     from .editors import FieldEditors
 
 
@@ -101,9 +113,112 @@ class FieldPopup(QFrame):
     def try_set(self, value: FieldValue) -> bool:
         """Set the field; say why not when it does not fit."""
         reason = self.edit.set(value)
-        if reason != self.reason.text:
+        if (words := tr(reason or "")) != self.reason.text:
             self.reason.tell(reason)
             self.adjustSize()
-            if reason:
-                self._editors.canvas.announced.emit(reason)
+            if words:
+                self._editors.canvas.announced.emit(words)
         return not reason
+
+
+# A question inside a popup: a name to type, or something to agree to.
+
+
+class Question(QWidget):
+    """Words, a line to type in where a name is asked for, and two buttons."""
+
+    def __init__(
+        self,
+        words: str,
+        yes: str,
+        *,
+        answered: Callable[[str], None],
+        refused: Callable[[], None],
+        name: str | None = None,
+    ) -> None:
+        super().__init__()
+        self._answered, self._refused = answered, refused
+        self.words = words
+        label = QLabel(words, self)
+        label.setWordWrap(True)
+        width = 15 * self.fontMetrics().height()
+        label.setFixedWidth(width)
+        label.setFixedHeight(label.heightForWidth(width))
+        self.name = QLineEdit(name or "", self)
+        self.name.setAccessibleName(words)
+        self.name.setVisible(name is not None)
+        self.name.selectAll()
+        self.yes, self.no = QPushButton(yes, self), QPushButton(tr("Cancel"), self)
+        self.yes.setProperty("kind", "primary" if name is not None else "stop")
+        self.yes.clicked.connect(self._on_yes)
+        self.no.clicked.connect(refused)
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        buttons.addWidget(self.no)
+        buttons.addWidget(self.yes)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(label)
+        column.addWidget(self.name)
+        column.addLayout(buttons)
+
+    def first(self) -> QWidget:
+        """The widget that has the keyboard at the start."""
+        return self.no if self.name.isHidden() else self.name
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        """Tab goes round inside the question."""
+        order = [w for w in (self.name, self.no, self.yes) if not w.isHidden()]
+        here = self.focusWidget()
+        at = order.index(here) if here in order else 0
+        order[(at + (1 if forward else -1)) % len(order)].setFocus(Qt.FocusReason.TabFocusReason)
+        return True
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter agrees (or presses the button it is on), Esc does not."""
+        if event.key() == Qt.Key.Key_Escape:
+            self._refused()
+        elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            if self.no.hasFocus():
+                self._refused()
+            else:
+                self._on_yes()
+        else:
+            super().keyPressEvent(event)
+
+    def _on_yes(self) -> None:
+        self._answered(self.name.text())
+
+
+# Who has the keyboard when an editor over the canvas closes.
+
+
+def give_back_focus(canvas: QWidget, closing: QWidget) -> None:
+    """Let the canvas have the keyboard again, unless a person has just gone elsewhere with it."""
+    focus = QApplication.focusWidget()
+    if focus is None or closing is focus or closing.isAncestorOf(focus):
+        canvas.setFocus(Qt.FocusReason.OtherFocusReason)
+
+
+# The line around the field whose popup is open.
+
+
+class FieldRing:
+    """Shows which field is being edited."""
+
+    def __init__(self, canvas: Canvas) -> None:
+        self._canvas = canvas
+
+    def paint(self, painter: QPainter, view: PageView) -> None:
+        """Draw the line around the field that is edited, in its shape."""
+        place = self._canvas.fields.place
+        found = piece_of(self._canvas, *place) if place is not None else None
+        if found is None:
+            return
+        placed, piece = found
+        painter.setPen(QPen(view.theme.colour("focus"), 3 * view.measures.unit))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        x, y = placed.x + piece.x, placed.y + piece.y
+        painter.translate(x, y)
+        painter.drawPath(view.block_painter.outlines.slot(piece.shape, piece.width, piece.height))
+        painter.translate(-x, -y)

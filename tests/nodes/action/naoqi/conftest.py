@@ -6,8 +6,9 @@ import pytest
 from naoqi_lamp import CallingLamp, lamp_server
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naoqi.client import RemoteObject, Session
-from nodes.action.naoqi.server import Server
+from robots.naoqi.client.session import Session
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.remote import RemoteObject
 
 
 @pytest.fixture

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from nodes.action.naoqi.server import CallFailed, Promise, method
+from robots.naoqi.wire.errors import CallFailed
+from robots.naoqi.wire.promise import Promise
+from robots.naoqi.wire.service import method
 
 SERVICES = ("ALMotion", "ALRobotPosture", "ALLeds", "ALTextToSpeech", "ALMemory")
 

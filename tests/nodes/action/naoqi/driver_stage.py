@@ -11,14 +11,13 @@ from typing import Any
 
 import msgspec
 
-from nep_core.messages import ActionRequest, ActionResult, RobotState, SenseRequest
-from nodes.action.naobody.actor import FINAL, Actor
-from nodes.action.naobody.animations import load_animations
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.models import robot_folder
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naoqi.driver.driver import NaoqiDriver
+from nep_core.wire.messages import ActionRequest, ActionResult, RobotState, SenseRequest
 from nodes.resources import resource_folder
+from robots.body.actor import FINAL, Actor
+from robots.body.animations import load_animations
+from robots.body.body import load_body, robot_folder
+from robots.body.pose import VirtualRobot
+from robots.naoqi.driver.driver import NaoqiDriver
 
 NAO = resource_folder() / "robots" / "nao"
 BODY = load_body(NAO)

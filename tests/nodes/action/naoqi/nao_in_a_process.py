@@ -15,17 +15,16 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.messages import SenseRequest
-from nodes.action.naobody.actor import Actor
-from nodes.action.naobody.animations import load_animations
-from nodes.action.naobody.body import load_body
-from nodes.action.naobody.models import robot_folder
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.virtual import VirtualDriver
-from nodes.action.naoqi.client import Login
-from nodes.action.naoqi.server import Server
-from nodes.action.naoqi.services.all import Services
-from nodes.action.naoqi.serving import ServedRobot
+from nep_core.wire.messages import SenseRequest
+from robots.body.actor import Actor
+from robots.body.animations import load_animations
+from robots.body.body import load_body, robot_folder
+from robots.body.pose import VirtualRobot
+from robots.body.virtual import VirtualDriver
+from robots.naoqi.server.server import Server
+from robots.naoqi.services.all import Services
+from robots.naoqi.serving import ServedRobot
+from robots.naoqi.wire.frames import Login
 
 TICK_S = 0.005
 

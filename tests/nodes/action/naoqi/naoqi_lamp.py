@@ -12,16 +12,11 @@ from typing import Any
 
 import pytest
 
-from nodes.action.naoqi.server import (
-    CallFailed,
-    Module,
-    Pending,
-    Promise,
-    Property,
-    Server,
-    method,
-    signal,
-)
+from robots.naoqi.server.module import Module
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.errors import CallFailed
+from robots.naoqi.wire.promise import Pending, Promise
+from robots.naoqi.wire.service import Property, method, signal
 
 HERE = Path(__file__).parent
 CERTIFICATE, KEY = HERE / "loopback_certificate.pem", HERE / "loopback_key.pem"

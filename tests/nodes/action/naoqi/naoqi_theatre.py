@@ -9,16 +9,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from nep_core.messages import ActionRequest, ActionResult, RobotState, SenseRequest
-from nodes.action.naobody.actor import Actor
-from nodes.action.naobody.animations import Animations, load_animations
-from nodes.action.naobody.body import Body, load_body
-from nodes.action.naobody.body_language import load_gesture_words
-from nodes.action.naobody.models import model_of
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.virtual import VirtualDriver
-from nodes.action.naoqi.client import RemoteObject, Session
-from nodes.action.naoqi.offered import Offered
+from nep_core.wire.messages import ActionRequest, ActionResult, RobotState, SenseRequest
+from robots.body.actor import Actor
+from robots.body.animations import Animations, load_animations
+from robots.body.body import Body, load_body, model_of
+from robots.body.pose import VirtualRobot
+from robots.body.speech import load_gesture_words
+from robots.body.virtual import VirtualDriver
+from robots.naoqi.client.session import Session
+from robots.naoqi.services.all import Offered
+from robots.naoqi.wire.remote import RemoteObject
 
 NAO = Path(__file__).resolve().parents[4] / "resources" / "robots" / "nao"
 

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from nodes.action.naoqi.server import Module
-from nodes.action.naoqi.services.all import Services
-from nodes.action.naoqi.services.extractor import Extractor, PausableExtractor
-from nodes.action.naoqi.services.module import Module as ServiceModule
-from nodes.action.naoqi.wire.service import FIRST_UID, description_of
+from robots.naoqi.server.module import Module
+from robots.naoqi.services.all import Services
+from robots.naoqi.services.module import Module as ServiceModule
+from robots.naoqi.services.perception import Extractor, PausableExtractor
+from robots.naoqi.wire.service import FIRST_UID, description_of
 
 TABLE = Path(__file__).parent / "robot_signatures.txt"
 PAGE = """# The NAO on the screen, for programs made for a real one
 
 `nep-studio naoqi` offers a virtual NAO (or Pepper: `--model pepper`) at `tcp://127.0.0.1:9559`,
 where programs for a real NAO look for it: those made with the package `qi`, with our own client
-(`nodes/action/naoqi/client`), or with anything else that speaks NAOqi's protocol. The studio's own
+(`robots/naoqi/client`), or with anything else that speaks NAOqi's protocol. The studio's own
 robots are offered by their node's setting `naoqi_port`; the studio shows what they do either way.
 
 What is true of it:

@@ -7,19 +7,19 @@ from typing import Any
 import pytest
 from naoqi_lamp import child, needs_oracle, until
 
-from nodes.action.naoqi.client import (
+from robots.naoqi.client.session import Session
+from robots.naoqi.wire.errors import (
     CallCancelled,
     CallFailed,
     ConnectionLost,
-    Login,
     NoSuchMethod,
     NoSuchService,
     NoTls,
-    RemoteObject,
-    Session,
     WrongArguments,
-    method,
 )
+from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.remote import RemoteObject
+from robots.naoqi.wire.service import method
 
 pytestmark = needs_oracle
 

@@ -5,7 +5,9 @@ import threading
 import pytest
 from naoqi_lamp import Lamp, until
 
-from nodes.action.naoqi.client import (
+from robots.naoqi.client.session import Session
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.errors import (
     CallCancelled,
     CallFailed,
     ConnectionLost,
@@ -13,11 +15,9 @@ from nodes.action.naoqi.client import (
     NoAnswer,
     NoSuchMethod,
     NoSuchService,
-    RemoteObject,
-    Session,
     WrongArguments,
 )
-from nodes.action.naoqi.server import Server
+from robots.naoqi.wire.remote import RemoteObject
 
 
 def test_overloads_are_told_apart(lamp_remote: RemoteObject) -> None:

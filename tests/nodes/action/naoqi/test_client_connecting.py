@@ -7,13 +7,11 @@ import pytest
 from naoqi_lamp import CERTIFICATE, KEY, CallingLamp, Lamp, lamp_server, until
 
 from nep_core.errors import PortTaken
-from nodes.action.naoqi.client import (
-    ConnectionLost,
-    Login,
-    RemoteObject,
-    Session,
-)
-from nodes.action.naoqi.server import Server, TlsFiles
+from robots.naoqi.client.session import Session
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.errors import ConnectionLost
+from robots.naoqi.wire.frames import Login, TlsFiles
+from robots.naoqi.wire.remote import RemoteObject
 
 LOGIN = Login("nao", "secret")
 

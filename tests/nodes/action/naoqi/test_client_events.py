@@ -6,15 +6,12 @@ from typing import Any
 import pytest
 from naoqi_lamp import CallingLamp, Lamp, until
 
-from nodes.action.naoqi.client import (
-    CallCancelled,
-    CallFailed,
-    NoSuchMethod,
-    NoSuchService,
-    RemoteObject,
-    Session,
-)
-from nodes.action.naoqi.server import Promise, Server, method, signal
+from robots.naoqi.client.session import Session
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.errors import CallCancelled, CallFailed, NoSuchMethod, NoSuchService
+from robots.naoqi.wire.promise import Promise
+from robots.naoqi.wire.remote import RemoteObject
+from robots.naoqi.wire.service import method, signal
 
 
 def test_events_of_an_object_arrive_in_their_order_until_they_end(

@@ -13,9 +13,10 @@ import psutil
 import pytest
 from naoqi_lamp import CERTIFICATE, KEY, child, lamp_server, until
 
-from nodes.action.naoqi.client import (
+from robots.naoqi.client.session import Session
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.errors import (
     ConnectionLost,
-    Login,
     LoginRefused,
     NaoqiError,
     NeedsTls,
@@ -23,12 +24,10 @@ from nodes.action.naoqi.client import (
     NoTls,
     NotNaoqi,
     Refused,
-    RemoteObject,
-    Session,
     StrangeCertificate,
 )
-from nodes.action.naoqi.server import Server, TlsFiles
-from nodes.action.naoqi.wire.frames import HEADER, MAGIC, Frame, Kind
+from robots.naoqi.wire.frames import HEADER, MAGIC, Frame, Kind, Login, TlsFiles
+from robots.naoqi.wire.remote import RemoteObject
 
 LOGIN = Login("nao", "secret")
 FILES = TlsFiles(CERTIFICATE, KEY)
@@ -77,7 +76,7 @@ def failure(port: int, **settings: object) -> NaoqiError:
     """Connect; return why that failed, after less than three seconds."""
     with in_time(), pytest.raises(NaoqiError) as caught:
         Session(("127.0.0.1", port), **settings).connect()  # type: ignore[arg-type]
-    assert caught.value.sentence.endswith(".")
+    assert str(caught.value.sentence).endswith(".")
     assert caught.value.checklist
     return caught.value
 
@@ -118,7 +117,7 @@ def test_a_wrong_port_is_named() -> None:
     problem = failure(port)
 
     assert isinstance(problem, Refused)
-    assert problem.sentence == f"Nothing listens at 127.0.0.1:{port}."
+    assert str(problem.sentence) == f"Nothing listens at 127.0.0.1:{port}."
 
 
 @pytest.mark.parametrize("tls_files", [None, FILES])
@@ -130,7 +129,7 @@ def test_a_login_that_is_wrong_or_missing_is_refused(
         problem = failure(server.port, login=login)
 
     assert isinstance(problem, LoginRefused)
-    assert ("does not accept" in problem.sentence) == (login is not None)
+    assert ("does not accept" in str(problem.sentence)) == (login is not None)
 
 
 def test_a_plain_client_is_told_to_encrypt() -> None:

@@ -7,12 +7,14 @@ from pathlib import Path
 import pytest
 
 from nep_core.errors import ParameterError
-from nodes.action.naoqi.driver.address import Address, plain_address, read_address
-from nodes.action.naoqi.logins import (
+from robots.naoqi.discovery import (
     FOLDER_VARIABLE,
     PASSWORD_VARIABLE,
+    Address,
     SavedLogin,
     logins_file,
+    plain_address,
+    read_address,
     save_login,
     saved_login,
 )
@@ -44,7 +46,7 @@ def test_text_that_is_no_address_is_refused_with_what_to_do(text: str) -> None:
     with pytest.raises(ParameterError, match="is not the address of a robot") as told:
         read_address(text)
 
-    assert "chest button" in told.value.checklist[0]
+    assert "chest button" in str(told.value.checklist[0])
 
 
 def test_the_usual_port_is_left_out_when_an_address_is_told() -> None:

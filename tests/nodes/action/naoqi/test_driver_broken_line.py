@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import pytest
 from driver_stage import DriverStage, ServedNao
 
-from nodes.action.naoqi.logins import FOLDER_VARIABLE
+from robots.naoqi.discovery import FOLDER_VARIABLE
 
 TOLD_S = 3.0
 MAGIC = 0x42ADDE42

@@ -8,18 +8,14 @@ import numpy as np
 import pytest
 from driver_stage import ANIMATIONS, BODY
 
-from nodes.action.naobody.actions import ACTIONS, Stop
-from nodes.action.naobody.body_actions import StopMoving
-from nodes.action.naobody.curves import track_angles
-from nodes.action.naobody.keyframes import Keyframes, Track
-from nodes.action.naobody.motor_actions import SetAngles
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naobody.sense_actions import Listen
-from nodes.action.naoqi.driver.bezier import bezier_call
-from nodes.action.naoqi.driver.calls import Calls
-from nodes.action.naoqi.driver.noticing import Noticing
-from nodes.action.naoqi.driver.real import RealRobot
-from nodes.action.naoqi.driver.repertoire import TASKS
+from robots.body.actions import ACTIONS, Listen, SetAngles, Stop, StopMoving
+from robots.body.keyframes import Keyframes, Track, track_angles
+from robots.body.pose import VirtualRobot
+from robots.naoqi.driver.calls import Calls
+from robots.naoqi.driver.driver import TASKS
+from robots.naoqi.driver.moving import bezier_call
+from robots.naoqi.driver.noticing import Noticing
+from robots.naoqi.driver.real import RealRobot
 
 
 def test_there_is_a_task_for_every_action_of_the_language() -> None:

@@ -14,14 +14,10 @@ import pytest
 from driver_stage import DriverStage, ServedNao
 
 from nep_core.errors import ActionFailed
-from nodes.action.naobody.actions import Turn
-from nodes.action.naoqi.logins import (
-    FOLDER_VARIABLE,
-    PASSWORD_VARIABLE,
-    SavedLogin,
-    save_login,
-)
-from nodes.action.naoqi.server import Server, method
+from robots.body.actions import Turn
+from robots.naoqi.discovery import FOLDER_VARIABLE, PASSWORD_VARIABLE, SavedLogin, save_login
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.service import method
 
 TOLD_S = 6.0
 """Half of that on a quiet computer."""
@@ -106,7 +102,7 @@ def test_a_robot_that_does_not_answer_is_told_with_a_checklist_and_fails_every_a
     assert all(line.startswith("[ ] ") for line in checklist(stage))
     with pytest.raises(ActionFailed) as told:
         stage.driver.limbs(Turn(90.0))
-    assert told.value.sentence == sentence(stage)
+    assert str(told.value.sentence) == sentence(stage)
     assert stage.driver.state() is None
 
 

@@ -10,7 +10,9 @@ import pytest
 from driver_held_nao import SERVICES, HeldNao
 from driver_stage import DriverStage
 
-from nodes.action.naoqi.server import Promise, Server, method
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.promise import Promise
+from robots.naoqi.wire.service import method
 
 NAN = float("nan")
 ASKED: dict[str, dict[str, Any]] = {

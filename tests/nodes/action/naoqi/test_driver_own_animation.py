@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from driver_stage import ANIMATIONS, BODY, DriverStage, ServedNao
 
-from nep_core.messages import RobotState
-from nodes.action.naobody.actor import Actor
-from nodes.action.naobody.own_animations import with_own
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naoqi.driver.driver import NaoqiDriver
-from nodes.action.naoqi.logins import FOLDER_VARIABLE
+from nep_core.wire.messages import RobotState
+from robots.body.actor import Actor
+from robots.body.animations import with_own
+from robots.body.pose import VirtualRobot
+from robots.naoqi.discovery import FOLDER_VARIABLE
+from robots.naoqi.driver.driver import NaoqiDriver
 
 LOOK_ASIDE = """title = "Look aside"
 description = ""

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 from driver_stage import DriverStage, ServedNao
 
-from nodes.action.naoqi.logins import FOLDER_VARIABLE
+from robots.naoqi.discovery import FOLDER_VARIABLE
 
 
 @pytest.fixture(autouse=True)

@@ -9,10 +9,11 @@ from driver_held_nao import SERVICES, HeldNao
 from driver_stage import DriverStage, ServedNao
 from naoqi_lamp import CERTIFICATE, KEY
 
-from nep_core.messages import RobotState
-from nodes.action.naoqi.logins import FOLDER_VARIABLE, SavedLogin, save_login
-from nodes.action.naoqi.probe import probe
-from nodes.action.naoqi.server import Login, Server, TlsFiles
+from nep_core.wire.messages import RobotState
+from robots.naoqi.discovery import FOLDER_VARIABLE, SavedLogin, save_login
+from robots.naoqi.probe import probe
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.frames import Login, TlsFiles
 
 
 @pytest.fixture(autouse=True)

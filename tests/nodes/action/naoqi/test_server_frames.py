@@ -7,11 +7,10 @@ from typing import Any
 import pytest
 from naoqi_lamp import CallingLamp, lamp_server
 
-from nodes.action.naoqi.server import Login, Server
-from nodes.action.naoqi.wire.decoding import decode
-from nodes.action.naoqi.wire.encoding import encode
-from nodes.action.naoqi.wire.frames import Frame, FrameReader, Kind
-from nodes.action.naoqi.wire.service import description_of
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.codec import decode, encode
+from robots.naoqi.wire.frames import Frame, FrameReader, Kind, Login
+from robots.naoqi.wire.service import description_of
 
 LAMP = 2
 UIDS = {str(it): uid for uid, it in description_of(CallingLamp).meta.methods.items()}

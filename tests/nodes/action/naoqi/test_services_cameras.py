@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naobody.picture_files import frames_in
-from nodes.action.naoqi.server import CallFailed
+from robots.body.camera import frames_in
+from robots.naoqi.wire.errors import CallFailed
 
 
 @pytest.fixture(autouse=True)
@@ -49,4 +49,4 @@ def test_two_videos_at_once_are_refused(theatre: NaoqiTheatre) -> None:
     with pytest.raises(CallFailed) as refused:
         theatre.call("ALVideoRecorder", "startRecording", "/home/nao", "more")
 
-    assert "video already" in refused.value.sentence
+    assert "video already" in str(refused.value.sentence)

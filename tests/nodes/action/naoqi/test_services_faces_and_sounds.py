@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naoqi.client import CallFailed
+from robots.naoqi.wire.errors import CallFailed
 
 
 @pytest.fixture

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naoqi.client import CallFailed, NaoqiError
-from nodes.action.naoqi.wire.metaobject import Signature
-from nodes.action.naoqi.wire.service import FIRST_UID, description_of
+from robots.naoqi.wire.errors import CallFailed, NaoqiError
+from robots.naoqi.wire.metaobject import Signature
+from robots.naoqi.wire.service import FIRST_UID, description_of
 
 TEXTS = [
     "HeadYaw",

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naoqi.client import CallFailed, NoSuchService
+from robots.naoqi.wire.errors import CallFailed, NoSuchService
 
 
 def heard_events(theatre: NaoqiTheatre, event: str) -> list[Any]:
@@ -245,7 +245,7 @@ def test_what_is_wrong_is_told_in_words(
     with pytest.raises(CallFailed) as refused:
         theatre.call(service, method, *arguments)
 
-    assert words in refused.value.sentence
+    assert words in str(refused.value.sentence)
 
 
 def test_a_service_that_a_nao_does_not_have_is_not_found(theatre: NaoqiTheatre) -> None:

@@ -7,7 +7,7 @@ import time
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naoqi.client import CallCancelled, CallFailed
+from robots.naoqi.wire.errors import CallCancelled, CallFailed
 
 
 def test_an_interpolation_takes_its_time_and_ends_at_its_last_angles(
@@ -213,4 +213,4 @@ def test_what_cannot_be_is_refused_in_words(
     with pytest.raises(CallFailed) as refused:
         theatre.call("ALMotion", method, *arguments)
 
-    assert words in refused.value.sentence
+    assert words in str(refused.value.sentence)

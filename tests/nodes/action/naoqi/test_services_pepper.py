@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from naoqi_theatre import NAO, NaoqiTheatre
 
-from nodes.action.naoqi.client import CallFailed
+from robots.naoqi.wire.errors import CallFailed
 
 
 @pytest.fixture
@@ -47,4 +47,4 @@ def test_a_leg_that_it_does_not_have_is_told(pepper: NaoqiTheatre) -> None:
     with pytest.raises(CallFailed) as refused:
         pepper.call("ALMotion", "getAngles", "LLeg", True)
 
-    assert "no joint, chain or group “LLeg”" in refused.value.sentence
+    assert "no joint, chain or group “LLeg”" in str(refused.value.sentence)

@@ -7,7 +7,7 @@ import time
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naoqi.client import CallFailed
+from robots.naoqi.wire.errors import CallFailed
 
 HEY = "animations/Stand/Gestures/Hey_1"
 
@@ -102,7 +102,7 @@ def test_an_unknown_animation_is_told_before_a_word_is_said(theatre: NaoqiTheatr
     with pytest.raises(CallFailed) as refused:
         theatre.call("ALAnimatedSpeech", "say", "Hello ^start(animations/Stand/Gestures/Fly_1)")
 
-    assert "There is no animation" in refused.value.sentence
+    assert "There is no animation" in str(refused.value.sentence)
     assert theatre.state().saying == ""
 
 
@@ -121,7 +121,7 @@ def test_a_tag_plays_one_of_its_animations(theatre: NaoqiTheatre) -> None:
 
     with pytest.raises(CallFailed) as refused:
         theatre.call("ALAnimationPlayer", "runTag", "quantum")
-    assert "No animation has the tag “quantum”" in refused.value.sentence
+    assert "No animation has the tag “quantum”" in str(refused.value.sentence)
 
 
 def test_every_installed_behavior_can_be_played_by_its_name(theatre: NaoqiTheatre) -> None:
@@ -232,4 +232,4 @@ def test_what_it_cannot_do_is_told_in_words(
     with pytest.raises(CallFailed) as refused:
         theatre.call(service, method, *arguments)
 
-    assert words in refused.value.sentence
+    assert words in str(refused.value.sentence)

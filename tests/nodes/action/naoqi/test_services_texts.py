@@ -7,17 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from naoqi_theatre import ANIMATIONS, BODY, NAO
 
-from nodes.action.naobody.pose import VirtualRobot
-from nodes.action.naoqi.server import CallFailed
-from nodes.action.naoqi.services.animation_names import load_animation_names
-from nodes.action.naoqi.services.arguments import joints_of, lists, numbers
-from nodes.action.naoqi.services.spoken_text import (
-    Instruction,
-    Pause,
-    Voice,
-    Words,
-    read_text,
-)
+from robots.body.pose import VirtualRobot
+from robots.naoqi.services.animations import load_animation_names
+from robots.naoqi.services.arguments import joints_of, lists, numbers
+from robots.naoqi.services.speech import Instruction, Pause, Voice, Words, read_text
+from robots.naoqi.wire.errors import CallFailed
 
 USUAL = Voice()
 
@@ -130,4 +124,4 @@ def test_any_value_is_read_or_refused_in_words(value: object) -> None:
         try:
             read()
         except CallFailed as refused:
-            assert refused.sentence.endswith(".")
+            assert str(refused.sentence).endswith(".")

@@ -8,7 +8,7 @@ import time
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nodes.action.naoqi.client import CallFailed
+from robots.naoqi.wire.errors import CallFailed
 
 
 def test_walking_ends_where_it_was_told_to(theatre: NaoqiTheatre) -> None:
@@ -126,4 +126,4 @@ def test_a_robot_that_sits_says_why_it_does_not_walk(theatre: NaoqiTheatre) -> N
     with pytest.raises(CallFailed) as refused:
         theatre.call("ALMotion", "moveTo", 0.2, 0.0, 0.0)
 
-    assert "it must stand before it can walk" in refused.value.sentence
+    assert "it must stand before it can walk" in str(refused.value.sentence)

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.action.naoqi.wire.errors import BadFrame
-from nodes.action.naoqi.wire.frames import HEADER, MAGIC, Frame, FrameReader, Kind
+from robots.naoqi.wire.errors import BadFrame
+from robots.naoqi.wire.frames import HEADER, MAGIC, Frame, FrameReader, Kind
 
 NUMBERS = st.integers(0, 2**32 - 1)
 FRAMES = st.builds(

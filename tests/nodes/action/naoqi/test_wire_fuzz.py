@@ -11,10 +11,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from naoqi_lamp import lamp_server
 
-from nodes.action.naoqi.client import NaoqiError, RemoteObject, Session
-from nodes.action.naoqi.server import Server
-from nodes.action.naoqi.wire.encoding import encode
-from nodes.action.naoqi.wire.frames import Frame, Kind
+from robots.naoqi.client.session import Session
+from robots.naoqi.server.server import Server
+from robots.naoqi.wire.codec import encode
+from robots.naoqi.wire.errors import NaoqiError
+from robots.naoqi.wire.frames import Frame, Kind
+from robots.naoqi.wire.remote import RemoteObject
 
 BOUNDED = settings(
     max_examples=20,  # each of some seconds of waiting for answers that do not come

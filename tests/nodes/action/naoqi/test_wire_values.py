@@ -9,12 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.action.naoqi.wire.decoding import Reader, decode, read_value, reader_of
-from nodes.action.naoqi.wire.encoding import encode
-from nodes.action.naoqi.wire.errors import BadFrame, NoSuchMethod, WrongArguments
-from nodes.action.naoqi.wire.inference import type_text_of
-from nodes.action.naoqi.wire.metaobject import META_OBJECT, MetaObject, Signature
-from nodes.action.naoqi.wire.types import parse_type
+from robots.naoqi.wire.codec import Reader, decode, encode, read_value, reader_of
+from robots.naoqi.wire.errors import BadFrame, NoSuchMethod, WrongArguments
+from robots.naoqi.wire.metaobject import META_OBJECT, MetaObject, Signature
+from robots.naoqi.wire.types import parse_type, type_text_of
 
 SCALARS = (
     st.none()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nodes.sensory.arm.gestures import GESTURES
-from nodes.sensory.arm.simulate import perform
+from nodes.sensory.arm.people import perform
 
 
 @pytest.mark.real_data

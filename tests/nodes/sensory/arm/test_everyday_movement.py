@@ -3,14 +3,9 @@
 import numpy as np
 import pytest
 
-from nodes.sensory.arm.chores import CHORES
-from nodes.sensory.arm.everyday import CALM, EVERYDAY, HANGING
-from nodes.sensory.arm.lively import LIVELY, SIGNS, clap
-from nodes.sensory.arm.motion import Motion
-from nodes.sensory.arm.moving import jolt
-from nodes.sensory.arm.sensor import felt_exactly
-from nodes.sensory.arm.simulate import simulate_everyday
-from nodes.sensory.arm.skeleton import Body, joint_values
+from nodes.sensory.arm.everyday import CALM, CHORES, EVERYDAY, HANGING, LIVELY, SIGNS, clap, jolt
+from nodes.sensory.arm.motion import Body, Motion, felt_exactly, joint_values
+from nodes.sensory.arm.people import simulate_everyday
 
 UNSEEN = 105
 EVERY = sorted({*EVERYDAY, *SIGNS}, key=lambda activity: activity.__name__)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from nodes.sensory.arm.gestures import gesture_named
-from nodes.sensory.arm.live import MOST_WAITING, LivePerson
+from nodes.sensory.arm.people import MOST_WAITING, LivePerson
 
 KARATE, KATANA = gesture_named("karate"), gesture_named("katana")
 

@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 
-from nodes.sensory.arm.motion import Motion, Swing, minimum_jerk
-from nodes.sensory.arm.sensor import GRAVITY_M_S2, felt_exactly
-from nodes.sensory.arm.skeleton import Body, Joint, joint_values, watch_frames
+from nodes.sensory.arm.motion import (
+    GRAVITY_M_S2,
+    Body,
+    Joint,
+    Motion,
+    Swing,
+    felt_exactly,
+    joint_values,
+    minimum_jerk,
+    watch_frames,
+)
 
 BODY = Body()
 

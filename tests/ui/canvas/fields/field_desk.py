@@ -7,12 +7,13 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.values import FieldValue
+from nep_studio.blocks.slots import FieldValue
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.canvas.fields.places import view_rect_of
-from nep_studio.ui.theme import load_theme, text_font
+from nep_studio.ui.canvas.fields.field_edit import view_rect_of
+from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.theme.look import text_font
 
 
 class Desk:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.sentence import parse, slots_of
-from nep_studio.studio_language import studio_language
+from nep_studio.run.installation import studio_language
 
 SENTENCES = {
     "kinds.lines": ("remember {text:lines} for later", {"text": ""}),

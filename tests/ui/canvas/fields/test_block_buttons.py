@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.edits import SetComment, SetFlag
+from nep_studio.blocks.edits.content import SetComment, SetFlag
 from nep_studio.blocks.places import InInput
 
 PLAIN = Qt.KeyboardModifier.NoModifier

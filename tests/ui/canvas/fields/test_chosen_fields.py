@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from nep_studio.blocks.deployment import robot_entries
-from nep_studio.ui.canvas.fields.colour_popup import COLOURS
+from nep_studio.ui.canvas.fields.colour import COLOURS
 
 PLAIN = Qt.KeyboardModifier.NoModifier
 LEFT = Qt.MouseButton.LeftButton

@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_studio.blocks.arithmetic import LARGEST_NUMBER
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.canvas.fields.numbers import number_text, result_text, stepped, typed_number
-from nep_studio.ui.canvas.fields.options import Option, matching
-from nep_studio.ui.canvas.fields.order import field_after, fields_within
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.fields.choice import Option, matching
+from nep_studio.ui.canvas.fields.editors import field_after, fields_within
+from nep_studio.ui.canvas.fields.line_editor import number_text, result_text, stepped, typed_number
 from tests.blocks.block_building import B, build
 
 NUMBERS = st.one_of(

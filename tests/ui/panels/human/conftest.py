@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from nep_studio.ui.documents import Document
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.human.panel import HumanPanel, add_human_panel
+from nep_studio.ui.plugins.person.panel import HumanPanel, add_human_panel
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.window.conftest import answer, chooser, home, studio, window
 

@@ -8,12 +8,12 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.own_gestures import OwnGesture, OwnTake, keep_gesture
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.human.panel import HumanPanel
-from nep_studio.ui.panels.robots.floor import floor_of
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.plugins.person.panel import HumanPanel
+from nep_studio.ui.plugins.robots.floor import floor_of
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.panels.human.conftest import RUN_MS
 
@@ -146,7 +146,7 @@ def test_a_person_comes_closer_in_the_scene_and_goes(
 def test_a_visitor_that_is_moved_in_the_scene_moves_the_slider(
     human: Human, window: MainWindow
 ) -> None:
-    from nep_studio.surroundings import moved
+    from nep_studio.project.surroundings import moved
 
     panel, floor = human(rule("robot_events.person")), floor_of(window)
     panel.person.is_there.click()

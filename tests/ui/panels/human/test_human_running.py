@@ -7,11 +7,11 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.happenings import Happening
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.human.panel import HumanPanel
+from nep_core.wire import messages as m
+from nep_studio.project.triggers import Happening
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.plugins.person.panel import HumanPanel
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.panels.human.conftest import RUN_MS, said
 

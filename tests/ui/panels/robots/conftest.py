@@ -10,19 +10,18 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QApplication, QMainWindow
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
-from nep_studio.plan import PlannedNode
+from nep_studio.run.installation import studio_language
+from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import Settings
-from nep_studio.studio_language import studio_language
-from nep_studio.ui.panels.robots.floor import Floor
-from nep_studio.ui.panels.robots.panel import RobotsPanel
-from nep_studio.ui.panels.robots.starts import Starts
+from nep_studio.ui.plugins.robots.floor import Floor, Starts
+from nep_studio.ui.plugins.robots.panel import RobotsPanel
+from nep_studio.ui.plugins.speech import Sound
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.speech.adding import Sound
-from nep_studio.ui.theme import Look, load_fonts
+from nep_studio.ui.theme.look import Look, load_fonts
 
 NAO = PlannedNode("action/nao", "NAO", {"robot": "NAO", "driver": "virtual", "address": ""})
 REAL = PlannedNode(

@@ -10,14 +10,14 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QMainWindow
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
+from nep_core.wire import messages as m
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
-from nep_studio.studio_language import studio_language
-from nep_studio.surroundings import kept_things, new_thing
-from nep_studio.ui.panels.robots.floor import Floor
-from nep_studio.ui.panels.robots.panel import RobotsPanel
-from nep_studio.ui.panels.robots.stage import RobotStage
+from nep_studio.project.surroundings import kept_things, new_thing
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.plugins.robots.floor import Floor
+from nep_studio.ui.plugins.robots.panel import RobotsPanel
+from nep_studio.ui.plugins.robots.stage import RobotStage
 from nep_studio.ui.running.runner import Runner
 from tests.ui.panels.robots.conftest import NAO, Document, Files, hear, state
 

@@ -7,12 +7,12 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QMainWindow
 from pytestqt.qtbot import QtBot
 
-from nep_core import messages as m
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.panels.robots.panel import RobotsPanel
+from nep_core.wire import messages as m
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.theme import Look
-from nodes.action.naobody.touch import TOUCH_SENSORS
+from nep_studio.ui.theme.look import Look
+from robots.body.limbs import TOUCH_SENSORS
 from tests.ui.panels.robots.conftest import NAO, hear, state
 
 NODE_START_MS = 30_000

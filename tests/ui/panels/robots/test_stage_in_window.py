@@ -8,10 +8,10 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.files import load
-from nep_studio.studio_language import studio_language
-from nep_studio.surroundings import kept_things
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.robots.panel import RobotsPanel
+from nep_studio.project.surroundings import kept_things
+from nep_studio.run.installation import studio_language
+from nep_studio.ui.plugins.robots.panel import RobotsPanel
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import Chooser, answer, chooser, home, karate, studio, window
 
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]

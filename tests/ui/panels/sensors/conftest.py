@@ -9,12 +9,12 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import Imu
-from nep_studio.ui.panels.sensors.feed import SensorFeed
-from nep_studio.ui.panels.sensors.hand import Hand
-from nep_studio.ui.panels.sensors.plots import Plots
+from nep_core.wire.messages import Imu
+from nep_studio.ui.plugins.sensors.feed import SensorFeed
+from nep_studio.ui.plugins.sensors.plots import Plots
+from nep_studio.ui.plugins.sensors.pointing import Hand
 from nep_studio.ui.running.tap import Heard, Tap
-from nep_studio.ui.theme import Look
+from nep_studio.ui.theme.look import Look
 
 
 class Silence(QObject):
@@ -47,7 +47,7 @@ def look(qapp: QApplication) -> Iterator[Look]:
 
 @pytest.fixture
 def feed(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> Iterator[SensorFeed]:
-    monkeypatch.setattr("nep_studio.ui.panels.sensors.feed._moment", lambda heard: heard.time_s)
+    monkeypatch.setattr("nep_studio.ui.plugins.sensors.feed._moment", lambda heard: heard.time_s)
     silence = Silence()
     made = SensorFeed(silence, silence)
     yield made

@@ -7,16 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_core.messages import Imu, RobotState
-from nep_studio.ui.panels.sensors.clock import ClockMap
-from nep_studio.ui.panels.sensors.columns import LiveColumns, columns_of
-from nep_studio.ui.panels.sensors.fields import FieldStream, number_at, numbers_in, parts_of
-from nep_studio.ui.panels.sensors.imu_stream import ImuStream
-from nep_studio.ui.panels.sensors.measuring import measure
-from nep_studio.ui.panels.sensors.ranges import ValueRange
-from nep_studio.ui.panels.sensors.ring import Ring
-from nep_studio.ui.panels.sensors.streams import Channel, Stream, StreamKey
-from nep_studio.ui.panels.sensors.view import TimeView, fitting_length
+from nep_core.wire.messages import Imu, RobotState
+from nep_studio.ui.plugins.sensors.curves import ValueRange
+from nep_studio.ui.plugins.sensors.curves_view import LiveColumns, columns_of
+from nep_studio.ui.plugins.sensors.feed import FieldStream, number_at, numbers_in, parts_of
+from nep_studio.ui.plugins.sensors.measuring import TimeView, fitting_length, measure
+from nep_studio.ui.plugins.sensors.streams import (
+    Channel,
+    ClockMap,
+    ImuStream,
+    Ring,
+    Stream,
+    StreamKey,
+)
 
 KEY = StreamKey("/imu", "watch")
 

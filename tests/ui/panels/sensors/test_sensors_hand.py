@@ -9,9 +9,9 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.panels.sensors.curve_list import CurveList
-from nep_studio.ui.panels.sensors.plots import Plots
-from nep_studio.ui.theme import Look
+from nep_studio.ui.plugins.sensors.curve_list import CurveList
+from nep_studio.ui.plugins.sensors.plots import Plots
+from nep_studio.ui.theme.look import Look
 from tests.ui.panels.sensors.conftest import hear
 
 

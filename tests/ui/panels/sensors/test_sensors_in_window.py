@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_studio.plan import PlannedNode
-from nep_studio.ui.main_window import MainWindow
-from nep_studio.ui.panels.sensors.panel import SensorsPanel, add_sensors_panel, show_topic
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.sensors.panel import SensorsPanel, add_sensors_panel, show_topic
+from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import chooser, home, karate, studio, window
 
 __all__ = ["chooser", "home", "karate", "studio", "window"]
@@ -30,7 +30,7 @@ def opened(karate: MainWindow, qtbot: QtBot) -> Iterator[MainWindow]:
 
 def test_the_panel_loads_nothing_slow_before_it_is_shown() -> None:
     code = (
-        "import sys; import nep_studio.ui.panels.sensors.panel; "
+        "import sys; import nep_studio.ui.plugins.sensors.panel; "
         "sys.exit('numpy' in sys.modules or 'pyqtgraph' in sys.modules)"
     )
 

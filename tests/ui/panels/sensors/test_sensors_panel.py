@@ -10,15 +10,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QMainWindow
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, RobotState
+from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, RobotState
 from nep_studio.ui.messages import Message, Messages
-from nep_studio.ui.panels.network.feed import feed_of
-from nep_studio.ui.panels.sensors.feed import SensorFeed
-from nep_studio.ui.panels.sensors.panel import SensorsPanel
-from nep_studio.ui.panels.sensors.recorder import Recorder
-from nep_studio.ui.panels.sensors.workspace import Workspace
+from nep_studio.ui.network_feed import feed_of
+from nep_studio.ui.plugins.sensors.feed import SensorFeed
+from nep_studio.ui.plugins.sensors.panel import SensorsPanel
+from nep_studio.ui.plugins.sensors.recorder import Recorder
+from nep_studio.ui.plugins.sensors.workspace import Workspace
 from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.theme import Look
+from nep_studio.ui.theme.look import Look
 
 NODE_START_MS = 20_000
 

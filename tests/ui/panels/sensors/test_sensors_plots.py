@@ -7,12 +7,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QImage
 from pytestqt.qtbot import QtBot
 
-from nep_core.messages import HumanBehavior
-from nep_studio.ui.panels.sensors.curve_list import CurveList
-from nep_studio.ui.panels.sensors.feed import Field
-from nep_studio.ui.panels.sensors.plots import Plots
+from nep_core.wire.messages import HumanBehavior
+from nep_studio.ui.plugins.sensors.curve_list import CurveList
+from nep_studio.ui.plugins.sensors.feed import Field
+from nep_studio.ui.plugins.sensors.plots import Plots
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.theme import Look, Theme
+from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.theme.look import Look
 from tests.ui.panels.sensors.conftest import hear
 
 

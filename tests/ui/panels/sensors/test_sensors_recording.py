@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from nep_core.errors import RecordingError
-from nep_core.messages import Imu
-from nep_studio.ui.panels.sensors.recording import Recording
+from nep_core.wire.messages import Imu
+from nep_studio.ui.plugins.sensors.recorder import Recording
 from nodes.recordings import read_recording
 from tests.conftest import PROJECT
 
@@ -94,7 +94,7 @@ def test_a_folder_that_cannot_be_written_is_told_with_a_checklist(tmp_path: Path
     with pytest.raises(RecordingError) as told:
         Recording(tmp_path / "file" / "in it", "walk").open()
 
-    assert "cannot be written" in told.value.sentence
+    assert "cannot be written" in str(told.value.sentence)
     assert told.value.checklist
 
 
@@ -103,7 +103,7 @@ import resource, sys
 from pathlib import Path
 from nep_core.errors import RecordingError
 from tests.ui.panels.sensors.test_sensors_recording import imu
-from nep_studio.ui.panels.sensors.recording import Recording
+from nep_studio.ui.plugins.sensors.recorder import Recording
 if len(sys.argv) > 2:
     resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]),) * 2)
 recording = Recording(Path(sys.argv[1]), "walk")

@@ -1,0 +1,68 @@
+"""Who may take part in a network: without a key file only programs of this computer."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import zmq
+
+    from .curve import Security
+
+KEYS_VARIABLE = "NEP_KEYS"
+"""The key file of an opened network; without it programs talk on this computer only."""
+
+
+def key_file_path() -> Path | None:
+    """The key file that this program was told to use; None: it stays on this computer."""
+    told = os.environ.get(KEYS_VARIABLE)
+    return Path(told) if told else None
+
+
+def from_environment(context: zmq.Context[zmq.Socket[bytes]]) -> Security | None:
+    """What guards the sockets of a new ``context``, by the key file in NEP_KEYS; None without one.
+
+    It ends with the context, which must not be destroyed but closed socket by socket, then by
+    term(). Raises KeyFileError; the context is closed then.
+    """
+    path = key_file_path()
+    if path is None:
+        return None
+    from .curve import Security
+    from .keys import KeyFile
+
+    try:
+        return Security(KeyFile(path), context)
+    except BaseException:
+        context.destroy(linger=0)
+        raise
+
+
+def trust_in_master() -> Callable[[zmq.Socket[bytes]], None]:
+    """What to do with a socket before it is connected to the master; raises KeyFileError."""
+    path = key_file_path()
+    if path is None:
+        return lambda socket: None
+    from .curve import expect_key, show_keys
+    from .keys import KeyFile
+
+    keys = KeyFile(path).keys
+
+    def trust(socket: zmq.Socket[bytes]) -> None:
+        show_keys(socket, keys)
+        expect_key(socket, keys.master_key)
+
+    return trust
+
+
+def told_master() -> str:
+    """Where the key file says that the master is; "" without one. Raises KeyFileError."""
+    path = key_file_path()
+    if path is None:
+        return ""
+    from .keys import KeyFile
+
+    return KeyFile(path).keys.master

@@ -1,0 +1,242 @@
+"""The networks that ZeroMQ carries.
+
+DirectNetwork has fixed endpoints; PeerNetwork (p2p.py, the default) asks the NEP Master who is
+where; BrokerNetwork (broker_network.py) has a central service.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import zmq
+
+from faults import reason_of
+from nep_core.errors import NetworkError
+from nep_core.wire.inbox import WAKE_ENDPOINT, Inbox
+from nep_core.wire.outbox import HIGH_WATER_MARK, Outbox
+
+from . import security
+from .endpoints import check_endpoint, fixed_endpoint, master_endpoint
+from .master_client import MasterClient
+from .network import Network, Policy
+from .registry import Publishing, Registration
+from .security.addresses import endpoint_at, own_address
+
+MOST_SOCKETS = 16_000
+"""ZeroMQ's own limit, 1,023, is less than the topics of a large robot."""
+
+
+class ZmqNetwork(Network):
+    """A network with one ZeroMQ context.
+
+    ``high_water_mark``: how many frames may wait for a slow subscriber, on each side (0: no
+    limit); see outbox.py. ``is_far``: a broker is between publishers and subscribers.
+    """
+
+    outbox: Outbox
+
+    def __init__(
+        self, node: str = "", *, high_water_mark: int = HIGH_WATER_MARK, is_far: bool = False
+    ) -> None:
+        super().__init__(node)
+        self._high_water_mark = high_water_mark
+        self.context: zmq.Context[zmq.Socket[bytes]] = zmq.Context(io_threads=1)
+        self.context.set(zmq.MAX_SOCKETS, MOST_SOCKETS)  # each subscriber has one
+        self.security = security.from_environment(self.context)
+        self._waker = self.context.socket(zmq.PUB)
+        self._waker.bind(WAKE_ENDPOINT)
+        self.outbox = Outbox(
+            self.context,
+            self.node,
+            self.instance,
+            self.io.hurry,
+            high_water_mark,
+            is_far=is_far,
+            security=self.security,
+        )
+        self.io.watch(self.outbox.file_number)
+        self.io.tend(self.outbox.tend)
+        self.io.tend(self._let_go)
+
+    def _make_inbox(self, topic: str, subscriber: str, policy: Policy) -> Inbox:
+        try:
+            return Inbox(
+                self.context,
+                topic,
+                subscriber,
+                policy,
+                wake=self.io.wake,
+                waker=self._waker,
+                high_water_mark=self._high_water_mark,
+                security=self.security,
+            )
+        except zmq.ZMQError as error:
+            raise NetworkError(
+                "{topic} cannot be heard too: {reason}.",
+                checklist=("Allow more open files before you start it: ulimit -n 8192",),
+                topic=topic,
+                reason=reason_of(error),
+            ) from error
+
+    def _let_go(self) -> None:
+        """Give back the inboxes that were closed: they end only when the waker looks up."""
+        self._waker.getsockopt(zmq.EVENTS)
+
+    def take_warning(self) -> str:
+        """Who was refused since the last time, and what to do."""
+        return self.security.take_warning() if self.security else ""
+
+    def _key_at(self, endpoint: str) -> str:
+        return self.security.key_at(endpoint) if self.security else ""
+
+    def _end(self) -> None:
+        self._waker.close()
+        self.context.term()
+
+
+class DirectNetwork(ZmqNetwork):
+    """A fixed endpoint that one side binds: no master, no broker.
+
+    ``binds="publisher"`` is one publisher to many subscribers; ``binds="subscriber"`` the
+    reverse. Raises PortTaken when the endpoint is in use.
+    """
+
+    def __init__(
+        self,
+        endpoint: str,
+        *,
+        binds: Literal["publisher", "subscriber"] = "publisher",
+        node: str = "",
+        high_water_mark: int = HIGH_WATER_MARK,
+    ) -> None:
+        self.endpoint = check_endpoint(endpoint)
+        self._binds = binds
+        self._has_outbox = False
+        super().__init__(node, high_water_mark=high_water_mark)
+        self.io.start()
+
+    def add_publisher(self, topic: str) -> set[str]:
+        """Bind or connect at the first topic; nobody is known to wait."""
+        with self._lock:
+            if not self._has_outbox:
+                open_end = self.outbox.bind if self._binds == "publisher" else self.outbox.connect
+                open_end(self.endpoint)
+                self._has_outbox = True
+        return set()
+
+    def add_subscriber(self, topic: str, subscriber: str, inbox: Any) -> set[str]:
+        """Connect or bind; nobody is known to be there."""
+        if self._binds == "subscriber":
+            inbox.bind(self.endpoint)
+        else:
+            inbox.connect({self.endpoint: self._key_at(self.endpoint)})
+        return set()
+
+
+# The default network: publishers bind a free port, and the master tells subscribers where.
+
+
+class PeerNetwork(ZmqNetwork):
+    """One program's place in a p2p network.
+
+    Joining raises MasterNotFound when no master answers, NameTaken when a node of this name is
+    already running.
+    """
+
+    def __init__(
+        self,
+        node: str = "",
+        *,
+        master: str | None = None,
+        high_water_mark: int = HIGH_WATER_MARK,
+        is_far: bool = False,
+    ) -> None:
+        self.master = fixed_endpoint(master or master_endpoint())
+        super().__init__(node, high_water_mark=high_water_mark, is_far=is_far)
+        self._topics: dict[str, int] = {}
+        self._inboxes_by_topic: dict[str, list[Inbox]] = {}
+        try:
+            endpoint = self._open_outbox()
+        except NetworkError:
+            self.outbox.close()
+            self._end()
+            raise
+        told = MasterClient.registration(self.node, self.instance, endpoint)
+        if self.security is not None:
+            told.key = self.security.key
+        self._client = MasterClient(
+            self.context,
+            self.io,
+            self.master,
+            told,
+            self._connect_subscribers,
+            lambda: self.on_stop(),  # a node sets it later
+            self.security.allow if self.security else lambda keys: None,
+        )
+        self.io.start()
+
+    def join(self) -> None:
+        """Make the node's name known at once; the first topic would do it too."""
+        self._client.change(lambda told: None)
+
+    def add_publisher(self, topic: str) -> set[str]:
+        """Register the topic; the subscribers that the master knows."""
+        with self._lock:
+            self._topics[topic] = self._topics.get(topic, 0) + 1
+        return set(self._client.change(self._tell_topics, topic).subscribers)
+
+    def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
+        """Register the subscriber; the publishers that the master knows."""
+        with self._lock:
+            self._inboxes_by_topic.setdefault(topic, []).append(inbox)
+
+        def add(told: Registration) -> None:
+            told.subscribes[subscriber] = topic
+
+        return {publisher.instance for publisher in self._client.change(add, topic).publishers}
+
+    def remove_publisher(self, topic: str) -> None:
+        """Tell the master, without waiting, when the topic's last publisher here is closed."""
+        with self._lock:
+            self._topics[topic] = self._topics.get(topic, 0) - 1
+        self._client.change_later(self._tell_topics)
+
+    def remove_subscriber(self, subscriber: str) -> None:
+        """End a subscriber and tell the master, without waiting."""
+        with self._lock:
+            inbox = self._inboxes.get(subscriber)
+            for inboxes in self._inboxes_by_topic.values():
+                if inbox in inboxes:
+                    inboxes.remove(inbox)
+        super().remove_subscriber(subscriber)
+        self._client.change_later(lambda told: _forget(told, subscriber))
+
+    def _open_outbox(self) -> str:
+        """Where subscribers find the messages."""
+        return self.outbox.bind(self._own_place())
+
+    def _own_place(self) -> str:
+        """Where to bind: this computer alone, or with keys where other computers reach it."""
+        host = "127.0.0.1" if self.security is None else own_address(self.master)
+        return endpoint_at(host, "*")
+
+    def _tell_topics(self, told: Registration) -> None:
+        told.publishes = sorted(topic for topic, count in self._topics.items() if count > 0)
+
+    def _connect_subscribers(self, topic: str, publishers: list[Publishing]) -> None:
+        endpoints = self._endpoints_of(publishers)
+        with self._lock:
+            inboxes = list(self._inboxes_by_topic.get(topic, []))
+        for inbox in inboxes:
+            inbox.connect(endpoints, {publisher.instance for publisher in publishers})
+
+    def _endpoints_of(self, publishers: list[Publishing]) -> dict[str, str]:
+        """Where they are heard, and their keys."""
+        return {publisher.endpoint: publisher.key for publisher in publishers}
+
+    def _leave(self) -> None:
+        self._client.close()
+
+
+def _forget(told: Registration, subscriber: str) -> None:
+    told.subscribes.pop(subscriber, None)

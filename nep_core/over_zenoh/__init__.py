@@ -1,1 +1,0 @@
-"""A network over zenoh: the same publishers and subscribers, across several sites."""

@@ -1,0 +1,374 @@
+"""Starting nodes by type and name, keeping them running, and stopping them all."""
+
+from __future__ import annotations
+
+import logging
+import os
+import shutil
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from nep_core.errors import NameTaken, NepError, NodeStartError
+from nep_core.networks.endpoints import MASTER_VARIABLE, master_endpoint
+from nep_core.networks.network import Network
+from nep_core.places import log_folder, node_folders
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
+
+from .guard import GUARD
+from .manifest import READY_S, Manifest, NodeCatalog, Restart, Value
+from .node import check_node_name
+from .node_log import log_file_name
+from .process import ASKED, ChildProcess, Outcome, is_in_tree, program_command
+
+log = logging.getLogger(__name__)
+
+
+# A node that the launcher keeps running, and whether it deserves another life.
+
+MOST_RESTARTS = 5
+HEALTHY_S = 10.0
+LAST_WORD_S = 0.2
+AT_WORK = frozenset(("ready", "running", "busy", "connected", "connection_failed", "disconnected"))
+"""What only a node tells that is ready: who hears it late hears the newest of its states alone."""
+
+
+@dataclass
+class LaunchedNode:
+    """A node that the launcher keeps running."""
+
+    name: str
+    manifest: Manifest | None
+    command: list[str]
+    restart: Restart = "on-crash"
+    process: ChildProcess | None = None
+    outcome: Outcome | None = None
+    started_s: float = 0.0
+    restarts: int = 0
+    stopping: bool = False
+    ready: threading.Event = field(default_factory=threading.Event)
+    ended: threading.Event = field(default_factory=threading.Event)
+    said_end: threading.Event = field(default_factory=threading.Event)
+    told: threading.Event = field(default_factory=threading.Event)
+    """Set when whoever wants to know has been told of its end."""
+
+    @property
+    def pid(self) -> int:
+        """The process id now; it changes when the node is restarted."""
+        return self.process.pid if self.process else 0
+
+    def owns(self, pid: int) -> bool:
+        """Whether the process ``pid`` is its own, perhaps started by a wrapper or a launch stub."""
+        return self.process is not None and is_in_tree(pid, self.process.pid)
+
+    def hear(self, state: NodeState) -> None:
+        """Take note of what a node of its name told."""
+        if not self.ready.is_set() and state.event in AT_WORK and self.owns(state.pid):
+            self.ready.set()
+        elif state.event == "stopped" and self.owns(state.pid):
+            self.said_end.set()
+
+    def was_ended(self, outcome: Outcome) -> bool:
+        """Whether it was killed on purpose: ``nep kill --force`` tells so before it does it."""
+        return outcome.code < 0 and self.said_end.is_set()
+
+    def has_said_end(self, outcome: Outcome) -> bool:
+        """Whether the node itself told that it stopped; waits a moment for its last message."""
+        if outcome.code != 0 or not self.ready.is_set():
+            return False
+        return self.said_end.wait(LAST_WORD_S)
+
+    def deserves_another(self, outcome: Outcome) -> bool:
+        """Whether it is to be started again; 10 s of health start the count anew."""
+        if time.monotonic() - self.started_s > HEALTHY_S:
+            self.restarts = 0
+        is_over = self.stopping or outcome.asked or outcome.code == ASKED
+        if is_over or self.restarts >= MOST_RESTARTS:
+            return False
+        match self.restart:
+            case "always":
+                return True
+            case "on-crash":
+                # A node that ends with an error before it was ever ready has wrong settings.
+                has_run = self.ready.is_set() or self.restarts > 0
+                return outcome.code < 0 or (has_run and not outcome.was_successful)
+            case "on-kill":
+                return outcome.code < 0
+        return False
+
+    def wait_ready(
+        self, timeout_s: float | None = None, *, given_up: threading.Event | None = None
+    ) -> None:
+        """Wait until the node says that it is ready, or has done its work and ended well.
+
+        ``timeout_s``: None takes ``ready_s`` of its manifest. ``given_up``: wait no longer once
+        this is set. Raises NodeStartError with its last words, or when the time is over.
+        """
+        if timeout_s is None:
+            timeout_s = self.manifest.ready_s if self.manifest else READY_S
+        deadline = time.monotonic() + timeout_s
+        while not self.ready.wait(0.05):
+            if given_up is not None and given_up.is_set():
+                return
+            if self.ended.is_set() and self.outcome is not None:
+                if self.outcome.was_successful:
+                    return
+                steps = self.outcome.checklist or ("Look into its log.", "Correct its settings.")
+                raise NodeStartError("{outcome}.", checklist=steps, outcome=self.outcome.text)
+            if time.monotonic() > deadline:
+                raise NodeStartError(
+                    "{name} did not say that it is ready within {timeout_s} s.",
+                    checklist=("Look into its log.", "Start it again."),
+                    name=self.name,
+                    timeout_s=f"{timeout_s:g}",
+                )
+
+
+# Tells on the network how nodes ended that cannot say it any more.
+
+
+class Herald:
+    """Speaks until it is closed, which it must be before the network is."""
+
+    def __init__(self, network: Network | None) -> None:
+        self._lock = threading.Lock()
+        self._host = socket.gethostname()
+        self._states: Publisher | None = Publisher(NODE_STATE, network=network)
+
+    def tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        """Say how a node ended, unless it ended well by itself, or has said it."""
+        is_well = outcome.was_successful and not outcome.asked
+        if is_well or (outcome.asked and launched.has_said_end(outcome)):
+            return
+        state = NodeState(
+            node=launched.name,
+            type=launched.manifest.type if launched.manifest else "cognitive",
+            event="stopped" if outcome.asked else "crashed",
+            description=f"{outcome}; it is started again" if again else str(outcome),
+            pid=launched.pid,
+            host=self._host,
+        )
+        with self._lock:
+            if self._states is not None and not self._states.network.closed:
+                self._states.send(state)
+
+    def close(self) -> None:
+        """Say nothing any more: a node may still end when the network is closed."""
+        with self._lock:
+            self._states = None  # not closed: a node of this network may speak on
+
+
+__all__ = ["LaunchedNode", "Launcher", "Report"]
+
+
+SETTINGS = {"PYTHONUNBUFFERED": "1", "PYTHONUTF8": "1"}
+"""What every node finds in its environment, beside the master's endpoint."""
+
+FIRST_PAUSE_S = 0.25
+TOLD_S = 1.0
+"""How long closing waits until the end of each node has been told."""
+
+Report = Callable[[LaunchedNode, Outcome, bool], None]
+"""Called when a node ended: which, how, and whether it is started again."""
+
+
+class Launcher:
+    """Starts nodes as processes of their own and supervises them.
+
+    A node that crashes is started again, at most 5 times in a row, each time after a longer
+    pause; 10 s of health start the count anew. How a node ended that cannot say it itself is told
+    on ``/node_state``. Leaving a ``with`` block stops all nodes.
+    """
+
+    def __init__(
+        self,
+        *,
+        folders: tuple[Path, ...] | None = None,
+        logs: Path | None = None,
+        master: str | None = None,
+        on_end: Report | None = None,
+    ) -> None:
+        self.catalog = NodeCatalog(folders or node_folders())
+        self.logs = logs or log_folder()
+        self.nodes: dict[str, LaunchedNode] = {}
+        self.master = master or master_endpoint()
+        self._on_end = on_end
+        self._lock = threading.RLock()
+        self._states: Subscriber[NodeState] | None = None
+        self._herald: Herald | None = None
+
+    def hear(self, network: Network | None = None) -> None:
+        """Hear on ``network`` (default: this program's) which nodes are ready, tell who ended."""
+        with self._lock:
+            if self._states is None:
+                self._herald = Herald(network)
+                self._states = Subscriber(
+                    NODE_STATE, NodeState, network=network, callback=self._on_node_state
+                )
+
+    def start(self, node: str, name: str = "", **parameters: Value) -> LaunchedNode:
+        """Start "type/name" under ``name``, as launch()."""
+        return self.launch(node, name, parameters)
+
+    def launch(
+        self,
+        node: str,
+        name: str = "",
+        parameters: Mapping[str, Value] | None = None,
+        *,
+        restart: Restart | None = None,
+    ) -> LaunchedNode:
+        """Start "type/name" under ``name``; does not wait until it is ready.
+
+        ``restart``: when it is started again (None: as its manifest says). Raises NodeNotFound,
+        ManifestError, ParameterError, NameTaken, NodeStartError.
+        """
+        self.hear()
+        manifest = self.catalog.find(node)
+        name = name or manifest.name
+        settings = _settings(manifest.read_parameters(dict(parameters or {})))
+        if manifest.command:
+            folder = Path(manifest.path).parent
+            command = [part.replace("{folder}", str(folder)) for part in manifest.command]
+            command = _guarded([*command, "--name", name, *settings])
+        else:
+            command = program_command("node", manifest.path, f"--name={name}", *settings)
+        return self._launch(LaunchedNode(name, manifest, command, restart or manifest.restart))
+
+    def start_command(self, name: str, command: list[str]) -> LaunchedNode:
+        """Start and supervise a program that has no manifest, such as the master."""
+        return self._launch(LaunchedNode(name, None, command))
+
+    def stop(self, name: str) -> None:
+        """Stop one node and all the processes that it started."""
+        with self._lock:  # a restart may be starting another process at this moment
+            launched = self.nodes.get(name)
+            if launched is None:
+                return
+            launched.stopping = True
+            launched.ended.set()
+            process = launched.process
+        if process is not None:
+            process.stop()
+
+    def stop_all(self, names: Iterable[str]) -> None:
+        """Stop several nodes, all at once."""
+        with self._lock:
+            stopped = [self.nodes[name] for name in names if name in self.nodes]
+            for launched in stopped:
+                launched.stopping = True
+            processes = [launched.process for launched in stopped]
+        for process in processes:
+            if process is not None and process.poll() is None:
+                process.ask_to_stop()
+        for launched in stopped:
+            self.stop(launched.name)
+
+    def close(self) -> None:
+        """Stop every node, all at once."""
+        self.stop_all(list(self.nodes))
+        for launched in list(self.nodes.values()):
+            launched.told.wait(TOLD_S)
+        self.leave()
+
+    def leave(self) -> None:
+        """Hear and tell no more, as when the network is about to be closed."""
+        if self._herald is not None:
+            self._herald.close()
+        if self._states is not None:
+            self._states.close()
+
+    def __enter__(self) -> Launcher:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.close()
+
+    def _launch(self, launched: LaunchedNode) -> LaunchedNode:
+        check_node_name(launched.name)
+        with self._lock:
+            other = self.nodes.get(launched.name)
+            if other is not None and not other.ended.is_set():
+                raise NameTaken(
+                    'There are two nodes with the name "{name}".',
+                    checklist=("Give each node a name of its own.",),
+                    name=launched.name,
+                )
+            self.nodes[launched.name] = launched
+            try:
+                self._start_process(launched)
+            except BaseException:
+                launched.ended.set()  # its name is free again
+                launched.told.set()
+                raise
+        return launched
+
+    def _start_process(self, launched: LaunchedNode) -> None:
+        launched.ready.clear()
+        launched.said_end.clear()
+        launched.started_s = time.monotonic()
+        launched.process = ChildProcess(
+            launched.name,
+            launched.command,
+            environment={**os.environ, **SETTINGS, MASTER_VARIABLE: self.master},
+            log_file=self.logs / log_file_name(launched.name),
+            goes_on=launched.restarts > 0,
+            on_end=lambda outcome: self._ended(launched, outcome),
+        )
+
+    def _ended(self, launched: LaunchedNode, outcome: Outcome) -> None:
+        if launched.was_ended(outcome):
+            outcome = replace(outcome, asked=True)
+        again = launched.deserves_another(outcome)
+        self._tell_end(launched, outcome, again)
+        if again:
+            self._restart(launched, outcome)
+
+    def _tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        launched.outcome = outcome
+        if not again:
+            launched.ended.set()
+        if self._herald is not None:
+            self._herald.tell_end(launched, outcome, again)
+        if self._on_end is not None:
+            self._on_end(launched, outcome, again)
+        if not again:
+            launched.told.set()
+
+    def _restart(self, launched: LaunchedNode, outcome: Outcome) -> None:
+        launched.ended.wait(FIRST_PAUSE_S * 2**launched.restarts)  # unless it is stopped meanwhile
+        launched.restarts += 1
+        try:
+            with self._lock:
+                if not launched.stopping:
+                    self._start_process(launched)
+                    return
+            outcome = replace(outcome, asked=True)
+        except (NepError, OSError) as error:
+            log.warning("%s", error)
+            steps = error.checklist if isinstance(error, NepError) else ()
+            outcome = Outcome(launched.name, 1, last_words=str(error), checklist=steps)
+        self._tell_end(launched, outcome, again=False)
+
+    def _on_node_state(self, state: NodeState) -> None:
+        launched = self.nodes.get(state.node)
+        if launched is not None:
+            launched.hear(state)
+
+
+def _settings(parameters: Mapping[str, Value]) -> list[str]:
+    """As words that every language reads: no True and False of Python."""
+    words = {True: "true", False: "false"}
+    return [
+        f"{name}={words[value] if isinstance(value, bool) else value}"
+        for name, value in parameters.items()
+    ]
+
+
+def _guarded(command: list[str]) -> list[str]:
+    """Let a node that knows of no life line end with us; one that cannot be found fails at once."""
+    return program_command(GUARD, *command) if shutil.which(command[0]) else command

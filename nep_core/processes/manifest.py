@@ -1,0 +1,278 @@
+"""A node's description: one TOML file beside its code, ``nodes/<type>/<name>.toml``."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from dataclasses import dataclass
+from keyword import iskeyword
+from pathlib import Path
+from typing import Any, Literal, get_args
+
+import msgspec
+
+from faults import Text, Words
+from nep_core.errors import ManifestError, NodeNotFound, ParameterError
+from nep_core.wire.messages import NodeType
+
+ParameterType = Literal["text", "number", "integer", "boolean", "choice", "file"]
+Restart = Literal["on-crash", "always", "on-kill", "never"]
+"""When a node is started again: when it was killed, or failed after it had been ready (on-crash);
+also when it ended by itself (always); only when it was killed (on-kill); never."""
+READY_S = 10.0
+MOST_READY_S = 3600.0
+Value = str | float | int | bool
+
+_EXAMPLES: dict[str, str] = {
+    "text": 'a text, such as "karate"',
+    "number": "a number, such as 0.5",
+    "integer": "a whole number, such as 50",
+    "boolean": "true or false",
+    "choice": "one of the choices",
+    "file": "the name of a file",
+}
+
+
+class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """One setting of a node."""
+
+    type: ParameterType
+    default: Value | None = None
+    required: bool = False
+    help: str = ""
+    choices: list[str] = []
+    minimum: float | None = None
+    maximum: float | None = None
+
+    def read(self, name: str, value: object) -> Value:
+        """``value`` (perhaps text, from a command line) as this type; raises ParameterError."""
+        read = self._as_type(value)
+        if read is None:
+            raise ParameterError(
+                'The setting "{name}" is {value}, but it takes {wanted}.',
+                checklist=("Set {name} to {wanted}.",),
+                name=name,
+                value=repr(value),
+                wanted=self._wanted(),
+            )
+        return read
+
+    def _as_type(self, value: object) -> Value | None:
+        match self.type:
+            case "boolean":
+                return _boolean(value)
+            case "number":
+                number = _number(value)
+                return None if number is None or not self.allows(number) else number
+            case "integer":
+                number = _number(value)
+                whole = number is not None and number == int(number) and self.allows(number)
+                return int(number) if whole and number is not None else None
+            case "choice":
+                return value if isinstance(value, str) and value in self.choices else None
+            case _:
+                usable = isinstance(value, str) and "\0" not in value
+                return value if usable and isinstance(value, str) else None
+
+    def allows(self, number: float) -> bool:
+        """Whether the number is within its limits."""
+        low = -math.inf if self.minimum is None else self.minimum
+        high = math.inf if self.maximum is None else self.maximum
+        return low <= number <= high
+
+    def _wanted(self) -> Words:
+        if self.type == "choice":
+            return "one of " + ", ".join(self.choices)
+        limits = [
+            f"{word} {limit:g}"
+            for word, limit in (("from", self.minimum), ("to", self.maximum))
+            if limit is not None
+        ]
+        if limits:
+            return " ".join([_EXAMPLES[self.type].partition(",")[0], *limits])
+        return Text(_EXAMPLES[self.type])
+
+
+class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """What a node is, hears, says and can be set to; ``command`` starts one that is not Python.
+
+    ``ready_s``: how long it may take to be ready; ``restart``: when it is started again.
+    """
+
+    type: NodeType
+    name: str
+    title: str
+    description: str
+    icon: str = "box"
+    help: str = ""
+    hears: list[str] = []
+    says: list[str] = []
+    aliases: list[str] = []
+    parameters: dict[str, Parameter] = {}
+    command: list[str] = []
+    ready_s: float = READY_S
+    restart: Restart = "on-crash"
+    path: str = ""
+
+    @property
+    def id(self) -> str:
+        """How the node is started: "sensory/virtual_watch"."""
+        return f"{self.type}/{self.name}"
+
+    @property
+    def module(self) -> str:
+        """The Python file's name beside the manifest."""
+        return str(Path(self.path).with_suffix(".py"))
+
+    def read_parameters(self, given: dict[str, Any]) -> dict[str, Value]:
+        """All parameters, typed, defaults filled in; raises ParameterError."""
+        for name in given:
+            if name not in self.parameters:
+                known = ", ".join(self.parameters) or "none"
+                raise ParameterError(
+                    'The node {id} has no setting "{name}".',
+                    checklist=("Its settings are: {known}.",),
+                    id=self.id,
+                    name=name,
+                    known=known,
+                )
+        return {
+            name: self._read_one(name, parameter, given)
+            for name, parameter in self.parameters.items()
+        }
+
+    def _read_one(self, name: str, parameter: Parameter, given: dict[str, Any]) -> Value:
+        if name in given:
+            return parameter.read(name, given[name])
+        if parameter.required or parameter.default is None:
+            raise ParameterError(
+                'The node {id} needs the setting "{name}": {help}',
+                checklist=("Add {name}=... to it.",),
+                id=self.id,
+                name=name,
+                help=parameter.help,
+            )
+        return parameter.read(name, parameter.default)
+
+
+def _number(value: object) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return None
+    try:
+        number = float(value)
+    except (ValueError, OverflowError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _boolean(value: object) -> bool | None:
+    if isinstance(value, bool):
+        return value
+    words = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
+    return words.get(value.lower()) if isinstance(value, str) else None
+
+
+def read_manifest(path: Path) -> Manifest:
+    """The manifest in ``path``; raises ManifestError that names the file and the place."""
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        manifest = msgspec.convert(data, Manifest)
+        manifest.path = str(path)
+        _check(manifest)
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, ParameterError) as error:
+        raise _wrong(path, error) from error
+    except msgspec.ValidationError as error:
+        raise _wrong(path, str(error)) from error
+    if (manifest.type, manifest.name) != (path.parent.name, path.stem):
+        raise _wrong(path, f"it describes {manifest.id}, but its place says otherwise")
+    if not manifest.command and not Path(manifest.module).is_file():
+        raise _wrong(path, f"there is no {path.stem}.py beside it, and it has no command")
+    return manifest
+
+
+def _check(manifest: Manifest) -> None:
+    if not 0 < manifest.ready_s <= MOST_READY_S:
+        raise ParameterError(
+            "ready_s is {ready_s}, but 0 to {most_ready_s} s can be",
+            ready_s=f"{manifest.ready_s:g}",
+            most_ready_s=f"{MOST_READY_S:g}",
+        )
+    if any(not part or "\0" in part for part in manifest.command):
+        raise ParameterError("its command has an empty word")
+    for topic in (*manifest.hears, *manifest.says):
+        if not topic.startswith("/"):
+            raise ParameterError('the topic "{topic}" does not begin with /', topic=topic)
+    for name, parameter in manifest.parameters.items():
+        _check_parameter(name, parameter)
+
+
+def _check_parameter(name: str, parameter: Parameter) -> None:
+    if not name.isidentifier() or iskeyword(name) or name == "node":
+        raise ParameterError('"{name}" cannot name a setting: use letters, digits and _', name=name)
+    has_limits = parameter.minimum is not None or parameter.maximum is not None
+    if has_limits and parameter.type not in ("number", "integer"):
+        raise ParameterError('the setting "{name}" has limits, but is no number', name=name)
+    if parameter.minimum is not None and not parameter.allows(parameter.minimum):
+        raise ParameterError('the setting "{name}" has a minimum above its maximum', name=name)
+    if parameter.type == "choice" and not parameter.choices:
+        raise ParameterError('the setting "{name}" has no choices', name=name)
+    if parameter.default is not None:
+        parameter.read(name, parameter.default)
+
+
+def _wrong(path: Path, reason: object) -> ManifestError:
+    return ManifestError(
+        "The description {name}/{name_2} cannot be used: {reason}.",
+        checklist=(
+            "Open {path} and correct the place that is named above.",
+            "Compare it with the description of a node that works, such as "
+            "sensory/virtual_watch.toml.",
+            "It belongs into a folder named after its type: {get_args}.",
+        ),
+        name=path.parent.name,
+        name_2=path.name,
+        reason=reason,
+        path=path,
+        get_args=", ".join(get_args(NodeType)),
+    )
+
+
+@dataclass(frozen=True)
+class NodeCatalog:
+    """The nodes that can be started: all manifests in some folders, the first folder first."""
+
+    folders: tuple[Path, ...]
+
+    def find(self, type_and_name: str) -> Manifest:
+        """The manifest of "sensory/virtual_watch" (or an alias); NodeNotFound, ManifestError."""
+        type_, _, name = type_and_name.partition("/")
+        for folder in self.folders:
+            path = folder / type_ / f"{name}.toml"
+            if type_ in get_args(NodeType) and name.isidentifier() and path.is_file():
+                return read_manifest(path)
+        for path in self.paths():
+            if path.parent.name == type_ and name in _aliases(path):
+                return read_manifest(path)
+        known = ", ".join(f"{path.parent.name}/{path.stem}" for path in self.paths())
+        raise NodeNotFound(
+            'There is no node "{type_and_name}".',
+            checklist=("These can be started: {known}.", "Check the spelling."),
+            type_and_name=type_and_name,
+            known=known,
+        )
+
+    def paths(self) -> list[Path]:
+        """Where the manifests are."""
+        return [
+            path
+            for folder in self.folders
+            for type_ in get_args(NodeType)
+            for path in sorted((folder / type_).glob("*.toml"))
+        ]
+
+
+def _aliases(path: Path) -> list[str]:
+    try:
+        return read_manifest(path).aliases
+    except ManifestError:
+        return []  # a wrong neighbour must not hide the others; starting it tells what is wrong

@@ -1,0 +1,168 @@
+"""Asking robots to act and waiting for their answers; one client a program.
+
+The same request is sent again every second until it is done: a robot that knows it tells how it
+is going, and one whose action node was started anew plays it again. So a lost message or a
+crashed node costs a second, not the show.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+import uuid
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from nep_core.errors import ActionFailed, RobotNotAnswering
+from nep_core.networks.network import Network
+from nep_core.networks.transports import default_network
+from nep_core.wire.messages import ACTION_REQUEST, ACTION_RESULT, ActionRequest, ActionResult
+from nep_core.wire.pubsub import Publisher, Subscriber
+
+from .tasks import POLL_S, Cancelled, current_task
+
+ASK_AGAIN_S = 1.0
+SILENCE_S = 5.0
+"""A robot that says nothing about a request for so long does not answer."""
+STOPPING_S = 0.1
+"""Who stops robots stops the program next: so long it begins nothing after a cancelled action."""
+
+_ENDS = ("done", "failed", "cancelled")
+
+
+@dataclass
+class Call:
+    """One request under way: what each robot said last, and when."""
+
+    request: ActionRequest
+    results: dict[str, ActionResult] = field(default_factory=dict)
+    heard_s: dict[str, float] = field(default_factory=dict)
+    ended: threading.Event = field(default_factory=threading.Event)
+
+    def note(self, result: ActionResult) -> None:
+        """Take in what a robot says; an end is not taken back."""
+        known = self.results.get(result.robot)
+        if result.robot not in self.request.robots or (known and known.state in _ENDS):
+            return
+        self.results[result.robot] = result
+        self.heard_s[result.robot] = time.monotonic()
+        states = [r.state for r in self.results.values()]
+        if sum(state in _ENDS for state in states) == len(set(self.request.robots)):
+            self.ended.set()
+
+    def silent(self, since_s: float) -> str:
+        """A robot that has said nothing since then, or has never; "" when all talk."""
+        for robot in self.request.robots:
+            result = self.results.get(robot)
+            has_ended = result is not None and result.state in _ENDS
+            if not has_ended and self.heard_s.get(robot, since_s - 1) < since_s:
+                return robot
+        return ""
+
+
+class ActionClient:
+    """Sends requests and hands every result to the call that waits for it."""
+
+    def __init__(self, network: Network) -> None:
+        self.last_done: dict[str, float] = {}
+        """When (time.time()) each robot last told of an end that was waited for."""
+        self._calls: dict[str, Call] = {}
+        self._requests = Publisher(ACTION_REQUEST, network=network)
+        self._results = Subscriber(
+            ACTION_RESULT, ActionResult, network=network, callback=self._on_result
+        )
+
+    def perform(self, robots: list[str], action: str, args: dict[str, Any]) -> None:
+        """Ask, and wait until all robots are done.
+
+        Raises RobotNotAnswering, ActionFailed, or Cancelled after cancelling the action.
+        """
+        request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
+        call = self._calls[request.id] = Call(request)
+        try:
+            self._await(call)
+        except Cancelled:
+            self.send(robots, "stop", {"request": request.id})
+            raise
+        finally:
+            del self._calls[request.id]
+        if any(result.state == "cancelled" for result in call.results.values()):
+            current_task().sleep(STOPPING_S)
+        for result in call.results.values():
+            if result.state == "failed":
+                raise ActionFailed(
+                    "{robot} could not {action}: {description}",
+                    checklist=(
+                        "Change this block, or what comes before it.",
+                        "Try the program on the virtual robot first.",
+                    ),
+                    robot=result.robot,
+                    action=action,
+                    description=result.fault.sentence,
+                )
+
+    def send(self, robots: list[str], action: str, args: dict[str, Any]) -> None:
+        """Ask without waiting."""
+        self._requests.send(
+            ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
+        )
+
+    def begin(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
+        """Ask without waiting; the action is ended when the part that asks is cancelled.
+
+        Returns the id of the request.
+        """
+        request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
+        self._requests.send(request)
+        current_task().undo[action, *robots] = lambda: self.send(
+            robots, "stop", {"request": request.id}
+        )
+        return request.id
+
+    def end(self, robots: list[str], action: str, request_id: str) -> None:
+        """End an action that was begun in this part of the program."""
+        current_task().undo.pop((action, *robots), None)
+        self.send(robots, "stop", {"request": request_id})
+
+    def _await(self, call: Call) -> None:
+        task = current_task()
+        asked_first_s = time.monotonic()
+        ask_s = 0.0
+        while not call.ended.is_set():
+            task.check()
+            now_s = time.monotonic()
+            if now_s >= ask_s:
+                self._requests.send(call.request)
+                ask_s = now_s + ASK_AGAIN_S
+            if now_s - asked_first_s > SILENCE_S and (robot := call.silent(now_s - SILENCE_S)):
+                raise not_answering(robot)
+            call.ended.wait(POLL_S)
+
+    def _on_result(self, result: ActionResult) -> None:
+        call = self._calls.get(result.id)
+        if call is not None:
+            if result.state in _ENDS:
+                self.last_done[result.robot] = max(
+                    result.time, self.last_done.get(result.robot, 0.0)
+                )
+            call.note(result)
+
+
+def action_client(network: Network | None = None) -> ActionClient:
+    """The client of this program's network."""
+    place = network or default_network()
+    return cast(ActionClient, place.shared("actions", lambda: ActionClient(place)))
+
+
+def not_answering(robot: str) -> RobotNotAnswering:
+    """The error of a robot that says nothing."""
+    return RobotNotAnswering(
+        "{robot} does not answer: no running action node plays it.",
+        checklist=(
+            'Is there a robot with the name "{robot}" on the Robots page?',
+            "Does its action node run? It is in the list of nodes.",
+            "Is {robot} switched on and on the same network as this computer?",
+            "Try the program on the virtual robot first.",
+        ),
+        robot=robot,
+    )

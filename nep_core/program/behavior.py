@@ -1,0 +1,308 @@
+"""Behavior: rules that fire on what the person does, and what runs at the start."""
+
+from __future__ import annotations
+
+import random
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from types import CodeType, FunctionType
+from typing import Literal
+
+from nep_core.networks.network import Network
+from nep_core.networks.transports import default_network
+from nep_core.wire.messages import (
+    EXPECTED_WORDS,
+    PROGRAM_STATE,
+    ExpectedWords,
+    HumanBehavior,
+    ProgramEvent,
+    ProgramState,
+)
+from nep_core.wire.pubsub import Publisher
+
+from .goals import Goal, GoalEvent, Goals, Interrupted, Priority
+from .human import human_listener, state_of_thing, state_of_word, word_of_state
+from .tasks import POLL_S, PROGRAM, Part, current_task
+
+Action = Callable[[], object]
+Condition = Callable[[], object]
+Decorator = Callable[[Action], Action]
+Again = Literal["ignore", "restart", "queue"]
+
+MOST_QUEUED = 20
+
+
+@dataclass
+class Rule:
+    """When the person does this, do that; ``again``: what if it fires while it runs.
+
+    ``source`` is who must tell of the state, "" for anybody. A rule with a ``condition`` fires
+    each time that becomes true instead.
+    """
+
+    state: str
+    action: Action
+    again: Again = "ignore"
+    source: str = ""
+    condition: Condition | None = None
+    running: Part | None = None
+    queued: int = 0
+    lock: threading.Lock = field(default_factory=threading.Lock)
+
+
+class Behavior:
+    """The rules of a program; ``run`` returns when the program ends.
+
+    A behaviour without rules ends when all that was started at the start is done.
+    """
+
+    def __init__(self, name: str = "behaviour", *, network: Network | None = None) -> None:
+        self.name = name
+        self._network = network
+        self._rules: list[Rule] = []
+        self._starts: list[Action] = []
+        self._goals = Goals(self._tell)
+        self._busy_s = time.monotonic()
+        self._parts: list[Part] = []
+        self._parts_lock = threading.Lock()
+
+    def when(self, state: str, *, again: Again = "ignore", source: str = "") -> Decorator:
+        """Run the decorated function each time the person's state is ``state``.
+
+        ``source``: only if this robot or node tells of it.
+
+        When that happens while the function still runs: "ignore" it, "restart" the function, or
+        "queue" another run.
+        """
+
+        def add(action: Action) -> Action:
+            self._rules.append(Rule(state, action, again, source))
+            return action
+
+        return add
+
+    def when_heard(self, word: str, *, again: Again = "ignore") -> Decorator:
+        """Run the decorated function each time that a word or sentence is heard."""
+        return self.when(state_of_word(word), again=again)
+
+    def when_noticed(
+        self, thing: str, name: object = "", *, again: Again = "ignore", source: str = ""
+    ) -> Decorator:
+        """Run the decorated function each time that a robot begins to see or hear something.
+
+        "face", "ball", "mark" or "sound"; ``name``: only this face, or the mark with this number.
+        """
+        return self.when(state_of_thing(thing, name), again=again, source=source)
+
+    def when_true(self, condition: Condition, *, again: Again = "ignore") -> Decorator:
+        """Run the decorated function each time that ``condition()`` becomes true."""
+
+        def add(action: Action) -> Action:
+            self._rules.append(Rule("condition", action, again, condition=condition))
+            return action
+
+        return add
+
+    def when_idle(self, seconds: float) -> Decorator:
+        """Run the decorated function each time that for so long no state came and no rule ran."""
+
+        def add(action: Action) -> Action:
+            rule = Rule("idle", action, condition=lambda: self._idle_s() >= seconds)
+            self._rules.append(rule)
+            return action
+
+        return add
+
+    def goal(
+        self,
+        name: str,
+        *,
+        when: str,
+        priority: Priority = "normal",
+        stop: str = "",
+        interrupted: Interrupted = "again",
+    ) -> Decorator:
+        """Pursue the decorated function as a goal each time the person's state is ``when``.
+
+        One goal runs at a time. One of a higher priority interrupts it; then it begins "again"
+        afterwards, or is "drop"ped. The state ``stop`` ends it.
+        """
+
+        def add(action: Action) -> Action:
+            self._goals.add(Goal(name, when, action, priority, stop, interrupted))
+            return action
+
+        return add
+
+    def when_goal(self, name: str, event: GoalEvent) -> Decorator:
+        """Run the decorated function when a goal has "finished", or was "stopped" or "interrupted".
+
+        Or, before it begins again, when it "returns".
+        """
+
+        def add(action: Action) -> Action:
+            self._goals.hook(name, event, action)
+            return action
+
+        return add
+
+    def when_started(self, action: Action) -> Action:
+        """Run the decorated function when the program starts."""
+        self._starts.append(action)
+        return action
+
+    def run(self) -> None:
+        """Run until the program is stopped; raises the first error of any of its parts."""
+        network = self._network or default_network()
+        self._states = Publisher(PROGRAM_STATE, network=network)
+        words = Publisher(EXPECTED_WORDS, network=network)
+        words.send(ExpectedWords(words=self._expected_words()))
+        listener = human_listener(network)
+        self._busy_s = time.monotonic()
+        listener.listen(self._on_behavior)
+        try:
+            self._begin()
+            self._supervise()
+        finally:
+            listener.unlisten(self._on_behavior)
+            self._cancel_all()
+            PROGRAM.end_undone()
+            self._states.close()
+            words.close()
+
+    def _expected_words(self) -> list[str]:
+        """The words that rules and goals wait for: real robots must know them before."""
+        states = [*(rule.state for rule in self._rules), *self._goals.states]
+        return list(dict.fromkeys(filter(None, map(word_of_state, states))))
+
+    def _begin(self) -> None:
+        for rule in self._rules:
+            if rule.condition is not None:
+                self._start(partial(self._watch, rule), f"watch-{rule.state}")
+        if self._goals:
+            self._start(self._goals.run, "goals")
+        for action in self._starts:
+            self._start(action, "")
+
+    def _watch(self, rule: Rule) -> None:
+        """Fire a rule each time that its condition becomes true."""
+        was_true = False
+        while rule.condition is not None:
+            is_true = bool(rule.condition())
+            if is_true and not was_true:
+                self._fire(rule)
+            was_true = is_true
+            current_task().sleep(POLL_S)
+
+    def _idle_s(self) -> float:
+        """For how long nothing has happened."""
+        now_s = time.monotonic()
+        if self._goals.is_busy or any(rule.running for rule in self._rules):
+            self._busy_s = now_s
+        heard_s = human_listener(self._network).heard_s
+        return now_s - max(self._busy_s, heard_s)
+
+    def _supervise(self) -> None:
+        while self._rules or self._parts:
+            if PROGRAM.cancelled.wait(0.02):
+                return
+            self._raise_errors()
+
+    def _raise_errors(self) -> None:
+        with self._parts_lock:
+            ended = [part for part in self._parts if not part.is_running]
+            self._parts = [part for part in self._parts if part not in ended]
+        for part in ended:
+            if part.error is not None:
+                raise part.error
+
+    def _cancel_all(self) -> None:
+        for part in self._parts:
+            part.task.cancel()
+        for part in self._parts:
+            part.join(1.0)
+
+    def _on_behavior(self, behavior: HumanBehavior) -> None:
+        for rule in self._rules:
+            is_meant = rule.source in ("", behavior.source) and rule.condition is None
+            if is_meant and rule.state == behavior.human_state:
+                self._fire(rule)
+        self._goals.hear(behavior.human_state)
+
+    def _fire(self, rule: Rule) -> None:
+        with rule.lock:
+            if rule.running is None or not rule.running.is_running:
+                rule.running = self._start(lambda: self._run_rule(rule), rule.state)
+            elif rule.again == "queue":
+                rule.queued = min(rule.queued + 1, MOST_QUEUED)
+            elif rule.again == "restart":
+                old = rule.running
+                old.task.cancel()
+                rule.running = self._start(lambda: self._restart_rule(rule, old), rule.state)
+
+    def _restart_rule(self, rule: Rule, old: Part) -> None:
+        old.join()
+        current_task().check()  # a newer one may have taken its place meanwhile
+        self._run_rule(rule)
+
+    def _run_rule(self, rule: Rule) -> None:
+        again = True
+        while again:
+            self._tell("rule_started", rule.state, _line_of(rule.action))
+            rule.action()
+            self._busy_s = time.monotonic()
+            again = self._goes_on(rule)  # before it is told: who hears it may fire the rule
+            self._tell("rule_finished", rule.state, _line_of(rule.action))
+
+    def _goes_on(self, rule: Rule) -> bool:
+        """Whether another run is queued; if not, the rule may fire afresh from now on."""
+        with rule.lock:
+            if rule.queued > 0:
+                rule.queued -= 1
+                return True
+            if rule.running is not None and rule.running.task is current_task():
+                rule.running = None
+            return False
+
+    def _start(self, action: Action, state: str) -> Part:
+        part = Part(action, f"nep-{state or 'start'}", PROGRAM)
+        with self._parts_lock:  # a part that has not started yet must not count as ended
+            self._parts.append(part)
+            return part.start()
+
+    def _tell(self, event: ProgramEvent, rule: str, line: int = 0) -> None:
+        name = threading.current_thread().name
+        state = ProgramState(program=self.name, event=event, rule=rule, thread=name, line=line)
+        self._states.send(state)
+
+
+def _line_of(action: Action) -> int:
+    """Where a function begins in its file, which tells rules for the same state apart."""
+    code = getattr(action, "__code__", None)
+    return code.co_firstlineno if code is not None else 0
+
+
+# Which of several functions to run: one by chance, or the next in turn.
+
+_turns: dict[CodeType, int] = {}
+_lock = threading.Lock()
+
+
+def one_of(*functions: FunctionType) -> None:
+    """Run one of the functions, by chance."""
+    random.choice(functions)()
+
+
+def in_turn(*functions: FunctionType) -> None:
+    """Run one of the functions: the first time the first, next time the next, and so on.
+
+    The turn belongs to this place in the program, however often its functions are made anew.
+    """
+    with _lock:
+        place = functions[0].__code__
+        turn = _turns.get(place, 0)
+        _turns[place] = turn + 1
+    functions[turn % len(functions)]()

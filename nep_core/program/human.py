@@ -1,0 +1,226 @@
+"""What the person does, as the program last heard it."""
+
+from __future__ import annotations
+
+import re
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import cast
+
+from nep_core.networks.network import Network
+from nep_core.networks.transports import default_network
+from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
+from nep_core.wire.pubsub import Subscriber
+
+from .tasks import POLL_S, current_task
+
+# Words that people say, which come as human states: "yes" is heard_yes.
+
+HEARD = "heard_"
+LONGEST_WAIT_S = 3600.0
+
+
+def state_of_word(word: str) -> str:
+    """The human state of a word or sentence: "Good morning!" is heard_good_morning."""
+    return HEARD + plain(word)
+
+
+def state_of_thing(thing: str, name: object = "") -> str:
+    """The human state of something that a robot notices: seen_face, seen_face_anna, heard_sound."""
+    verb = "heard" if thing == "sound" else "seen"
+    return "_".join(filter(None, (verb, thing, plain(str(name)))))
+
+
+def plain(words: str) -> str:
+    """Words as part of a human state: "Good morning!" is good_morning."""
+    return re.sub(r"[\W_]+", "_", words.casefold()).strip("_")
+
+
+def word_of_state(state: str) -> str:
+    """The word that a human state tells of, "" when it tells of none."""
+    return state.removeprefix(HEARD).replace("_", " ") if state.startswith(HEARD) else ""
+
+
+def next_word(heard: list[str], wanted: dict[str, str], seconds: float) -> str:
+    """Wait for the first state of ``heard`` that is a wanted word, or any word; "" when too late.
+
+    ``heard`` grows while this waits; ``wanted`` is the word of each state.
+    """
+    task, end_s, looked_at = current_task(), time.monotonic() + seconds, 0
+    while True:
+        while looked_at < len(heard):
+            state = heard[looked_at]
+            looked_at += 1
+            if state in wanted or (not wanted and word_of_state(state)):
+                return wanted.get(state) or word_of_state(state)
+        left_s = end_s - time.monotonic()
+        if left_s <= 0:
+            return ""
+        task.sleep(min(POLL_S, left_s))
+
+
+REMEMBER_S = 3.0
+"""How long a state such as a gesture stays the human's state after it was seen."""
+
+
+MOST_STATES = 1000
+"""So many states are remembered, of which the oldest are forgotten."""
+
+Listener = Callable[[HumanBehavior], None]
+
+
+@dataclass
+class Seen:
+    """When a state was last seen (time.monotonic(), s), and how often."""
+
+    last_s: float = 0.0
+    times: int = 0
+
+
+class HumanListener:
+    """Hears ``/human_behavior`` for a whole program.
+
+    What comes before the first listener is there is kept for it (the last 100 messages).
+    """
+
+    def __init__(self, network: Network) -> None:
+        self._state = ""
+        self._heard_s = 0.0
+        self._seen: dict[str, Seen] = {}
+        self._told_s: dict[str, float] = {}
+        self._remembered_until_s: dict[str, float] = {}
+        self._lock = threading.RLock()
+        self._listeners: list[Listener] = []
+        self._kept: deque[HumanBehavior] = deque(maxlen=100)
+        self._states = Subscriber(
+            HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
+        )
+
+    def listen(self, listener: Listener) -> None:
+        """Call ``listener`` with every message, in their order, from another thread."""
+        with self._lock:
+            self._listeners.append(listener)
+            while self._kept:
+                listener(self._kept.popleft())
+
+    def unlisten(self, listener: Listener) -> None:
+        """Call ``listener`` no more."""
+        with self._lock:
+            self._listeners.remove(listener)
+
+    def state(self) -> str:
+        """The last state, "" when nothing was seen for 3 s."""
+        return self._state if time.monotonic() - self._heard_s <= REMEMBER_S else ""
+
+    @property
+    def heard_s(self) -> float:
+        """When anything was last heard, time.monotonic(); 0 when nothing was."""
+        return self._heard_s
+
+    def told_s(self, source: str) -> float:
+        """When a robot or node told of the person last, on its own clock, in s; 0 is never."""
+        return self._told_s.get(source, 0.0)
+
+    def seen(self, state: str) -> Seen:
+        """When a state was last seen, and how often; times 0 when never."""
+        return self._seen.get(state, Seen())
+
+    def last_of(self, beginning: str) -> str:
+        """The state seen last of those that begin so, "" when there was none."""
+        with self._lock:
+            fitting = [state for state in self._seen if state.startswith(beginning)]
+            return max(fitting, key=lambda state: self._seen[state].last_s, default="")
+
+    def remember(self, state: str, seconds: float) -> None:
+        """Remember a state from now on for some seconds."""
+        with self._lock:
+            self._remembered_until_s[state] = time.monotonic() + seconds
+
+    def is_remembered(self, state: str) -> bool:
+        """Whether a state is remembered still."""
+        return time.monotonic() < self._remembered_until_s.get(state, 0.0)
+
+    @contextmanager
+    def following(self) -> Iterator[list[str]]:
+        """Give a list that grows by every state that comes from now on."""
+        states: list[str] = []
+
+        def note(behavior: HumanBehavior) -> None:
+            states.append(behavior.human_state)
+
+        with self._lock:
+            self._listeners.append(note)  # not by listen(): what was before is not meant
+        try:
+            yield states
+        finally:
+            self.unlisten(note)
+
+    def _note(self, state: str) -> None:
+        seen = self._seen.pop(state, Seen())  # the newest last
+        self._seen[state] = Seen(time.monotonic(), seen.times + 1)
+        if len(self._seen) > MOST_STATES:
+            del self._seen[next(iter(self._seen))]
+
+    def _on_behavior(self, behavior: HumanBehavior) -> None:
+        with self._lock:
+            self._state, self._heard_s = behavior.human_state, time.monotonic()
+            self._told_s[behavior.source] = behavior.time
+            self._note(behavior.human_state)
+            if not self._listeners:
+                self._kept.append(behavior)
+            for listener in list(self._listeners):
+                listener(behavior)
+
+
+def human_listener(network: Network | None = None) -> HumanListener:
+    """The listener of this program's network."""
+    place = network or default_network()
+    return cast(HumanListener, place.shared("human", lambda: HumanListener(place)))
+
+
+def human_state() -> str:
+    """What the person did last, such as "gesture_karate"; "" when nothing for 3 s."""
+    return human_listener().state()
+
+
+def was_seen(state: str, seconds: float) -> bool:
+    """Whether the person did that in the last so many seconds."""
+    seen = human_listener().seen(state)
+    return seen.times > 0 and time.monotonic() - seen.last_s <= seconds
+
+
+def times_seen(state: str) -> int:
+    """How often the person did that since the program has started."""
+    return human_listener().seen(state).times
+
+
+def remember(state: str, seconds: float) -> None:
+    """Remember something from now on for some seconds."""
+    human_listener().remember(state, seconds)
+
+
+def is_remembered(state: str) -> bool:
+    """Whether something is remembered still."""
+    return human_listener().is_remembered(state)
+
+
+def until_state(state: str, most: float = float("inf")) -> Iterator[int]:
+    """Count 1, 2, 3 ... until the person does that, at most so far: for loops.
+
+    What they did before the loop began does not count; it is looked at before each turn.
+    """
+    task, number = current_task(), 0
+    before = times_seen(state)
+    while number < most and times_seen(state) == before:
+        task.check()
+        number += 1
+        yield number
+
+
+def heard_word() -> str:
+    """The word that was heard last, "" when there was none."""
+    return word_of_state(human_listener().last_of(HEARD))

@@ -1,0 +1,490 @@
+"""Robot: what a program can ask a social robot to do, in the words of people."""
+
+from __future__ import annotations
+
+import math
+import re
+import threading
+from typing import Any, cast
+
+from nep_core.errors import RobotError
+from nep_core.networks.network import Network
+from nep_core.networks.transports import default_network
+from nep_core.wire.messages import ROBOT_STATE, RobotState
+from nep_core.wire.pubsub import Subscriber
+
+from .actions import action_client, not_answering
+from .human import LONGEST_WAIT_S, human_listener, next_word, plain, state_of_word
+from .tasks import POLL_S, current_task
+
+# Where the robots of a program are, and what their sensors measure, as last heard.
+
+FIRST_STATE_S = 5.0
+"""A robot that says nothing about itself for so long does not answer."""
+FRESH_STATE_S = 1.0
+
+
+class RobotListener:
+    """Hears ``/robot_state`` for a whole program."""
+
+    def __init__(self, network: Network) -> None:
+        self._states: dict[str, RobotState] = {}
+        self._news = threading.Condition()
+        self._subscriber = Subscriber(
+            ROBOT_STATE, RobotState, network=network, callback=self._on_state
+        )
+
+    def newest(self, robot: str, since: float = 0.0) -> RobotState | None:
+        """The newest state of a robot, None when it does not tell any for 5 s.
+
+        Waits up to a second for one that was told after the time ``since``.
+        """
+        waited_s = 0.0
+        with self._news:
+            while not self._is_new(robot, since):
+                if waited_s >= (FRESH_STATE_S if robot in self._states else FIRST_STATE_S):
+                    break
+                current_task().check()
+                self._news.wait(POLL_S)
+                waited_s += POLL_S
+            return self._states.get(robot)
+
+    def _is_new(self, robot: str, since: float) -> bool:
+        return robot in self._states and self._states[robot].time >= since
+
+    def _on_state(self, state: RobotState) -> None:
+        with self._news:
+            self._states[state.robot] = state
+            self._news.notify_all()
+
+
+def robot_listener(network: Network | None = None) -> RobotListener:
+    """The listener of this program's network."""
+    place = network or default_network()
+    return cast(RobotListener, place.shared("robots", lambda: RobotListener(place)))
+
+
+# How a Robot asks and looks: requests to all its robots, and the newest state of the first.
+
+
+class RobotRequests:
+    """One robot by name, or several that act at once; what it measures is of the first."""
+
+    def __init__(self, robots: str | list[str], *, network: Network | None = None) -> None:
+        self.robots = [robots] if isinstance(robots, str) else list(robots)
+        if not self.robots or not all(isinstance(name, str) and name for name in self.robots):
+            raise RobotError(
+                "A robot needs a name.",
+                checklist=('Write Robot("NAO") or Robot(["NAO", "NAO2"]).',),
+            )
+        self._network = network
+        robot_listener(network)  # what robots tell from now on is known when it is asked for
+
+    def _perform(self, action: str, **args: Any) -> None:
+        action_client(self._network).perform(self.robots, action, args)
+
+    def _begin(self, action: str, **args: Any) -> str:
+        """Ask without waiting; the id of the request, which ends when this part is cancelled."""
+        return action_client(self._network).begin(self.robots, action, args)
+
+    def _end(self, action: str, request_id: str) -> None:
+        """End an action that was begun."""
+        action_client(self._network).end(self.robots, action, request_id)
+
+    def _send(self, action: str, **args: Any) -> None:
+        """Ask without waiting, whatever comes."""
+        action_client(self._network).send(self.robots, action, args)
+
+    def _state(self) -> RobotState:
+        """The newest state, told after all that the robot was seen to do, or told of the person."""
+        robot = self.robots[0]
+        done = action_client(self._network).last_done.get(robot, 0.0)
+        told = human_listener(self._network).told_s(robot)  # a rule may have fired just now
+        state = robot_listener(self._network).newest(robot, max(done, told))
+        if state is None:
+            raise not_answering(robot)
+        return state
+
+
+# The part of Robot that lights its lights.
+
+
+class RobotLights(RobotRequests):
+    """What a robot does with its lights; groups are "FaceLeds", "ChestLeds", "AllLeds", ..."""
+
+    def leds(self, group: str, colour: str, seconds: float = 0.0) -> None:
+        """Let a group of lights shine in a colour such as "#ff8800", reached in some seconds."""
+        fade = {"seconds": seconds} if seconds else {}
+        self._perform("leds", group=group, colour=colour, **fade)
+
+    def leds_brightness(self, group: str, percent: float) -> None:
+        """Set how bright a group of lights is, 0 to 100."""
+        self._perform("intensity", group=group, percent=percent)
+
+    def leds_off(self, group: str) -> None:
+        """Switch a group of lights off."""
+        self._perform("intensity", group=group, percent=0.0)
+
+    def leds_reset(self, group: str) -> None:
+        """Light a group as it was at the start."""
+        self._perform("reset_leds", group=group)
+
+    def random_eyes(self, seconds: float) -> None:
+        """Let the eyes shine in colours by chance for some seconds."""
+        self._perform("random_eyes", seconds=seconds)
+
+    def rotate_eyes(self, seconds: float) -> None:
+        """Let green, yellow and red go round the eyes for some seconds."""
+        self._perform("rotate_eyes", seconds=seconds)
+
+
+# The part of Robot that moves the body: hands, joints, walking, gaze, sleep.
+
+
+class RobotMoves(RobotRequests):
+    """What a robot does with its body."""
+
+    def do(self, posture: str) -> None:
+        """Take a posture: "posture_stand", "posture_sit", ..."""
+        self._perform("do", posture=posture)
+
+    def imitate(self, animal: str) -> None:
+        """Imitate an animal: "cat", "elephant", ..."""
+        self._perform("imitate", animal=animal)
+
+    def play(
+        self, animation: str, *, mirror: bool = False, reverse: bool = False, stretch: float = 1.0
+    ) -> None:
+        """Play an animation: left for right, backwards, or ``stretch`` times as long."""
+        self._perform("play", animation=animation, mirror=mirror, reverse=reverse, stretch=stretch)
+
+    def open_hand(self, side: str = "both") -> None:
+        """Open the "left" hand, the "right" one, or "both"."""
+        self._perform("hand", side=side, open=True)
+
+    def close_hand(self, side: str = "both") -> None:
+        """Close the "left" hand, the "right" one, or "both"."""
+        self._perform("hand", side=side, open=False)
+
+    def move_joint(self, joint: str, degrees: float) -> None:
+        """Move a joint, such as "LElbowRoll", to an angle."""
+        self._perform("move_joint", joint=joint, degrees=degrees)
+
+    def move_joint_by(self, joint: str, degrees: float) -> None:
+        """Move a joint by an angle from where it is."""
+        self._perform("move_joint", joint=joint, degrees=degrees, relative=True)
+
+    def angle(self, joint: str) -> float:
+        """The angle of a joint in degrees; of a hand ("LHand") how far it is open, 0 to 100."""
+        rad = self._state().joints.get(joint, 0.0)
+        return round(rad * 100.0 if joint.endswith("Hand") else math.degrees(rad), 1)
+
+    def lock(self, part: str = "body") -> None:
+        """Switch the motors of a part on: "head", "left_arm", "legs", "body", ..."""
+        self._perform("stiffness", part=part, on=True)
+
+    def release(self, part: str = "body") -> None:
+        """Switch the motors of a part off, so that a person can move it."""
+        self._perform("stiffness", part=part, on=False)
+
+    def wake_up(self) -> None:
+        """Switch all motors on and stand up."""
+        self._perform("wake_up")
+
+    def rest(self) -> None:
+        """Go down to a safe posture and switch all motors off."""
+        self._perform("rest")
+
+    def awareness(self, on: bool) -> None:
+        """Look at people by itself, or not."""
+        self._perform("awareness", on=_is_on(on))
+
+    def breathing(self, on: bool) -> None:
+        """Move a little as if it breathed, or not."""
+        self._perform("breathing", on=_is_on(on))
+
+    def walk(self, forward_m: float, left_m: float = 0.0, *, turn_deg: float = 0.0) -> None:
+        """Walk so many metres forward (negative: back) and to the left, turning on the way."""
+        turn = {"turn_deg": turn_deg} if turn_deg else {}
+        self._perform("walk", forward_m=forward_m, left_m=left_m, **turn)
+
+    def turn(self, degrees: float) -> None:
+        """Turn on the spot, to the left (negative: to the right)."""
+        self._perform("turn", degrees=degrees)
+
+    def start_walking(self, forward: float, left: float = 0.0, turn: float = 0.0) -> None:
+        """Walk on and on, each speed in percent of the highest; does not wait.
+
+        It ends with ``stop_moving``, or as soon as the legs are asked for something else.
+        """
+        speeds = {"forward": forward / 100, "left": left / 100, "turn": turn / 100}
+        self._begin("walk_freely", **speeds)
+
+    def stop_moving(self) -> None:
+        """Stop what moves joints, at once; what is said goes on. Does not wait."""
+        self._send("stop_moving")
+
+    def look(self, yaw_deg: float, pitch_deg: float = 0.0) -> None:
+        """Turn the head: yaw to the left, pitch down, in degrees."""
+        self._perform("look", yaw_deg=yaw_deg, pitch_deg=pitch_deg)
+
+    def look_at(self, x_m: float, y_m: float, z_m: float, frame: str = "robot") -> None:
+        """Turn the head to a place: metres in front of, left of and above its feet.
+
+        ``frame`` "torso": as seen from the torso; "world": from where the robot has started.
+        """
+        self._perform("look_at", x_m=x_m, y_m=y_m, z_m=z_m, frame=frame)
+
+    def point_at(
+        self, x_m: float, y_m: float, z_m: float, frame: str = "robot", arm: str = ""
+    ) -> None:
+        """Point at a place with the "left" or "right" arm, else the one that is nearer."""
+        self._perform("point_at", x_m=x_m, y_m=y_m, z_m=z_m, frame=frame, arm=arm)
+
+    def look_at_seen(self, thing: str = "face") -> None:
+        """Turn the head to what it sees or hears: "face", "ball", "sound"."""
+        self._perform("look_at_seen", thing=thing)
+
+    def track(self, thing: str, using: str = "head") -> None:
+        """Keep the "head" or the whole "body" turned to something it sees; "off" ends it."""
+        self._perform("track", thing=thing, using=using)
+
+
+def _is_on(on: object) -> bool:
+    """Whether something is switched on: True, or the word "on"."""
+    return on is True or on == "on"
+
+
+# The part of Robot that tells what it feels, sees and is doing, and what needs its cameras.
+
+CLOSE_M, MIDDLE_M = 1.0, 2.0
+TOUCHES = {
+    "head": ("head_front", "head_middle", "head_rear"),
+    "hand": ("hand_left", "hand_right"),
+    "bumper": ("bumper_left", "bumper_right"),
+}
+"""Parts with several touch sensors."""
+
+
+class RobotSenses(RobotRequests):
+    """What a robot measures; names of sensors are those of ``/robot_state``."""
+
+    def sensor(self, name: str) -> float:
+        """What a sensor measures: "sonar_left" in cm, "angle_x" in degrees, "battery" in percent.
+
+        All others in SI units.
+        """
+        state = self._state()
+        if name == "battery":
+            return round(state.battery * 100.0, 1)
+        value = state.sensors.get(name, 0.0)
+        if name.startswith("angle_"):
+            return round(math.degrees(value), 1)
+        return round(value * 100.0 if name.startswith("sonar") else value, 3)
+
+    def current(self, joint: str) -> float:
+        """How much current the motor of a joint takes, in A."""
+        return self._state().sensors.get(f"current_{joint}", 0.0)
+
+    def is_touched(self, part: str) -> bool:
+        """Whether it is touched now: "head", "head_front", "hand_left", "bumper_right", ..."""
+        sensors = self._state().sensors
+        return any(sensors.get(name, 0.0) > 0.0 for name in TOUCHES.get(part, (part,)))
+
+    def sees(self, thing: str, name: object = "") -> bool:
+        """Whether it sees a "face" (any, or that of a name), "ball" or "mark", or hears a "sound".
+
+        ``name`` of a mark is its number.
+        """
+        return _key(thing, name) in self._state().sees
+
+    def seen_name(self, thing: str) -> str:
+        """The name of the face, or the number of the mark, that it sees; "" when none."""
+        names = [key.partition("_")[2] for key in self._state().sees if key.startswith(f"{thing}_")]
+        return names[0].replace("_", " ") if names else ""
+
+    def place_of(self, thing: str, measure: str = "distance") -> float:
+        """Where something that it sees is; -1 when it sees none.
+
+        ``measure``: "distance" in cm, "left" or "up" in degrees from straight ahead.
+        """
+        place = self._state().sees.get(_key(thing, ""))
+        if place is None:
+            return -1.0
+        x, y, z = place
+        flat = math.hypot(x, y)
+        if measure == "left":
+            return round(math.degrees(math.atan2(y, x)), 1)
+        if measure == "up":
+            return round(math.degrees(math.atan2(z - HEAD_UP_M, flat)), 1)
+        return round(flat * 100.0, 1)
+
+    def person_is(self, distance: str) -> bool:
+        """Whether the person it sees is "close" (under 1 m), "middle" (under 2 m) or "far"."""
+        place = self._state().sees.get("face")
+        if place is None:
+            return False
+        way_m = math.hypot(*place[:2])
+        return distance == ("close" if way_m < CLOSE_M else "middle" if way_m < MIDDLE_M else "far")
+
+    def is_doing(self, what: str) -> bool:
+        """Whether it is "speaking", "moving", "listening", "awake", "breathing", "aware".
+
+        "fallen": it lies because it lost its balance.
+        """
+        state = self._state()
+        if what in ("awake", "breathing"):
+            return bool(state.settings.get(what))
+        if what == "aware":
+            return bool(state.settings.get("awareness"))
+        return {
+            "speaking": bool(state.saying),
+            "moving": state.moving,
+            "listening": bool(state.listening),
+            "fallen": state.fallen,
+        }.get(what, False)
+
+    def is_in(self, posture: str) -> bool:
+        """Whether it is in a posture, such as "posture_sit"."""
+        return _word(posture) == _word(self._state().posture)
+
+    def posture(self) -> str:
+        """The posture that it is in, such as "Stand"."""
+        return self._state().posture
+
+    def learn_face(self, name: str) -> None:
+        """Learn the face of the person in front of it, under a name."""
+        self._perform("learn_face", name=name)
+
+    def forget_face(self, name: str) -> None:
+        """Forget a face: who has it is a plain face until it is learnt again."""
+        self._perform("forget_face", name=name)
+
+    def take_picture(self, file: str, camera: str = "top") -> None:
+        """Take a picture with the "top" or "bottom" camera, into a file on the robot."""
+        self._perform("take_picture", file=file, camera=camera)
+
+    def record_video(self, file: str, seconds: float, camera: str = "top") -> None:
+        """Record a video for some seconds, into a file on the robot."""
+        self._perform("record_video", file=file, seconds=seconds, camera=camera)
+
+    def play_sound(self, file: str) -> None:
+        """Play a sound file of the robot, for the one on the screen of this computer."""
+        self._perform("play_sound", file=file)
+
+
+HEAD_UP_M = 0.45
+"""How high the eyes of a standing robot are."""
+
+
+def _key(thing: str, name: object) -> str:
+    return "_".join(filter(None, (thing, plain(str(name)))))
+
+
+def _word(posture: str) -> str:
+    letters = "".join(letter for letter in posture if letter.isalnum()).casefold()
+    return letters.removeprefix("posture")
+
+
+# The part of Robot that speaks and listens.
+
+
+class RobotVoice(RobotRequests):
+    """What a robot does with its voice and its ears."""
+
+    def say(
+        self,
+        text: object,
+        gesture: str = "no_gesture",
+        language: str = "",
+        *,
+        speed: float = 100.0,
+        pitch: float = 100.0,
+    ) -> None:
+        """Say a text aloud, perhaps with a gesture, in a language such as "en".
+
+        ``speed`` and ``pitch`` are percent of the usual ones, 50 to 200.
+        """
+        voice = {"speed": speed, "pitch": pitch}
+        changed = {name: value for name, value in voice.items() if value != 100.0}
+        self._perform("say", text=str(text), gesture=gesture, language=language, **changed)
+
+    def ask(self, question: object, words: list[str] | None = None, seconds: float = 10.0) -> str:
+        """Ask something, and give the word that is heard; "" when none is in time.
+
+        With ``words``, only those count as an answer.
+        """
+        with human_listener(self._network).following() as heard:
+            self.say(question)
+            heard.clear()  # what was said before the question ended answers nothing
+            return self._listen(words or [], seconds, heard)
+
+    def wait_for_word(self, *words: str, seconds: float = LONGEST_WAIT_S) -> str:
+        """Wait until one of the words is heard, and give it; "" when none is in time."""
+        with human_listener(self._network).following() as heard:
+            return self._listen(list(words), seconds, heard)
+
+    def set_volume(self, percent: float) -> None:
+        """Set how loud it speaks, 0 to 100."""
+        self._perform("volume", percent=percent)
+
+    def volume(self) -> float:
+        """How loud it speaks, 0 to 100."""
+        return float(self._state().settings.get("volume", 0.0))
+
+    def set_language(self, language: str) -> None:
+        """Set the language that it speaks and understands, such as "en"."""
+        self._perform("language", language=language)
+
+    def language(self) -> str:
+        """The language that it speaks and understands."""
+        return str(self._state().settings.get("language", ""))
+
+    def _listen(self, words: list[str], seconds: float, heard: list[str]) -> str:
+        wanted = {state_of_word(word): word for word in words}
+        request = self._begin("listen", words=words, seconds=min(seconds, LONGEST_WAIT_S))
+        try:
+            return next_word(heard, wanted, seconds)
+        finally:
+            self._end("listen", request)
+
+
+class Robot(RobotMoves, RobotVoice, RobotLights, RobotSenses):
+    """One robot by name, or several that act at once.
+
+    Every call returns when all of them are done; it raises RobotNotAnswering or ActionFailed.
+    What is measured is measured by the first.
+    """
+
+    def stop(self) -> None:
+        """Stop all that the robot does, at once; does not wait."""
+        self._send("stop")
+
+
+# Colours written as texts such as "#ff8800": made from their parts, and mixed.
+
+_COLOUR = re.compile(r"#?([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})")
+
+
+def colour_from(red: float, green: float, blue: float) -> str:
+    """The colour with these parts of red, green and blue, each from 0 to 255."""
+    return "#" + "".join(f"{_part(value):02x}" for value in (red, green, blue))
+
+
+def mix_colours(first: str, second: str, percent: float = 50) -> str:
+    """A colour between two others: the first at 0 percent, the second at 100."""
+    share = min(max(percent, 0), 100) / 100
+    pairs = zip(_parts(first), _parts(second), strict=True)
+    red, green, blue = (a + (b - a) * share for a, b in pairs)
+    return colour_from(red, green, blue)
+
+
+def _parts(colour: str) -> tuple[int, ...]:
+    parts = _COLOUR.fullmatch(colour)
+    if parts is None:
+        raise ValueError(f"{colour!r} is not a colour: a colour is written like #ff8800.")
+    return tuple(int(part, 16) for part in parts.groups())
+
+
+def _part(value: float) -> int:
+    return min(max(round(value), 0), 255)

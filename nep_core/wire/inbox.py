@@ -1,0 +1,409 @@
+"""The receiving side of one subscriber: a SUB socket, the receive queue, and what was lost."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+import zmq
+from zmq.backend import Socket as BackendSocket
+
+from nep_core.errors import BadMessage
+from nep_core.networks.network import Policy
+
+from . import outbox
+from .frames import NUL, Header, read_header, subscription
+from .outbox import HIGH_WATER_MARK, PRIVATE_BYTE, bind
+
+if TYPE_CHECKING:
+    from nep_core.networks.security.curve import Security
+
+
+# How many messages were sent to a subscriber and did not arrive, publisher by publisher.
+
+MOST_PUBLISHERS = 1_000
+"""Starts of publishers that are remembered, those heard last: a topic may live for weeks."""
+
+
+class Tally:
+    """Counts by the numbers of messages; told of each frame in the order of arrival."""
+
+    def __init__(self) -> None:
+        self.lost = 0
+        self._known: dict[tuple[str, str], list[int]] = {}
+        """By node and run: the numbers of the first message received and the last one sent, and
+        at which note of ours it was heard last."""
+        self._notes = 0
+
+    def note(self, header: Header, messages: int) -> bool:
+        """Count a frame with so many messages; whether they are new to the subscriber."""
+        known = self._known.get((header.node, header.run))
+        self._notes += 1
+        if known is not None:
+            known[2] = self._notes
+        if header.sent is not None:
+            return self._note_notice(header, messages, known)
+        last = header.sequence + messages - 1
+        if known is None:
+            self._remember(header, header.sequence, last)
+        else:
+            if header.sequence > known[1] + 1:
+                self.lost += header.sequence - known[1] - 1
+            known[1] = last  # lower than before: a sender without a run has started again
+        return True
+
+    def _note_notice(self, header: Header, messages: int, known: list[int] | None) -> bool:
+        sent = header.sent or 0
+        if known is None:
+            self._remember(header, sent + 1, sent)
+            return messages > 0
+        was_lost = header.sequence > known[1]
+        is_new = messages > 0 and (was_lost or header.sequence < known[0])
+        self.lost += max(0, sent - known[1] - (messages if was_lost else 0))
+        known[1] = max(known[1], sent)
+        if is_new:
+            known[0] = min(known[0], header.sequence)
+        return is_new
+
+    def _remember(self, header: Header, first: int, last: int) -> None:
+        if len(self._known) >= MOST_PUBLISHERS:
+            del self._known[min(self._known, key=lambda start: self._known[start][2])]
+        self._known[header.node, header.run] = [first, last, self._notes]
+
+
+# What has arrived for one subscriber and waits to be read.
+#
+# It is bounded: of events the oldest are dropped and counted, of states only the newest is kept.
+
+FRAMES = 10_000
+"""Frames kept for a subscriber that does not read."""
+BYTES = 64_000_000
+"""Bytes kept for a subscriber that does not read; the newest frame is kept whatever its size."""
+
+
+class Backlog:
+    """The frames of a topic in the order of arrival; one thread at a time may use it.
+
+    ``lost``: how many messages were sent but did not arrive, or were dropped here; any thread
+    may ask. Of states nothing counts as lost: an old one is of no use.
+    """
+
+    def __init__(self, topic: str, policy: Policy = "events") -> None:
+        self.policy = policy
+        self._head_at = len(subscription(topic))
+        self._tally = Tally()
+        self._frames: deque[bytes] = deque()
+        self._bytes = 0
+        self._newest: dict[tuple[str, str], bytes] = {}
+        self.passed = b""
+        """A frame of events that its reader takes at once: it is counted at leisure."""
+
+    def __len__(self) -> int:
+        return len(self._frames) or len(self._newest)
+
+    @property
+    def lost(self) -> int:
+        """How many messages are lost so far."""
+        return self._tally.lost if self.policy == "events" else 0
+
+    def put(self, frame: bytes) -> None:
+        """Take in a frame or a notice."""
+        self.count_passed()
+        header, messages = self._read(frame)
+        if header is None:
+            if self.policy == "events":
+                self._keep(frame)  # its reader tells what is wrong with it
+        elif self._tally.note(header, messages):
+            if self.policy == "events":
+                self._keep(frame)
+            else:
+                self._keep_newest(header, frame)
+
+    def pop(self) -> bytes | None:
+        """The oldest frame that is here."""
+        if self._frames:
+            frame = self._frames.popleft()
+            self._bytes -= len(frame)
+            return frame
+        if self._newest:
+            return self._newest.pop(next(iter(self._newest)))
+        return None
+
+    def count_passed(self) -> None:
+        """Count the frame that was passed by, before the next one comes."""
+        if self.passed:
+            passed, self.passed = self.passed, b""
+            header, messages = self._read(passed)
+            if header is not None:
+                self._tally.note(header, messages)
+
+    def _keep(self, frame: bytes) -> None:
+        self._frames.append(frame)
+        self._bytes += len(frame)
+        while len(self._frames) > 1 and (len(self._frames) > FRAMES or self._bytes > BYTES):
+            dropped = self._frames.popleft()
+            self._bytes -= len(dropped)
+            self._tally.lost += self._read(dropped)[1]
+
+    def _keep_newest(self, header: Header, frame: bytes) -> None:
+        sender = (header.node, header.run)
+        if header.sent is None or sender not in self._newest:  # a notice brings what is old
+            self._newest[sender] = frame
+
+    def _read(self, frame: bytes) -> tuple[Header | None, int]:
+        """The header (None: unreadable) and how many messages there are."""
+        end = frame.find(NUL, self._head_at)
+        try:
+            header = read_header(frame[self._head_at : end if end >= 0 else None])
+        except BadMessage:
+            return None, 0
+        if end < 0:
+            return header, 0  # a mark
+        if header.encoding != "json":
+            return header, 1
+        payloads = frame[end:]
+        return header, len(payloads) - len(
+            payloads.replace(NUL, b"")
+        )  # count() is ten times slower
+
+
+# The C back end's own: socket.EVENTS takes eight times longer, for each of 1,000 subscribers.
+_option = BackendSocket.get
+
+LAST_WORDS_S = 1.0
+"""How long a publisher that has left is still heard: disconnecting drops what is on its way."""
+
+WAKE_ENDPOINT = "inproc://wake"
+"""Where the I/O thread's socket is bound that ends another thread's wait for a message."""
+
+LONGEST_WAIT_S = 1.0
+"""A wait looks so often whether it should end, should a wake be lost."""
+
+DRAIN_S = 0.01
+"""How long the I/O thread empties one inbox before it turns to the others."""
+
+
+class Inbox:
+    """One SUB socket; at any time one thread holds its lock and uses it.
+
+    ``wake`` asks the I/O thread to tend at once; ``waker`` is its socket at WAKE_ENDPOINT.
+    """
+
+    def __init__(
+        self,
+        context: zmq.Context[zmq.Socket[bytes]],
+        topic: str,
+        subscriber: str,
+        policy: Policy = "events",
+        *,
+        wake: Callable[[], None],
+        waker: zmq.Socket[bytes],
+        high_water_mark: int = HIGH_WATER_MARK,
+        security: Security | None = None,
+    ) -> None:
+        self._security = security
+        self._private = outbox.private_subscription(topic, subscriber)
+        self._socket = context.socket(zmq.SUB)
+        self._socket.linger = 0
+        self._socket.rcvhwm = high_water_mark
+        self._socket.subscribe(subscription(topic))
+        self._socket.subscribe(self._private)  # after the data: the handshake rests on it
+        self._socket.connect(WAKE_ENDPOINT)
+        self._wake = wake
+        self._waker = waker
+        self._timeout_ms = -1
+        self._lock = threading.Lock()
+        self._backlog = Backlog(topic, policy)
+        self._are_events = policy == "events"
+        self._commands: deque[Callable[[], None]] = deque()
+        self._wanted: set[str] = set()
+        self._leaving: dict[str, float] = {}
+        self._publishers: set[str] = set()
+        self._gone: Callable[[set[str]], set[str]] = lambda _: set()
+        self.closed = False
+
+    def connect(self, endpoints: Mapping[str, str], instances: set[str] | None = None) -> None:
+        """Hear exactly the publishers at these endpoints, by their keys; safe from any thread.
+
+        ``instances`` are those publishers, where somebody keeps a list: all others are gone.
+        """
+        if instances is not None:
+            self._gone = lambda some: some - instances
+        self._do(lambda: self._connect_now(endpoints))
+
+    def bind(self, endpoint: str) -> None:
+        """Let publishers connect to ``endpoint``; raises PortTaken."""
+        with self._lock:
+            bind(self._socket, endpoint, self._security)
+
+    def take(self, timeout_s: float | None) -> bytes | None:
+        """The next frame; None after ``timeout_s`` (None: wait for ever), or when closed."""
+        deadline = None if timeout_s is None else time.monotonic() + timeout_s
+        while True:
+            with self._lock:
+                if self.closed:
+                    return None
+                if self._commands:
+                    self._run_commands()
+                if self._leaving:
+                    self._disconnect_left()
+                self._backlog.count_passed()  # before we wait: it must not delay the next one
+                if self._backlog:
+                    return self._backlog.pop()
+                left_s = None if deadline is None else max(0.0, deadline - time.monotonic())
+                frame = self._receive(left_s)
+                if frame is not None:
+                    if self._are_events:
+                        self._backlog.passed = frame
+                        return frame
+                    self._backlog.put(frame)
+                    self._drain()
+                    if (frame := self._backlog.pop()) is not None:
+                        return frame
+                if left_s == 0.0 and not self._backlog:
+                    return None
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive, or were dropped; any thread may ask."""
+        if self._lock.acquire(blocking=False):
+            try:
+                self._backlog.count_passed()
+            finally:
+                self._lock.release()
+        return self._backlog.lost
+
+    def tend(self) -> None:
+        """Keep the newest messages while nobody reads, or wake the reader (the I/O thread)."""
+        if not self._lock.acquire(blocking=False):
+            if self._commands or self.closed:
+                self._waker.getsockopt(zmq.EVENTS)  # lets it see subscriptions made just now
+                self._waker.send(self._private)
+            return
+        try:
+            self._run_commands()
+            self._drain()
+            if self._leaving and not self.closed:
+                self._disconnect_left()
+        finally:
+            self._lock.release()
+
+    def wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
+        """Wait until all these publishers, and at least ``count``, have welcomed us.
+
+        Those that are gone are not waited for.
+        """
+        deadline = time.monotonic() + timeout_s
+        while not (
+            instances - self._gone(instances) <= self._publishers and len(self._publishers) >= count
+        ):
+            left_s = deadline - time.monotonic()
+            if left_s <= 0 or self.closed:
+                return False
+            if not self._lock.acquire(timeout=min(0.02, left_s)):
+                continue  # a thread that waits in take() hears them for us
+            try:
+                self._run_commands()
+                if not self.closed:
+                    self._socket.poll(min(20, math.ceil(left_s * 1000)))
+                    self._drain()
+            finally:
+                self._lock.release()
+        return True
+
+    def interrupt(self) -> None:
+        """Make take() return None from now on; safe in a signal handler."""
+        self.closed = True
+        self._wake()
+
+    def close(self) -> None:
+        """End, also for a thread that waits in take(); the I/O thread must still tend."""
+        self.interrupt()
+        if not self._lock.acquire(timeout=2 * LONGEST_WAIT_S):
+            # We are the handler of a signal that has interrupted our own take().
+            threading.Thread(target=self._close_socket, name="nep-close", daemon=True).start()
+            return
+        self._lock.release()
+        self._close_socket()
+
+    def abandon(self) -> None:
+        """In the child of a fork: nothing comes here any more."""
+        self.closed, self._lock = True, threading.Lock()
+
+    def _close_socket(self) -> None:
+        with self._lock:
+            self._socket.close()
+
+    def _do(self, command: Callable[[], None]) -> None:
+        self._commands.append(command)
+        if self._lock.acquire(blocking=False):
+            try:
+                self._run_commands()
+            finally:
+                self._lock.release()
+        else:
+            self._wake()
+
+    def _run_commands(self) -> None:
+        while self._commands and not self._socket.closed:
+            self._commands.popleft()()
+
+    def _connect_now(self, endpoints: Mapping[str, str]) -> None:
+        now_s = time.monotonic()
+        for endpoint in self._wanted - endpoints.keys():
+            self._leaving[endpoint] = now_s + LAST_WORDS_S
+        for endpoint, key in endpoints.items():
+            if endpoint not in self._wanted and self._leaving.pop(endpoint, None) is None:
+                if self._security is not None:
+                    self._security.trust(self._socket, key)
+                self._socket.connect(endpoint)
+        self._wanted = set(endpoints)
+        self._publishers -= self._gone(self._publishers)
+
+    def _disconnect_left(self) -> None:
+        now_s = time.monotonic()
+        for endpoint in [e for e, until_s in self._leaving.items() if until_s < now_s]:
+            del self._leaving[endpoint]
+            self._socket.disconnect(endpoint)
+
+    def _receive(self, timeout_s: float | None) -> bytes | None:
+        """A frame, or None: nothing came, or something private did (a notice, a wake)."""
+        wait_s = LONGEST_WAIT_S if timeout_s is None else min(timeout_s, LONGEST_WAIT_S)
+        timeout_ms = math.ceil(wait_s * 1000)
+        if timeout_ms != self._timeout_ms:
+            self._socket.rcvtimeo = self._timeout_ms = timeout_ms
+        while True:
+            try:
+                frame = self._socket.recv()
+            except zmq.Again:
+                return None
+            except zmq.ContextTerminated:  # whoever closes could not wait for us
+                self.closed = True
+                return None
+            if not frame or frame[0] != PRIVATE_BYTE:
+                return frame
+            self._hear_privately(frame)
+            if timeout_s != 0.0 or self._backlog:
+                return None  # perhaps it was a wake: the caller looks why
+
+    def _hear_privately(self, frame: bytes) -> None:
+        if not frame.startswith(self._private) or frame == self._private:
+            return
+        instance, notice = outbox.read_welcome(frame)
+        self._publishers.add(instance)
+        if notice:
+            self._backlog.put(notice)
+
+    def _drain(self) -> None:
+        until_s = time.monotonic() + DRAIN_S
+        while not self.closed and int(_option(self._socket, zmq.EVENTS)) & zmq.POLLIN:
+            frame = self._receive(0.0)
+            if frame is not None:
+                self._backlog.put(frame)
+            if time.monotonic() > until_s:
+                self._wake()  # there may be more: the I/O thread comes back at once
+                return

@@ -1,0 +1,335 @@
+"""The messages that nodes exchange, as validated data.
+
+A message travels as one JSON object (see frames.py). Keys that a receiver does not know are
+ignored; a key that is missing, or of another type, is an error that names it.
+Times are seconds since 1970 (``time.time()``), angles rad, lengths m, unless a name says else.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any, Literal
+
+import msgspec
+
+from faults import Fault, Words, heard, text_of, verbatim
+
+NODE_STATE = "/node_state"
+IMU = "/imu"
+HUMAN_BEHAVIOR = "/human_behavior"
+ACTION_REQUEST = "/action_request"
+ACTION_RESULT = "/action_result"
+ROBOT_STATE = "/robot_state"
+PROGRAM_STATE = "/program_state"
+PROGRAM_CONTROL = "/program_control"
+GESTURE_REQUEST = "/gesture_request"
+SENSE_REQUEST = "/sense_request"
+SURROUNDINGS = "/surroundings"
+EXPECTED_WORDS = "/expected_words"
+
+NodeType = Literal["sensory", "perceptual", "cognitive", "action"]
+NodeEvent = Literal[
+    "starting",
+    "ready",
+    "running",
+    "busy",
+    "connecting",
+    "connected",
+    "connection_failed",
+    "disconnected",
+    "alive",
+    "warning",
+    "stopped",
+    "crashed",
+]
+ActionState = Literal["accepted", "started", "done", "failed", "cancelled"]
+ProgramEvent = Literal[
+    "started",
+    "line",
+    "rule_started",
+    "rule_finished",
+    "goal_started",
+    "goal_finished",
+    "goal_stopped",
+    "goal_interrupted",
+    "value",
+    "paused",
+    "resumed",
+    "finished",
+    "failed",
+]
+
+MOST_STEPS = 20
+"""More steps of a checklist than a person would read are left out."""
+
+LONGEST_SOURCE = 60
+"""So much of a sensor's name is told."""
+
+ThingKind = Literal["person", "ball", "wall", "mark"]
+Wrist = Literal["", "left", "right", "hand"]
+ProgramCommand = Literal["start", "stop", "pause", "resume", "step", "set"]
+
+
+class Described(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """Says what happened: in English, and as data for who tells it in another language, or asks.
+
+    ``description`` is the whole sentence. ``code`` says in words joined by low lines what
+    happened; ``text`` is the sentence with places, ``values`` fill them; ``checklist`` is what to
+    try. The last four may be missing or be anything, for others write them too: ask ``fault``.
+    """
+
+    description: str = ""
+    code: Any = ""
+    text: Any = ""
+    values: Any = {}
+    checklist: Any = []
+
+    @property
+    def fault(self) -> Fault:
+        """What happened; where only a description came, that, as it is."""
+        return _fault(self, self.values)
+
+
+def _fault(told: Described, values: object) -> Fault:
+    if isinstance(told.text, str) and told.text:
+        sentence = heard({"text": told.text, "values": values})
+    else:
+        sentence = verbatim(told.description)
+    steps = told.checklist if isinstance(told.checklist, list) else []
+    code = told.code if isinstance(told.code, str) else ""
+    return Fault(code, sentence, tuple(map(heard, steps[:MOST_STEPS])))
+
+
+def described(fault: Fault) -> dict[str, Any]:
+    """The keys of a message that says what happened."""
+    return {
+        "description": str(fault.sentence),
+        "code": fault.code,
+        "text": fault.sentence.text,
+        "values": fault.sentence.values,
+        "checklist": [step if step.values else step.text for step in fault.checklist],
+    }
+
+
+class NodeState(Described, kw_only=True, omit_defaults=True):
+    """How a node is doing (``/node_state``); ``alive`` is its heartbeat, once a second.
+
+    ``measures`` are numbers by name that it measures about itself: ``rate_hz``, ``latency_ms``,
+    ``load`` (a share of a core), ``certainty.karate``; they come at most twice a second.
+    """
+
+    node: str
+    type: NodeType
+    event: NodeEvent
+    measures: dict[str, float] = {}
+    pid: int = 0
+    host: str = ""
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class Imu(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """A batch of n samples of a watch or phone (``/imu``).
+
+    ``t`` is n seconds on the sensor's own clock, rising; ``acc`` is n rows of 3 in m/s²;
+    ``gyr`` is n rows of 3 in rad/s, or absent where the sensor has no gyroscope. ``wrist`` is
+    where the sensor is worn, "hand" when it is held, "" when nobody said. ``person`` is which
+    simulated person wears it, from 0; -1 when it is a real one.
+    """
+
+    source: str
+    rate_hz: float
+    t: list[float]
+    acc: list[tuple[float, float, float]]
+    gyr: list[tuple[float, float, float]] | None = None
+    gravity_included: bool = True
+    simulated: bool = False
+    person: int = -1
+    wrist: Wrist = ""
+
+    @property
+    def sender(self) -> Words:
+        """What the source is called where people read it."""
+        if self.person < 0:
+            return self.source[:LONGEST_SOURCE]
+        return text_of("simulated person {number}", number=self.person)
+
+
+class HumanBehavior(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """What a person does (``/human_behavior``): ``gesture_karate``, ``touched_head``, any word."""
+
+    human_state: str
+    certainty: float = 1.0
+    source: str = ""
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class ActionRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """What robots are asked to do (``/action_request``).
+
+    The same ``id`` sent again asks how the action is doing: it is never played twice.
+    """
+
+    id: str
+    robots: list[str]
+    action: str
+    args: dict[str, Any] = {}
+    priority: int = 0
+
+
+class ActionResult(Described, kw_only=True, omit_defaults=True):
+    """How a requested action is going on one robot (``/action_result``)."""
+
+    id: str
+    robot: str
+    state: ActionState
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """Where a robot's body is (``/robot_state``); 30 Hz while it moves, 1 Hz at rest.
+
+    ``joints`` are rad by joint name (hands 0 to 1); ``base`` is x m, y m, theta rad on the floor;
+    ``leds`` are 0xRRGGBB by group; ``battery`` is 0 to 1. ``sensors`` are numbers by name, in m,
+    m/s², rad/s, kg and A, touch sensors 0 or 1. ``sees`` is where things are that it sees or hears
+    ("face", "face_anna", "ball", "sound", "mark_64"): x, y, z m in front of, left of, above its
+    feet. ``settings`` are how it is set: volume, language, awake, ... ``listening`` are the words
+    that it waits for. ``torso`` is where the torso is above the floor: x, y, z m, and roll, pitch,
+    yaw rad, turned about z, then y, then x; None when that is not known. ``fallen``: it lies there
+    because it lost its balance. ``model`` is which robot it is: the name of its folder in
+    resources/robots, or a path to one's own; "" is a NAO.
+    """
+
+    robot: str
+    joints: dict[str, float]
+    model: str = ""
+    base: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    posture: str = ""
+    leds: dict[str, int] = {}
+    saying: str = ""
+    moving: bool = False
+    battery: float = 1.0
+    sensors: dict[str, float] = {}
+    sees: dict[str, tuple[float, float, float]] = {}
+    settings: dict[str, bool | float | str] = {}
+    listening: list[str] = []
+    torso: tuple[float, float, float, float, float, float] | None = None
+    fallen: bool = False
+    time: float = msgspec.field(default_factory=time.time)
+
+
+class ProgramState(Described, kw_only=True, omit_defaults=True):
+    """What the cognitive program is doing (``/program_state``).
+
+    ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for,
+    or the name of a goal. A "line" event tells of all threads at once: ``lines`` are, by thread,
+    the lines that it is in now, the outermost call first; one that is not there has ended. A
+    "value" event tells the ``values`` that changed, by the name of the variable, as Python; what
+    fills the places of ``text`` is in ``text_values`` here.
+    """
+
+    program: str
+    event: ProgramEvent
+    line: int = 0
+    lines: dict[str, list[int]] = {}
+    values: dict[str, str] = {}
+    text_values: Any = {}
+    rule: str = ""
+    thread: str = ""
+    time: float = msgspec.field(default_factory=time.time)
+
+    @property
+    def fault(self) -> Fault:
+        """What happened."""
+        return _fault(self, self.text_values)
+
+
+class ProgramControl(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """What a running program is asked to do (``/program_control``).
+
+    "step" runs one line more of the paused ``thread``, "" of every one that is paused. "set"
+    says how the program is watched from now on: it pauses at the lines ``breakpoints``, and
+    waits ``line_s`` seconds at each line, which is slow motion.
+    """
+
+    command: ProgramCommand
+    program: str = ""
+    thread: str = ""
+    breakpoints: list[int] = []
+    line_s: float = 0.0
+
+
+class GestureRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """Asks the virtual watch to make a gesture (``/gesture_request``); person -1 is anybody."""
+
+    gesture: str
+    person: int = -1
+
+
+class SenseRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
+    """Lets a virtual robot feel, see or hear something (``/sense_request``).
+
+    ``sense`` is a sensor ("head_front", "sonar_left", "battery"), which gets the ``value``; or
+    "face", "ball", "sound" or "mark", there while ``value`` is above 0, at ``place`` (x, y, z m
+    from its feet), a face or mark with a ``name``; or "word", with the ``name`` that was said. Or
+    hands: "push" towards a ``place``; "place" puts it down there (x, y m, theta rad on the floor).
+    "usual": all sensors measure by themselves again.
+    """
+
+    robot: str
+    sense: str
+    value: float = 1.0
+    name: str = ""
+    place: tuple[float, float, float] = (1.0, 0.0, 0.5)
+
+
+class Thing(msgspec.Struct, kw_only=True, omit_defaults=True, frozen=True):
+    """Something that stands on the floor near virtual robots.
+
+    ``place`` is x, y m on the floor and z m, how high it is above it (a ball on a table);
+    ``heading`` rad is where a person or a mark faces, and a wall's front. ``size`` is how wide,
+    deep and high it is, m. ``name`` is a person's, or a mark's number.
+    """
+
+    id: str
+    kind: ThingKind
+    place: tuple[float, float, float]
+    heading: float = 0.0
+    size: tuple[float, float, float] = (0.4, 0.3, 1.7)
+    name: str = ""
+
+
+class Surroundings(msgspec.Struct, kw_only=True):
+    """All that stands around virtual robots (``/surroundings``), each time that it changes.
+
+    Robots notice by themselves what is near enough and in sight.
+    """
+
+    things: list[Thing]
+
+
+class ExpectedWords(msgspec.Struct, kw_only=True):
+    """The words that rules of a program wait for (``/expected_words``).
+
+    Real robots hear only words that they listen for.
+    """
+
+    words: list[str]
+
+
+BY_TOPIC: dict[str, type[msgspec.Struct]] = {
+    NODE_STATE: NodeState,
+    IMU: Imu,
+    HUMAN_BEHAVIOR: HumanBehavior,
+    ACTION_REQUEST: ActionRequest,
+    ACTION_RESULT: ActionResult,
+    ROBOT_STATE: RobotState,
+    PROGRAM_STATE: ProgramState,
+    PROGRAM_CONTROL: ProgramControl,
+    GESTURE_REQUEST: GestureRequest,
+    SENSE_REQUEST: SenseRequest,
+    SURROUNDINGS: Surroundings,
+    EXPECTED_WORDS: ExpectedWords,
+}
+
+LATCHED = frozenset({NODE_STATE, ROBOT_STATE, SURROUNDINGS, EXPECTED_WORDS})
+"""Topics whose last message a late joiner gets."""

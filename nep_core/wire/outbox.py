@@ -1,0 +1,524 @@
+"""The sending side of a network: an XPUB socket, the streams of its topics, and who hears them.
+
+A subscriber also makes a private subscription (the handshake): when the publisher sees it, the
+data subscription is in force, so that nothing is lost at the start."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import defaultdict, deque
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import zmq
+from zmq.backend import Socket as BackendSocket
+
+from faults import reason_of
+from nep_core.errors import NetworkError, PortTaken
+from nep_core.networks.security.addresses import require_loopback
+
+from . import frames
+from .frames import (
+    CANNOT_ENCODE,
+    NUL,
+    RUN_CHARACTERS,
+    Encoding,
+    Sendable,
+    encode,
+    join,
+    natural_encoding,
+    not_encodable,
+    subscription,
+    to_json,
+)
+
+if TYPE_CHECKING:
+    from nep_core.networks.security.curve import Security
+
+
+# The messages of one topic on their way out.
+#
+# Each message leaves at once. Only in a flood (more than 32 within a millisecond) the rest of that
+# millisecond travels in frames of up to 16 KB: a call of ZeroMQ costs more than the message itself.
+
+_now_ns = time.time_ns
+
+FLOOD = 32
+FLOOD_NS = 1_000_000
+MILLISECOND_BITS = 20
+"""Nanoseconds without their last 20 bits count windows of about a millisecond."""
+SHARED_FRAME_BYTES = 16_000
+"""Messages share a frame up to here; times the high-water mark: what may wait for a subscriber."""
+HELD_S = 1.0
+"""Nobody holds the lock so long, but who waits for us: a signal's handler has interrupted it."""
+
+
+class Stream:
+    """Numbers, encodes and sends; safe from any thread.
+
+    ``send`` takes a frame and does not wait; it is called under ``lock``.
+    """
+
+    def __init__(
+        self,
+        send: Callable[[bytes], object],
+        lock: threading.Lock,
+        topic: str,
+        node: str,
+        encoding: Encoding | None,
+        hurry: Callable[[], None],
+        run: str = "",
+    ) -> None:
+        self.encoding = encoding
+        self.sent = 0
+        self._latched = b""
+        self._is_json = encoding in (None, "json")
+        self._send_frame = send
+        self._lock = lock
+        self._topic = topic
+        self._node = node
+        self._run = run
+        self._start = subscription(topic)
+        self._head = self._start + b"[" + to_json(node) + b","
+        self._head_end = b',"json",' + to_json(run) + b"]" + NUL
+        self._hurry = hurry
+        self._window = 0
+        self._in_window = 0
+        self._waiting: list[bytes] = []
+        self._room_bytes = SHARED_FRAME_BYTES
+        self._waiting_since_ns = 0
+        self._late: deque[tuple[bytes, Encoding, bool]] = deque()
+
+    def send(self, message: Sendable, latch: bool = False) -> None:
+        """Send ``message``; with ``latch``, subscribers that join later get it too.
+
+        In a signal's handler that interrupts another sending it goes out a little later.
+        Written flat: each call here costs as much as encoding the message.
+        """
+        if latch or not self._is_json or isinstance(message, (str, bytes)):
+            self._send_alone(message, latch)
+            return
+        try:
+            payload = to_json(message)
+        except CANNOT_ENCODE as error:
+            raise not_encodable("json", error) from error
+        if not self._lock.acquire(True, HELD_S):
+            self._send_later(payload, "json", latch)
+            return
+        try:
+            if not self._waiting:
+                now_ns = _now_ns()
+                if now_ns >> MILLISECOND_BITS != self._window:
+                    self._window, self._in_window = now_ns >> MILLISECOND_BITS, 0
+                self._in_window += 1
+                if self._in_window <= FLOOD:
+                    self.sent += 1
+                    self._send_frame(
+                        b"%b%d,%d%b%b" % (self._head, self.sent, now_ns, self._head_end, payload)
+                    )
+                    return
+                self._begin_to_wait(now_ns)
+            self._waiting.append(payload)
+            self._room_bytes -= len(payload)
+            if self._room_bytes <= 0:
+                self._flush()
+        finally:
+            self._lock.release()
+
+    def flush(self, older_than_ns: int = 0) -> None:
+        """Send what waits, if it has waited for so long."""
+        if self._waiting:
+            waited_ns = _now_ns() - self._waiting_since_ns
+            if waited_ns >= older_than_ns or waited_ns < 0:  # the clock may be set back
+                with self._lock:
+                    self._flush()
+        while self._late:
+            self._send_payload(*self._late.popleft())
+
+    def abandon(self, send: Callable[[bytes], object]) -> None:
+        """From now on ``send`` gets the frames, and whoever held the lock is not there any more."""
+        self._send_frame, self._lock = send, threading.Lock()
+
+    def welcome(self) -> bytes:
+        """The notice for a newcomer: what is latched, how many were sent; call under the lock."""
+        return frames.notice(self._latched, self.sent) if self._latched else self.mark()
+
+    def mark(self) -> bytes:
+        """The notice of how many were sent; call under the lock."""
+        return frames.mark(self._topic, self._node, self._run, self.sent)
+
+    def _send_alone(self, message: Sendable, latch: bool) -> None:
+        encoding = self.encoding or natural_encoding(message)
+        self._send_payload(encode(message, encoding), encoding, latch)
+
+    def _send_payload(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
+        if not self._lock.acquire(True, HELD_S):
+            self._send_later(payload, encoding, latch)
+            return
+        try:
+            self._flush()
+            self.sent += 1
+            frame = join(
+                self._start, self._node, self.sent, _now_ns(), encoding, payload, self._run
+            )
+            if latch:
+                self._latched = frame
+            self._send_frame(frame)
+        finally:
+            self._lock.release()
+
+    def _send_later(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
+        self._late.append((payload, encoding, latch))
+        self._hurry()  # the I/O thread sends it
+
+    def _begin_to_wait(self, now_ns: int) -> None:
+        self._room_bytes = SHARED_FRAME_BYTES
+        self._waiting_since_ns = now_ns
+        self._hurry()  # the I/O thread sends it if no more messages come
+
+    def _flush(self) -> None:
+        if not self._waiting:
+            return
+        waiting, self._waiting = self._waiting, []
+        first, since_ns = self.sent + 1, self._waiting_since_ns
+        frame = join(self._start, self._node, first, since_ns, "json", NUL.join(waiting), self._run)
+        self.sent += len(waiting)
+        self._send_frame(frame)
+        # It stays a flood until a quiet moment.
+        self._window, self._in_window = _now_ns() >> MILLISECOND_BITS, FLOOD
+
+
+# Who hears the topics of one program, and what each hearer is told in private.
+#
+# It knows no socket: whatever carries the messages tells who comes and goes.
+
+MARK_S = 0.5
+"""How often a slow subscriber is told how many messages were sent."""
+
+SendFrame = Callable[[bytes], object]
+SendPrivately = Callable[[str, str, bytes], object]
+"""Sends a notice to the subscriber (topic, id); called under the lock, must not wait."""
+
+
+class Hearers:
+    """The streams of a network and their subscribers; safe from any thread.
+
+    ``sender`` gives, by topic, what sends a frame. ``lock`` is held whenever something is sent.
+    """
+
+    def __init__(
+        self,
+        node: str,
+        instance: str,
+        *,
+        lock: threading.Lock,
+        sender: Callable[[str], SendFrame],
+        send_privately: SendPrivately,
+        hurry: Callable[[], None],
+    ) -> None:
+        self._node = node
+        self._run = instance[:RUN_CHARACTERS]
+        self._lock = lock
+        self._sender = sender
+        self._send_privately = send_privately
+        self._hurry = hurry
+        self._changed = threading.Condition()
+        self._ids: dict[str, set[str]] = defaultdict(set)
+        self._slow: set[tuple[str, str]] = set()
+        self._streams: dict[str, Stream] = {}
+        self._next_mark_s = 0.0
+
+    def stream(self, topic: str, encoding: Encoding | None) -> Stream:
+        """The one stream of ``topic``; raises NetworkError when it has another encoding."""
+        with self._lock:
+            stream = self._streams.get(topic)
+            if stream is None:
+                send = self._sender(topic)
+                stream = Stream(
+                    send, self._lock, topic, self._node, encoding, self._hurry, self._run
+                )
+                self._streams[topic] = stream
+        if encoding not in (None, stream.encoding):
+            raise NetworkError(
+                "{topic} is already published as {encoding} here.",
+                checklist=("Use one encoding for all publishers of a topic.",),
+                topic=topic,
+                encoding=stream.encoding or "it comes",
+            )
+        return stream
+
+    def subscribers(self, topic: str) -> set[str]:
+        """The ids of the subscribers that hear ``topic`` now."""
+        with self._changed:
+            return set(self._ids[topic])
+
+    def everyone(self) -> list[tuple[str, str]]:
+        """All that hear something: topic and id."""
+        with self._changed:
+            return [(topic, who) for topic, ids in self._ids.items() for who in ids]
+
+    def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
+        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``."""
+        with self._changed:
+            return self._changed.wait_for(
+                lambda: ids <= self._ids[topic] and len(self._ids[topic]) >= count, timeout_s
+            )
+
+    def note(self, topic: str, subscriber: str, present: bool) -> None:
+        """Welcome a subscriber that has come, or forget one that has left."""
+        if present:
+            with self._lock:
+                stream = self._streams.get(topic)
+                welcome = stream.welcome() if stream else self.mark(topic)
+                self._send_privately(topic, subscriber, welcome)
+        with self._changed:
+            change = set.add if present else set.discard
+            change(self._ids[topic], subscriber)
+            if not self._ids[topic]:
+                del self._ids[topic]
+            self._slow.discard((topic, subscriber))
+            self._changed.notify_all()
+
+    def mark(self, topic: str) -> bytes:
+        """The notice of how many messages of ``topic`` were sent; call under the lock."""
+        stream = self._streams.get(topic)
+        return stream.mark() if stream else frames.mark(topic, self._node, self._run, 0)
+
+    def note_slow(self, topic: str, subscriber: str) -> None:
+        """Somebody could not take a message: from now on it hears how many there were.
+
+        It hears so again and again, since a mark can be lost as well.
+        """
+        with self._changed:
+            self._slow.add((topic, subscriber))
+
+    def tend(self) -> None:
+        """Send what has waited in a flood, and the marks that are due (the I/O thread)."""
+        for stream in list(self._streams.values()):
+            stream.flush(older_than_ns=FLOOD_NS)
+        if self._slow and time.monotonic() >= self._next_mark_s:
+            self._next_mark_s = time.monotonic() + MARK_S
+            with self._changed:
+                slow = [(topic, who) for topic, who in self._slow if topic in self._streams]
+            for topic, subscriber in slow:
+                with self._lock:
+                    self._send_privately(topic, subscriber, self.mark(topic))
+
+    def abandon(self, send: SendFrame) -> None:
+        """In the child of a fork: ``send`` gets what its streams send, nobody holds a lock."""
+        for stream in self._streams.values():
+            stream.abandon(send)
+
+    def flush(self) -> None:
+        """Send all that waits."""
+        for stream in list(self._streams.values()):
+            stream.flush()
+
+
+# The private subscriptions by which two peers know that they hear each other.
+#
+# After its data subscription a subscriber makes a private one. When a publisher sees the private
+# one, the data subscription is in force, and it answers with a *welcome* on the private topic,
+# which no other subscriber gets: its instance and a notice (frames.py) of what was sent so far.
+#
+# The order holds because ZeroMQ sends what is already subscribed in the order of the bytes when a
+# connection is made: private topics begin with 0xFF, which no UTF-8 text holds, and come last.
+
+PRIVATE = b"\xffs"
+PRIVATE_BYTE = 0xFF
+_NUL = b"\0"
+
+
+class Seen(NamedTuple):
+    """A private subscription as its publisher sees it; ``present`` is False when it is gone."""
+
+    present: bool
+    topic: str
+    subscriber: str
+
+
+def private_subscription(topic: str, subscriber: str) -> bytes:
+    """The private subscription of ``subscriber`` (an id of its own) for ``topic``."""
+    return PRIVATE + topic.encode() + _NUL + subscriber.encode() + _NUL
+
+
+def read_subscription(event: bytes) -> Seen | None:
+    """What an XPUB event tells of a subscriber; None for ordinary subscriptions and rubbish."""
+    if not event[1:].startswith(PRIVATE) or event[:1] not in (b"\0", b"\1"):
+        return None
+    parts = event[1 + len(PRIVATE) :].split(_NUL)
+    if len(parts) != 3:
+        return None
+    topic, subscriber = (part.decode(errors="replace") for part in parts[:2])
+    return Seen(event[:1] == b"\1", topic, subscriber)
+
+
+def private_frame(topic: str, subscriber: str, instance: str, notice: bytes = b"") -> bytes:
+    """What one subscriber is told: by whom, and a notice (empty: only that it is heard)."""
+    return private_subscription(topic, subscriber) + instance.encode() + _NUL + notice
+
+
+def read_welcome(frame: bytes) -> tuple[str, bytes]:
+    """The instance that sent a private frame, and its notice."""
+    _topic, _subscriber, rest = frame[len(PRIVATE) :].split(_NUL, 2)
+    instance, _, notice = rest.partition(_NUL)
+    return instance.decode(errors="replace"), notice
+
+
+HIGH_WATER_MARK = 4_000
+"""Frames that wait for a subscriber whose program is frozen, on each side.
+
+A frame holds one message, or in a flood several of up to 16 KB together: at most 64 MB wait for
+each subscriber while messages are below 16 KB. Larger ones are not bounded by that: 4,000 times
+their size may wait. Whoever sends images gives the network a lower high-water mark.
+
+What comes when all that is full is lost, and counted: ZeroMQ keeps the oldest here. It is the
+subscriber's own backlog (backlog.py) that keeps the newest while its program is merely busy.
+"""
+
+# The send of the C back end: pyzmq's own looks for options that we never use.
+_send = BackendSocket.send
+
+
+class Outbox:
+    """Sends in the caller's thread, under a lock; the I/O thread reads the subscriptions.
+
+    ``is_far``: a broker is between us and the subscribers, so that we never see who is slow.
+    """
+
+    def __init__(
+        self,
+        context: zmq.Context[zmq.Socket[bytes]],
+        node: str,
+        instance: str,
+        hurry: Callable[[], None],
+        high_water_mark: int = HIGH_WATER_MARK,
+        *,
+        is_far: bool = False,
+        security: Security | None = None,
+    ) -> None:
+        self._security = security
+        self._node = node
+        self._instance = instance
+        self._is_far = is_far
+        self._socket = context.socket(zmq.XPUB)
+        self._socket.linger = 500
+        self._socket.sndhwm = high_water_mark
+        self._socket.setsockopt(zmq.XPUB_NODROP, 1)  # tells when somebody cannot take a frame
+        if is_far:  # a broker that comes back brings the same subscribers: welcome them again
+            self._socket.setsockopt(zmq.XPUB_VERBOSE, 1)
+        self._lock = threading.Lock()
+        self._hearers = Hearers(
+            node,
+            instance,
+            lock=self._lock,
+            sender=lambda _topic: self._send,
+            send_privately=self._send_privately,
+            hurry=hurry,
+        )
+        self.stream: Callable[[str, Encoding | None], Stream] = self._hearers.stream
+        self.subscribers = self._hearers.subscribers
+        self.wait_for = self._hearers.wait_for
+        self.abandon = self._hearers.abandon
+
+    def bind(self, endpoint: str) -> str:
+        """Bind to ``endpoint``, say where; raises PortTaken."""
+        with self._lock:
+            bind(self._socket, endpoint, self._security)
+            return self._socket.getsockopt_string(zmq.LAST_ENDPOINT)
+
+    def connect(self, endpoint: str) -> None:
+        """Send to ``endpoint``, where a broker or a subscriber is bound."""
+        with self._lock:
+            if self._security is not None:
+                self._security.trust(self._socket, self._security.key_at(endpoint))
+            self._socket.connect(endpoint)
+
+    @property
+    def file_number(self) -> int:
+        """Readable when the I/O thread should tend."""
+        return int(self._socket.FD)
+
+    def tend(self) -> None:
+        """Read who subscribed and who left, welcome the newcomers, send what waits."""
+        while (event := self._next_event()) is not None:
+            seen = read_subscription(event)
+            if seen is not None:
+                self._hearers.note(seen.topic, seen.subscriber, seen.present)
+                if seen.present and self._is_far:
+                    self._hearers.note_slow(seen.topic, seen.subscriber)
+        if not self._socket.closed:
+            self._hearers.tend()
+
+    def close(self) -> None:
+        """Send what waits (half a second at most) and close."""
+        if not self._socket.closed:
+            self._hearers.flush()
+        with self._lock:
+            self._socket.close()
+
+    def _send(self, frame: bytes) -> None:
+        """Send without waiting; the lock is held."""
+        try:
+            _send(self._socket, frame, zmq.NOBLOCK)
+        except zmq.Again:
+            self._send_to_whoever_has_room(frame)
+        except zmq.ZMQError as error:
+            raise NetworkError(
+                "The network of {node} is closed.", checklist=("Start it again.",), node=self._node
+            ) from error
+
+    def _send_to_whoever_has_room(self, frame: bytes) -> None:
+        """Note who has none; from then on ZeroMQ leaves those out until they have read."""
+        for topic, subscriber in self._hearers.everyone():
+            try:
+                _send(self._socket, self._private_frame(topic, subscriber), zmq.NOBLOCK)
+            except zmq.Again:
+                self._hearers.note_slow(topic, subscriber)
+        self._socket.setsockopt(zmq.XPUB_NODROP, 0)
+        try:
+            _send(self._socket, frame, zmq.NOBLOCK)
+        finally:
+            self._socket.setsockopt(zmq.XPUB_NODROP, 1)
+
+    def _send_privately(self, topic: str, subscriber: str, notice: bytes) -> None:
+        if not self._socket.closed:
+            self._send(self._private_frame(topic, subscriber, notice))
+
+    def _private_frame(self, topic: str, subscriber: str, notice: bytes = b"") -> bytes:
+        return private_frame(topic, subscriber, self._instance, notice)
+
+    def _next_event(self) -> bytes | None:
+        with self._lock:
+            if self._socket.closed:
+                return None
+            try:
+                return self._socket.recv(zmq.NOBLOCK)
+            except zmq.Again:
+                return None
+
+
+def bind(socket: zmq.Socket[bytes], endpoint: str, security: Security | None = None) -> None:
+    """Bind, or raise PortTaken with a sentence when the endpoint cannot be had.
+
+    Without keys it must be one that only this computer reaches, else NetworkError is raised.
+    """
+    if security is None:
+        require_loopback(endpoint)
+    else:
+        security.guard(socket)
+    try:
+        socket.setsockopt(zmq.IPV6, int("[" in endpoint))
+        socket.bind(endpoint)
+    except zmq.ZMQError as error:
+        raise PortTaken(
+            "{endpoint} cannot be used: {reason}.",
+            checklist=(
+                "Is the same program running twice? Stop the other one.",
+                "Choose another port.",
+                "Is that an address of this computer?",
+            ),
+            endpoint=endpoint,
+            reason=reason_of(error),
+        ) from error

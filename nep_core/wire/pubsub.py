@@ -1,0 +1,263 @@
+"""Publisher and Subscriber: how nodes talk."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import Generic, TypeVar
+
+import msgspec
+
+from nep_core.errors import BadMessage
+from nep_core.networks.network import HANDSHAKE_S, Network, Policy
+from nep_core.networks.transports import default_network
+
+from .frames import (
+    JSON_HEAD,
+    JSON_MARK,
+    NUL,
+    Decode,
+    Encoding,
+    Header,
+    Sendable,
+    check_topic,
+    decoders,
+    lines_decoder,
+    read_header,
+)
+from .messages import LATCHED
+
+log = logging.getLogger(__name__)
+
+T = TypeVar("T")
+
+CANNOT_READ = (msgspec.MsgspecError, UnicodeDecodeError, RecursionError)
+
+
+class Publisher:
+    """Sends messages on one topic.
+
+    ``network``: where (default: this program's p2p network). ``wait_for_subscribers``: return
+    only when so many hear the topic, or after ``timeout_s``. ``latched``: subscribers that join
+    later get the last message. Subscribers that the master knows of never miss the first one.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        *,
+        network: Network | None = None,
+        encoding: Encoding | None = None,
+        latched: bool | None = None,
+        wait_for_subscribers: int = 0,
+        timeout_s: float = 5.0,
+    ) -> None:
+        check_topic(topic)
+        self.topic = topic
+        self.network = network or default_network()
+        self._latched = topic in LATCHED if latched is None else latched
+        self._send = self.network.outbox.stream(topic, encoding).send
+        self._closed = False
+        try:
+            expected = self.network.add_publisher(topic)
+        except BaseException:
+            self.close()
+            raise
+        if not self.network.outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
+            log.warning("a subscriber of %s has not connected yet", topic)
+        if wait_for_subscribers:
+            self.wait_for_subscribers(wait_for_subscribers, timeout_s)
+
+    def send(self, message: Sendable, *, latch: bool = True) -> None:
+        """Send a struct, dictionary, text or bytes; raises BadMessage.
+
+        JSON has no NaN and no infinity: they arrive as null (None); encoding="msgpack" has them.
+        ``latch=False`` keeps the message of a latched topic that later subscribers get.
+        """
+        self._send(message, latch and self._latched)
+
+    def subscribers(self) -> int:
+        """How many subscribers hear this topic now."""
+        return len(self.network.outbox.subscribers(self.topic))
+
+    def wait_for_subscribers(self, count: int, timeout_s: float) -> bool:
+        """Wait until ``count`` subscribers hear this topic; False when the time is over."""
+        return self.network.outbox.wait_for(self.topic, set(), count, timeout_s)
+
+    def close(self) -> None:
+        """Publish no more."""
+        if not self._closed:
+            self._closed = True
+            self.network.remove_publisher(self.topic)
+
+
+class Subscriber(Generic[T]):
+    """Receives the messages of one topic.
+
+    ``kind``: the struct that messages are read into (default: what JSON gives). ``callback``:
+    called with each message, in a thread of its own. A message that is not of that kind is
+    skipped with a warning that names the key, and so is null, which would look like no message.
+    Only one thread may receive at a time.
+
+    ``policy``: what is kept while nobody receives. "events" (the default): up to 10,000 frames,
+    or 64 MB; then the oldest are dropped, and counted in ``lost``. "state": the newest message
+    of each publisher, and nothing counts as lost. While this whole program is frozen, its
+    publishers keep the oldest (outbox.py), and what they cannot keep is counted all the same.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        kind: type[T] | None = None,
+        *,
+        network: Network | None = None,
+        callback: Callable[[T], None] | None = None,
+        policy: Policy | None = None,
+    ) -> None:
+        check_topic(topic)
+        self.topic = topic
+        self.network = network or default_network()
+        self._header: Header | None = None
+        self._head = b""
+        self._keeps_newest = policy == "state"
+        self._decoders = decoders(kind)
+        self._from_json = self._decoders["json"]
+        self._from_lines = lines_decoder(kind)
+        self._waiting: deque[T] = deque()
+        self._id, self._inbox = self.network.open_inbox(topic, policy or "events")
+        try:
+            known = self.network.add_subscriber(topic, self._id, self._inbox)
+        except BaseException:
+            self.close()
+            raise
+        if known and not self._wait_for(known, 0, HANDSHAKE_S):
+            log.warning("a publisher of %s does not answer", topic)
+        if callback is not None:
+            self._call_back(callback)
+
+    @property
+    def header(self) -> Header | None:
+        """Who sent the last message, when, and which number it (or the first beside it) has."""
+        if self._head:
+            head, self._head = self._head, b""
+            try:
+                self._header = read_header(head)
+            except BadMessage as error:
+                log.warning("%s: %s", self.topic, error)
+        return self._header
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive, or were dropped; any thread may ask.
+
+        It is known within a second, also when nothing more is sent.
+        """
+        return self._inbox.lost
+
+    def receive(self, timeout_s: float | None = None) -> T | None:
+        """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
+        while True:
+            if self._waiting:
+                return self._waiting.popleft()
+            frame = self._inbox.take(timeout_s)
+            if frame is None:
+                return None
+            parts = frame.split(NUL, 2)
+            decode: Decode | None
+            if len(parts) == 3 and parts[1][JSON_HEAD] == JSON_MARK:
+                self._head = parts[1]
+                decode = self._from_json
+            elif (decode := self._decoder_of(parts)) is None:
+                continue
+            payload = parts[2]
+            try:  # a lone message, the commonest: no call more than it needs
+                message: T | None = decode(payload)
+            except CANNOT_READ:
+                message = None
+            if message is not None:
+                return message
+            if decode is self._from_json and NUL in payload:
+                self._take_in(payload)
+            else:
+                self._read(decode, payload)  # tells why there is none
+
+    def pending(self) -> list[T]:
+        """All that has arrived, without waiting."""
+        messages = []
+        while (message := self.receive(0)) is not None:
+            messages.append(message)
+        return messages
+
+    def wait_for_publishers(self, count: int, timeout_s: float) -> bool:
+        """Wait until ``count`` publishers are heard; False when the time is over."""
+        return self._wait_for(set(), count, timeout_s)
+
+    def close(self) -> None:
+        """Hear no more; a thread that waits in receive() gets None."""
+        self.network.remove_subscriber(self._id)
+
+    def __iter__(self) -> Iterator[T]:
+        """Each message as it comes, until the subscriber is closed or the node stops."""
+        while (message := self.receive()) is not None:
+            yield message
+
+    def _wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
+        return self._inbox.wait_for(instances, count, timeout_s)
+
+    def _decoder_of(self, parts: list[bytes]) -> Decode | None:
+        """How to decode a frame that begins in an unusual way; None: it cannot be read."""
+        if len(parts) < 3:
+            log.warning("%s: a frame has no header: its sender does not speak NEP", self.topic)
+            return None
+        try:
+            self._header, self._head = read_header(parts[1]), b""
+        except BadMessage as error:
+            log.warning("%s: %s", self.topic, error)
+            return None
+        decode = self._decoders.get(self._header.encoding)
+        if decode is None:
+            log.warning("%s: a message of %s is not JSON", self.topic, self._sender())
+        return decode
+
+    def _take_in(self, payloads: bytes) -> None:
+        """Decode several messages at once, which is faster, or else one by one."""
+        if self._keeps_newest:
+            payloads = payloads.rpartition(NUL)[2]
+        try:
+            messages = self._from_lines(payloads.replace(NUL, b"\n"))
+        except CANNOT_READ:
+            messages = [None]
+        there = [message for message in messages if message is not None]
+        if len(there) < len(messages):
+            one_by_one = (self._read(self._from_json, one) for one in payloads.split(NUL))
+            there = [message for message in one_by_one if message is not None]
+        self._waiting.extend(there)
+
+    def _read(self, decode: Decode, payload: bytes) -> T | None:
+        """One message; None, with a warning, when it cannot be read or is null."""
+        try:
+            message: T | None = decode(payload)
+        except CANNOT_READ as error:
+            log.warning("%s: a message of %s: %s", self.topic, self._sender(), error)
+            return None
+        if message is None:
+            log.warning("%s: a message of %s is null: it is skipped", self.topic, self._sender())
+        return message
+
+    def _sender(self) -> str:
+        return header.node if (header := self.header) else "somebody"
+
+    def _call_back(self, callback: Callable[[T], None]) -> None:
+        def run() -> None:
+            for message in self:
+                try:
+                    callback(message)
+                except Exception:
+                    log.exception("%s: the callback failed", self.topic)
+                except SystemExit:
+                    log.warning("%s: the callback ended itself, and hears no more", self.topic)
+                    self.close()  # else it would look as if it heard
+
+        threading.Thread(target=run, name=f"nep-hear-{self.topic}", daemon=True).start()

@@ -1,0 +1,357 @@
+"""Why an edit does not fit the block language: one question for every kind of edit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from faults import Text, text_of
+
+from .connections import (
+    MOST_NOTES,
+    MOST_PAGES,
+    why_no_body,
+    why_no_field,
+    why_not_below,
+    why_not_chained,
+    why_not_note,
+    why_not_plugged,
+    why_not_size,
+    why_not_variable_name,
+)
+from .definitions import Definition
+from .edits import Edit
+from .edits.content import (
+    AddGroup,
+    AddNote,
+    AddProcedure,
+    ChangeNote,
+    ChangeProcedure,
+    RemoveGroup,
+    RemoveProcedure,
+    SetComment,
+    SetCommentSize,
+    SetExtra,
+    SetField,
+    why_not_extra,
+)
+from .edits.placing import CreateBlocks, MoveBlocks
+from .edits.project import (
+    AddPage,
+    AddVariable,
+    MoveStack,
+    RenamePage,
+    RenameProject,
+    RenameVariable,
+)
+from .files import why_not_block
+from .language import Language
+from .places import InBody, InInput, InStack, NewStack, Place, procedure_uses
+from .procedures import (
+    CALL,
+    DEFINE,
+    MOST_PROCEDURES,
+    definitions_of,
+    procedure_of,
+    why_not_procedure,
+)
+from .program import FARTHEST, Block, Procedure, Project
+from .slots import why_not_name, why_not_text
+
+# Why blocks cannot be put into a place: what is above and below, the slot, the page.
+
+
+def is_near(x: float, y: float) -> bool:
+    """Whether a place is near enough to the page's corner."""
+    return abs(x) <= FARTHEST and abs(y) <= FARTHEST
+
+
+def why_not_move(edit: MoveBlocks, project: Project, language: Language) -> Text | None:
+    """Why blocks cannot be moved."""
+    if edit.first not in project.blocks:
+        return Text("This block is not there any more.")
+    chain = project.chain_of(project.parents[edit.first]) or [edit.first]
+    start = chain.index(edit.first) if edit.first in chain else 0
+    roots = [project.blocks[i] for i in chain[start : start + edit.count]]
+    return _why_not_here(roots or [project.blocks[edit.first]], edit.place, project, language)
+
+
+def why_not_create(edit: CreateBlocks, project: Project, language: Language) -> Text | None:
+    """Why blocks cannot be made."""
+    by_id = {block.id: block for block in edit.blocks}
+    inside = [child for block in edit.blocks for child in block.children()]
+    if not edit.roots or not by_id.keys() >= {*inside, *edit.roots}:
+        return Text("These blocks are not complete.")
+    for block in edit.blocks:
+        if (reason := why_not_block(block, by_id, language)) is not None:
+            return reason
+        if block.type.startswith(DEFINE) and _is_there(block.type, project):
+            return Text("This block is defined already: a block has one definition.")
+    return _why_not_here([by_id[root] for root in edit.roots], edit.place, project, language)
+
+
+def _is_there(block_type: str, project: Project) -> bool:
+    return any(project.blocks[s.body[0]].type == block_type for s in project.stacks.values())
+
+
+def _why_not_here(
+    roots: list[Block], place: Place, project: Project, language: Language
+) -> Text | None:
+    """Why these blocks cannot be put, one after the other, into a place."""
+    if isinstance(place, NewStack) and not is_near(place.x, place.y):
+        return Text("This is too far outside the page.")
+    if isinstance(place, InInput | InBody):
+        owner = project.blocks.get(place.block)
+        if owner is None:
+            return Text("This block is not there any more.")
+        if isinstance(place, InInput):
+            return why_not_plugged(owner, place.slot, roots[0], language.definitions)
+        if (reason := why_no_body(owner, place.slot, language.definitions)) is not None:
+            return reason
+    return _why_not_page(roots, place, project, language) or _why_not_between(
+        roots, place, project, language
+    )
+
+
+def _why_not_between(
+    roots: list[Block], place: Place, project: Project, language: Language
+) -> Text | None:
+    """Why these blocks cannot be between those that are above and below a place."""
+
+    def definition(block: Block) -> Definition | None:
+        return language.definitions.get(block.type)
+
+    above, below = _neighbours({block.id for block in roots}, place, project)
+    is_top = above is None and not isinstance(place, InBody)
+    reason = why_not_chained(definition(roots[0]), first_in_stack=is_top)
+    if reason is None and above is not None:
+        reason = why_not_below(definition(above))
+    if reason is None and below is not None:
+        reason = why_not_below(definition(roots[-1])) or why_not_chained(
+            definition(below), first_in_stack=False
+        )
+    return reason
+
+
+def _why_not_page(
+    roots: list[Block], place: Place, project: Project, language: Language
+) -> Text | None:
+    if isinstance(place, NewStack):
+        page = place.page
+    elif isinstance(place, InStack) and place.stack in project.stacks:
+        page = project.page_of(place.stack)
+    elif isinstance(place, InBody) and place.block in project.blocks:
+        page = project.page_of(project.stack_of(place.block).id)
+    else:
+        return None
+    for block in roots:
+        definition = language.definitions.get(block.type)
+        if definition is not None and definition.page != project.kind_of_page(page):
+            return text_of(
+                "This block belongs on the page {page}.", page=Text(definition.page.title())
+            )
+    return None
+
+
+def _neighbours(
+    moved: set[str], place: Place, project: Project
+) -> tuple[Block | None, Block | None]:
+    """The blocks that will be directly above and below a place."""
+    if isinstance(place, InStack) and place.stack in project.stacks:
+        chain = project.stacks[place.stack].body
+    elif isinstance(place, InBody) and place.block in project.blocks:
+        chain = project.blocks[place.block].bodies.get(place.slot, [])
+    else:
+        return None, None
+    left = chain if moved.isdisjoint(chain) else [i for i in chain if i not in moved]
+    above = project.blocks[left[place.index - 1]] if 0 < place.index <= len(left) else None
+    below = project.blocks[left[place.index]] if 0 <= place.index < len(left) else None
+    return above, below
+
+
+# What happens to the blocks that use an own block when its sentence changes.
+#
+# A change leaves *misfits*: a field or a block in a slot that is no more, a block that gives a
+# value where it did not. They are looked for before the change, so that each can be put right.
+
+
+@dataclass(frozen=True, slots=True)
+class Misfit:
+    """A block with a field that goes (``field``), or a block that must leave its place."""
+
+    block: str
+    field: str = ""
+
+
+def misfits(procedure: Procedure, project: Project, language: Language) -> Iterator[Misfit]:
+    """What would not fit any more if an own block became like this."""
+    after = _after(procedure, language)
+    for block in project.blocks.values():
+        if procedure_of(block.type) != procedure.id:
+            continue
+        if _is_misplaced(block, project, after):
+            yield Misfit(block.id)
+        definition = after.definitions.get(block.type)
+        if definition is None:
+            continue
+        for key, value in block.fields.items():
+            slot = definition.slot(key, block.groups)
+            if slot is None or slot.why_not(value) is not None:
+                yield Misfit(block.id, key)
+        for key, plugged in block.inputs.items():
+            inner = project.blocks[plugged]
+            if why_not_plugged(block, key, inner, after.definitions) is not None:
+                yield Misfit(plugged)
+
+
+def why_not_change(procedure: Procedure, project: Project, language: Language) -> Text | None:
+    """Why an own block cannot become like this as things are, or None when it can."""
+    if (reason := why_not_procedure(procedure)) is not None:
+        return reason
+    if next(misfits(procedure, project, language), None) is not None:
+        return Text("There are blocks that would not fit this own block any more.")
+    return None
+
+
+def why_not_remove(procedure_id: str, project: Project) -> Text | None:
+    """Why an own block cannot leave the list, or None when it can."""
+    types = (CALL + procedure_id, DEFINE + procedure_id)
+    if any(block.type in types for block in project.blocks.values()):
+        return Text("This own block is still used: delete the blocks that call or define it first.")
+    return None
+
+
+def why_not_delete_procedure(project: Project, procedure_id: str) -> Text | None:
+    """Why an own block cannot be deleted with its definition: it is used elsewhere."""
+    header = DEFINE + procedure_id
+    used = [
+        block_id
+        for block_id in procedure_uses(project, procedure_id)
+        if project.blocks[project.stack_of(block_id).body[0]].type != header
+    ]
+    if not used:
+        return None
+    places = "1 place" if len(used) == 1 else text_of("{count} places", count=len(used))
+    return text_of(
+        "This own block is used in {places}. Take those blocks out first.", places=places
+    )
+
+
+def _after(procedure: Procedure, language: Language) -> Language:
+    """The language as it will be once the own block is like this."""
+    kept = {
+        block_type: definition
+        for block_type, definition in language.definitions.items()
+        if procedure_of(block_type) != procedure.id
+    }
+    return replace(language, definitions={**kept, **definitions_of([procedure])})
+
+
+def _is_misplaced(block: Block, project: Project, after: Language) -> bool:
+    """Whether a block must leave its place because of what it will be."""
+    definition = after.definitions.get(block.type)
+    if definition is None:
+        return False
+    parent = project.parents[block.id]
+    owner = project.blocks.get(parent.owner)
+    if owner is not None and owner.inputs.get(parent.slot) == block.id:
+        if procedure_of(owner.type) and owner.type not in after.definitions:
+            return False
+        return why_not_plugged(owner, parent.slot, block, after.definitions) is not None
+    chain = project.chain_of(parent) or []
+    if definition.is_value:
+        return owner is not None or len(chain) > 1
+    return why_not_chained(definition, first_in_stack=chain[0] == block.id) is not None
+
+
+def why_not(edit: Edit, project: Project, language: Language) -> Text | None:
+    """Why an edit does not fit the language, or None when it does."""
+    match edit:
+        case MoveBlocks():
+            return why_not_move(edit, project, language)
+        case CreateBlocks():
+            return why_not_create(edit, project, language)
+        case SetField():
+            return _why_not_field(edit, project, language)
+        case AddGroup() | RemoveGroup():
+            return _why_not_group(edit, project, language)
+        case SetComment():
+            return why_not_text(edit.comment)
+        case MoveStack() if not is_near(edit.x, edit.y):
+            return Text("This is too far outside the page.")
+        case RenameProject():
+            return why_not_name(edit.name)
+        case AddVariable():
+            return why_not_variable_name(project, edit.name)
+        case RenameVariable():
+            return why_not_variable_name(project, edit.name, but=edit.variable)
+    return _why_not_more(edit, project, language)
+
+
+def _why_not_more(edit: Edit, project: Project, language: Language) -> Text | None:
+    """The edits of notes, pages and own blocks."""
+    match edit:
+        case AddNote() if len(project.notes) >= MOST_NOTES:
+            return text_of("There are too many notes: {most_notes} at most.", most_notes=MOST_NOTES)
+        case AddNote() | ChangeNote():
+            return why_not_note(project, edit.note)
+        case SetCommentSize():
+            return why_not_size(edit.width, edit.height)
+        case AddPage() if len(project.pages) >= MOST_PAGES:
+            return text_of("There are too many pages: {most_pages} at most.", most_pages=MOST_PAGES)
+        case AddPage() | RenamePage():
+            return why_not_name(edit.title) if edit.title else None
+        case AddProcedure() if len(project.procedures) >= MOST_PROCEDURES:
+            return text_of(
+                "There are too many own blocks: {most_procedures} at most.",
+                most_procedures=MOST_PROCEDURES,
+            )
+        case AddProcedure():
+            return why_not_procedure(edit.procedure)
+        case ChangeProcedure():
+            return why_not_change(edit.procedure, project, language)
+        case RemoveProcedure():
+            return why_not_remove(edit.procedure, project)
+        case SetExtra():
+            return why_not_extra(edit.key, edit.value)
+    return None
+
+
+def _why_not_field(edit: SetField, project: Project, language: Language) -> Text | None:
+    block = project.blocks.get(edit.block)
+    if block is None:
+        return Text("This block is not there any more.")
+    if edit.value is None:
+        return None
+    reason = why_no_field(block, edit.slot, edit.value, language)
+    if reason is not None:
+        return reason
+    slot = language.definitions[block.type].slot(edit.slot, block.groups)
+    if slot is None:
+        return None
+    return language.why_not_choice(slot, edit.value, block, edit.slot)
+
+
+def _why_not_group(
+    edit: AddGroup | RemoveGroup, project: Project, language: Language
+) -> Text | None:
+    block = project.blocks.get(edit.block)
+    definition = language.definitions.get(block.type) if block is not None else None
+    if block is None or definition is None or edit.group not in definition.groups:
+        return Text("This block has no such part.")
+    if edit.slots != definition.group_slots(edit.group):
+        return Text("This part has other slots.")
+    count = block.groups.get(edit.group, 0) + (1 if isinstance(edit, AddGroup) else -1)
+    if count > definition.groups[edit.group].maximum:
+        return Text("This block cannot have more parts.")
+    if count < definition.minimum[edit.group]:
+        return Text("This block cannot have fewer parts.")
+    if isinstance(edit, RemoveGroup):
+        return None
+    for name, value in edit.fields.items():
+        slot = definition.slots[name] if name in edit.slots else None
+        if slot is None or not slot.kind.typed:
+            return text_of("This part has no field “{name}”.", name=name)
+        if (reason := slot.why_not(value)) is not None:
+            return reason
+    return None

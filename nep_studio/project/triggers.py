@@ -1,0 +1,402 @@
+"""What can happen around the robots that a program waits for or asks about."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import msgspec
+
+from nep_core.program.human import plain, state_of_thing, state_of_word, word_of_state
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.deployment import GESTURE_STATE, chains, rules
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
+from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.slots import why_not_line
+from nep_studio.blocks.text import field_text
+
+Kind = Literal[
+    "word",
+    "face",
+    "distance",
+    "touch",
+    "gesture",
+    "ball",
+    "mark",
+    "sound",
+    "emotion",
+    "state",
+    "sensor",
+    "joint",
+    "posture",
+    "doing",
+    "idle",
+]
+
+
+REMEMBER = "sensing.remember"
+"""The block that names a state without waiting for it."""
+
+
+@dataclass(frozen=True)
+class Happening:
+    """Something that can happen, and to which robot ("*": whichever).
+
+    ``value`` is the word, the name of a face ("": anybody), the number of a mark, the part that is
+    touched, a state, the name of a sensor. ``words`` is what it is about, for people. ``amount``
+    is what a sensor must measure, or for how many seconds nothing may happen; None: anything.
+    """
+
+    kind: Kind
+    value: str = ""
+    words: str = ""
+    robot: str = ALL_ROBOTS
+    amount: float | None = None
+
+    @property
+    def key(self) -> tuple[Kind, str, str, float | None]:
+        """What tells it from the others: not how it is worded."""
+        return self.kind, plain(self.value), self.robot, self.amount
+
+
+def happenings_of(project: Project, language: Language) -> list[Happening]:
+    """What the program waits for, then what it asks about; each once, in its order."""
+    found = {one.key: one for one in reversed(list(_waited_for(project, language)))}
+    return list(found.values())[::-1]
+
+
+def _waited_for(project: Project, language: Language) -> Iterator[Happening]:
+    hats = [chain[0] for chain in rules(project, language)]
+    for hat in hats:
+        yield from _of_block(project, project.blocks[hat], language)
+    for chain in chains(project, language):
+        for block in project.within(chain, enabled=True):
+            if block.id not in hats:
+                yield from _of_block(project, block, language)
+
+
+def _of_block(project: Project, block: Block, language: Language) -> Iterator[Happening]:
+    definition = language.of(project).definitions.get(block.type)
+    if definition is None:
+        return
+    asked = _Asked(project, block, definition, language)
+    if is_of := _BY_BLOCK.get(_name_of(definition)):
+        yield is_of(asked)
+    for key, slot in definition.keys(block.groups):
+        if slot.name in _WORD_SLOTS.get(_name_of(definition), ()):
+            yield from asked.word(key)
+        elif slot.kind.name == "state" and asked.value(key) and definition.id != REMEMBER:
+            yield of_state(asked.value(key), language)
+        elif slot.kind.name == "gesture":
+            yield Happening("gesture", asked.value(key), asked.label(key))
+
+
+def of_state(state: str, language: Language) -> Happening:
+    """What must happen for a human state to be told: a touch, a word, ..., else the state itself.
+
+    Of the look of a person and of distances robots tell as they notice them.
+    """
+    if state.startswith(GESTURE_STATE):
+        name = state.removeprefix(GESTURE_STATE)
+        known = language.choices.get("gestures", {}).get(name, name.replace("_", " "))
+        return Happening("gesture", name, known)
+    for beginning, kind, table in _STATES:
+        value = state.removeprefix(beginning)
+        if state.startswith(beginning) and value in language.choices.get(table, {}):
+            return Happening(kind, value, language.choices[table][value])
+    for thing, kind in _THINGS.items():
+        beginning = state_of_thing(thing)
+        if state == beginning or state.startswith(f"{beginning}_"):
+            name = state.removeprefix(beginning).strip("_").replace("_", " ")
+            return Happening(kind, name, name)
+    if word := word_of_state(state):
+        return Happening("word", word, word)
+    return Happening("state", state, state.replace("_", " "))
+
+
+_THINGS: dict[str, Kind] = {"face": "face", "ball": "ball", "mark": "mark", "sound": "sound"}
+
+_STATES: tuple[tuple[str, Kind, str], ...] = (
+    ("touched_", "touch", "touch_parts"),
+    ("emotion_", "emotion", "emotions"),
+    ("person_", "distance", "distances"),
+)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A block that waits for something, and what is in its slots."""
+
+    project: Project
+    block: Block
+    definition: Definition
+    language: Language
+
+    def value(self, key: str) -> str:
+        """What a slot says; "" when only the running program knows."""
+        if key in self.block.inputs or key not in self._keys():
+            return ""
+        return str(self.definition.value(self.block, key))
+
+    def label(self, key: str) -> str:
+        """What a slot says, for people."""
+        value, slot = self.value(key), self._keys().get(key)
+        if not value or slot is None:
+            return ""
+        return field_text(self.project, self.language, self.block, slot, value, key)
+
+    def number(self, key: str) -> float | None:
+        try:
+            return float(self.value(key))
+        except ValueError:
+            return None
+
+    def of(self, kind: Kind, key: str = "", amount: float | None = None) -> Happening:
+        robot = self.value("robot") or ALL_ROBOTS
+        return Happening(kind, self.value(key), self.label(key), robot, amount)
+
+    def word(self, key: str) -> Iterator[Happening]:
+        if plain(self.value(key)):
+            yield Happening("word", self.value(key), self.value(key))
+
+    def thing(self) -> Happening:
+        return self.of(_THINGS.get(self.value("thing"), "face"))
+
+    def sensor(self) -> Happening:
+        """One that it waits for is a little past what is asked."""
+        amount = self.number("value")
+        if amount is None or "side" not in self._keys():
+            return self.of("sensor", "sensor")
+        past = max(abs(amount) * 0.2, 0.5)
+        is_under = self.value("side") == "under"
+        return self.of("sensor", "sensor", amount - past if is_under else amount + past)
+
+    def current(self) -> Happening:
+        joint, name = self.value("joint"), self.label("joint")
+        return replace(self.of("sensor"), value=f"current_{joint}", words=name)
+
+    def idle(self) -> Happening:
+        return Happening("idle", amount=self.number("seconds"))
+
+    def _keys(self) -> dict[str, Slot]:
+        return dict(self.definition.keys(self.block.groups))
+
+
+def _name_of(definition: Definition) -> str:
+    return definition.generator or (definition.call.name if definition.call else "")
+
+
+_BY_BLOCK: dict[str, Callable[[_Asked], Happening]] = {
+    "when_touched": lambda asked: asked.of("touch", "part"),
+    "is_touched": lambda asked: asked.of("touch", "part"),
+    "when_sees": _Asked.thing,
+    "sees": _Asked.thing,
+    "place_of": _Asked.thing,
+    "when_sees_face_of": lambda asked: asked.of("face", "name"),
+    "sees_face_of": lambda asked: asked.of("face", "name"),
+    "seen_face": lambda asked: asked.of("face"),
+    "when_sees_mark": lambda asked: asked.of("mark", "number"),
+    "sees_mark": lambda asked: asked.of("mark", "number"),
+    "seen_mark": lambda asked: asked.of("mark"),
+    "when_person": lambda asked: asked.of("distance", "distance"),
+    "person_is": lambda asked: asked.of("distance", "distance"),
+    "when_sensor": _Asked.sensor,
+    "sensor": _Asked.sensor,
+    "current": _Asked.current,
+    "angle": lambda asked: asked.of("joint", "joint"),
+    "is_doing": lambda asked: asked.of("doing", "doing"),
+    "is_in": lambda asked: asked.of("posture", "posture"),
+    "when_emotion": lambda asked: asked.of("emotion", "emotion"),
+    "emotion": lambda asked: asked.of("emotion", "emotion"),
+    "when_idle": _Asked.idle,
+    "human_state": lambda asked: Happening("state"),
+    "heard_word": lambda asked: Happening("word"),
+}
+"""What the blocks wait for or ask about, by what makes their code."""
+
+_WORD_SLOTS = {"when_heard": ("word",), "ask": ("word",), "wait_for_word": ("word", "other")}
+
+
+# The cues of a project: what its operator can send by hand in place of a sensor or a person.
+
+KEY = "cues"
+"""Where a project's file keeps what its operator has arranged."""
+
+SOURCE = "cues"
+"""Who tells of a state that was sent by hand."""
+
+PREFIX = "cue_"
+"""What the names of states begin with that are only sent by hand; it need not be read."""
+
+MOST_CUES = 200
+KEYS = "123456789"
+
+CueKind = Literal["state", "word", "gesture", "touch", "sight", "emotion", "person"]
+
+
+class Cue(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One button: the human state that it sends, and how it looks.
+
+    ``kind`` is what the state tells of, which gives the button its icon. ``words`` are what it is
+    about ("karate", "the head"), ``label`` what a person calls it instead. A rule may hear a state
+    from one robot only: ``source`` is that robot. ``is_own``: a person added it, so that it stays
+    when no rule waits for it any more.
+    """
+
+    state: str
+    kind: CueKind = "state"
+    words: str = ""
+    source: str = SOURCE
+    label: str = ""
+    colour: str = ""
+    key: str = ""
+    is_own: bool = False
+    is_hidden: bool = False
+
+    @property
+    def id(self) -> tuple[str, str]:
+        """What tells it from the others: state and source."""
+        return self.state, self.source
+
+    @property
+    def gesture(self) -> str:
+        """The gesture that it tells of, "" when of none."""
+        is_gesture = self.state.startswith(GESTURE_STATE)
+        return self.state.removeprefix(GESTURE_STATE) if is_gesture else ""
+
+
+def own_cue(text: str, *, is_word: bool = False) -> Cue:
+    """A cue for a state, or for words that somebody says; raises ValueError for no words."""
+    reason = why_not_line(text)
+    if reason is not None or not plain(text):
+        raise ValueError(reason or "A letter or a digit is needed.")
+    if is_word:
+        return Cue(state_of_word(text), "word", text.strip(), is_own=True)
+    return Cue(text.strip(), words=text.strip(), is_own=True)
+
+
+def cues_of(project: Project, language: Language) -> list[Cue]:
+    """The cues of the states that the rules of a project wait for or ask about, each once."""
+    return list(
+        {cue.id: cue for cue in reversed(list(_cue_waited_for(project, language)))}.values()
+    )[::-1]
+
+
+def arranged(made: Iterable[Cue], kept: Iterable[Cue]) -> list[Cue]:
+    """The cues as the operator has arranged them, then those that nobody has arranged yet."""
+    new = {cue.id: cue for cue in made}
+    cues = []
+    for cue in kept:
+        fresh = new.pop(cue.id, None)
+        if fresh is not None:
+            cues.append(msgspec.structs.replace(cue, kind=fresh.kind, words=fresh.words))
+        elif cue.is_own:
+            cues.append(cue)
+    return [*cues, *new.values()]
+
+
+def kept_cues(project: Project) -> list[Cue]:
+    """What the project's file says of cues; what makes no sense there is left out."""
+    entries = project.extra.get(KEY)
+    found: dict[tuple[str, str], Cue] = {}
+    for entry in entries[:MOST_CUES] if isinstance(entries, list) else ():
+        try:
+            cue = msgspec.convert(entry, Cue)
+        except msgspec.ValidationError:
+            continue
+        if _is_sound(cue):
+            found.setdefault(cue.id, cue)
+    return list(found.values())
+
+
+def to_keep(cues: Iterable[Cue]) -> list[dict[str, object]]:
+    """Cues as the value that a project's file keeps."""
+    return [msgspec.to_builtins(cue) for cue in cues]
+
+
+def _is_sound(cue: Cue) -> bool:
+    texts = (cue.state, cue.words, cue.source, cue.label, cue.colour)
+    is_one_line = all(why_not_line(text) is None and len(text) <= 200 for text in texts)
+    return bool(cue.state) and is_one_line and (not cue.key or cue.key in KEYS)
+
+
+def _cue_waited_for(project: Project, language: Language) -> Iterator[Cue]:
+    """What the rules begin with comes first, then what they ask about."""
+    hats = [chain[0] for chain in rules(project, language)]
+    for hat in hats:
+        yield from _cue_of_block(project, project.blocks[hat], language)
+    for chain in chains(project, language):
+        for block in project.within(chain, enabled=True):
+            if block.id not in hats and block.type in language.of(project).definitions:
+                yield from _cue_of_block(project, block, language)
+
+
+def _cue_of_block(project: Project, block: Block, language: Language) -> Iterator[Cue]:
+    definition = language.of(project).definitions[block.type]
+    if (cue := _special(project, block, definition, language)) is not None:
+        yield cue
+    for key, slot in definition.keys(block.groups):
+        if key in block.inputs:
+            continue  # only the running program knows it
+        value = str(definition.value(block, key))
+        label = field_text(project, language, block, slot, value, key)
+        if slot.kind.name == "gesture":
+            yield Cue(f"{GESTURE_STATE}{value}", "gesture", label)
+        elif slot.kind.name == "state" and value:
+            yield _of_state(value, language)
+        elif slot.name in _WORD_SLOTS.get(definition.generator, ()) and plain(value):
+            yield Cue(state_of_word(value), "word", value)
+
+
+def _of_state(state: str, language: Language) -> Cue:
+    if state.startswith(GESTURE_STATE):
+        name = state.removeprefix(GESTURE_STATE)
+        label = language.choices.get("gestures", {}).get(name, name.replace("_", " "))
+        return Cue(state, "gesture", label)
+    if word := word_of_state(state):
+        return Cue(state, "word", word)
+    for prefix, table, kind in _TABLES:
+        label = language.choices.get(table, {}).get(state.removeprefix(prefix), "")
+        if state.startswith(prefix) and label:
+            return Cue(state, kind, label)
+    return Cue(state, "state", state.removeprefix(PREFIX).replace("_", " "))
+
+
+_TABLES: tuple[tuple[str, str, CueKind], ...] = (
+    ("touched_", "touch_parts", "touch"),
+    ("emotion_", "emotions", "emotion"),
+    ("person_", "distances", "person"),
+    ("seen_", "things", "sight"),
+)
+
+
+def _special(
+    project: Project, block: Block, definition: Definition, language: Language
+) -> Cue | None:
+    """The cue of a hat about a robot, which may hear it from that robot only."""
+
+    def value(key: str) -> str:
+        return str(definition.value(block, key)) if key not in block.inputs else ""
+
+    def label(key: str) -> str:
+        slot = definition.slots[key]
+        return field_text(project, language, block, slot, value(key), key)
+
+    robot = value("robot") if "robot" in definition.slots else ALL_ROBOTS
+    source = SOURCE if robot == ALL_ROBOTS else robot
+    match definition.generator:
+        case "when_touched":
+            return Cue(f"touched_{value('part')}", "touch", label("part"), source)
+        case "when_sees":
+            return Cue(state_of_thing(value("thing")), "sight", label("thing"), source)
+        case "when_sees_face_of" if plain(value("name")):
+            return Cue(state_of_thing("face", value("name")), "sight", value("name"), source)
+        case "when_sees_mark" if plain(value("number")):
+            return Cue(state_of_thing("mark", value("number")), "sight", value("number"), source)
+        case "when_person":
+            return Cue(f"person_{value('distance')}", "person", label("distance"), source)
+        case "when_emotion" | "emotion":
+            return Cue(f"emotion_{value('emotion')}", "emotion", label("emotion"))
+    return None

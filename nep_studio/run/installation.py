@@ -1,0 +1,192 @@
+"""Checks of a project against this installation: its nodes, their settings, their names."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+
+from faults import Text, Words, text_of
+from nep_core.errors import ManifestError, NepError
+from nep_core.places import node_folders
+from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
+from nep_studio import paths
+from nep_studio.blocks.checks import check
+from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.definition_files import drivers_beside, load_definitions, load_profile
+from nep_studio.blocks.deployment import (
+    GESTURE_NODE,
+    NodeEntry,
+    RobotEntry,
+    named_gestures,
+    node_entries,
+    robot_entries,
+)
+from nep_studio.blocks.generate.registry import generator_names
+from nep_studio.blocks.language import Language, translated
+from nep_studio.blocks.own_gestures import trained_gestures
+from nep_studio.blocks.program import Project
+
+RESERVED_NAMES = ("master", "studio", "program", "recording")
+"""Names of the parts that every session has."""
+
+
+def all_problems(project: Project, language: Language, folder: Path) -> list[Problem]:
+    """Everything that can be told before a project runs, errors first.
+
+    ``folder`` is where the project's own files are.
+    """
+    catalog = NodeCatalog(node_folders())
+    nodes, robots = node_entries(project, language), robot_entries(project, language)
+    known = _known_gestures(project, language)
+    found = [
+        *check(project, language),
+        *(problem for entry in nodes for problem in _node(entry, catalog, known, folder)),
+        *(problem for entry in robots for problem in _robot(entry)),
+        *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
+        *(_reserved("robots", entry.name, entry.block_id) for entry in robots),
+    ]
+    order = {"error": 0, "warning": 1, "info": 2}
+    return sorted((one for one in found if one is not None), key=lambda one: order[one.severity])
+
+
+def _node(
+    entry: NodeEntry, catalog: NodeCatalog, gestures: Collection[str], folder: Path
+) -> Iterator[Problem]:
+    try:
+        manifest = catalog.find(entry.node)
+        settings = manifest.read_parameters(dict(entry.parameters))
+    except NepError as error:
+        yield _wrong(entry, error.sentence, error.checklist)
+        return
+    for name, value in settings.items():
+        if manifest.parameters[name].type == "file" and isinstance(value, str) and value:
+            yield from _file(entry, name, value, folder)
+    yield from _gesture(entry, manifest, gestures)
+
+
+def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Problem]:
+    if not (folder / value).exists() and not Path(value).exists():
+        yield _wrong(
+            entry,
+            text_of("There is no file {value} ({name}).", value=value, name=name),
+            ("Put it beside the project.", "Or correct its name."),
+        )
+
+
+def _known_gestures(project: Project, language: Language) -> list[str]:
+    """The gestures that the project has learned, and those that every project has."""
+    return [*trained_gestures(project), *language.choices.get("gestures", {})]
+
+
+def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> Iterator[Problem]:
+    if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
+        return
+    for gesture in named_gestures(entry):
+        if gesture not in known:
+            yield _wrong(
+                entry,
+                text_of("Nobody has taught the gesture “{gesture}” yet.", gesture=gesture),
+                (
+                    text_of("Choose one of: {known}.", known=", ".join(known)),
+                    "Or name a model of your own: model=...",
+                ),
+            )
+
+
+def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Problem:
+    words = text_of(
+        "The node “{name}” cannot start. {sentence}", name=entry.name, sentence=sentence
+    )
+    return Problem("error", "node_settings", "nodes", entry.block_id, words, checklist)
+
+
+def _robot(entry: RobotEntry) -> Iterator[Problem]:
+    if entry.driver == "naoqi" and not entry.address.strip():
+        yield Problem(
+            "error",
+            "robot_address",
+            "robots",
+            entry.block_id,
+            text_of("Where is {name}? A real robot needs its address.", name=entry.name),
+            (
+                "Press the robot's chest button once: it says its address. Write it here.",
+                "Or choose the robot on this screen.",
+            ),
+        )
+
+
+def _reserved(page: str, name: str, block_id: str) -> Problem | None:
+    if name not in RESERVED_NAMES:
+        return None
+    sentence = text_of("“{name}” is the name of a part that every project has.", name=name)
+    return Problem("error", "reserved_name", page, block_id, sentence, ("Give it another name.",))
+
+
+# Load the block language from the folders that hold its definitions and its robot profile.
+
+
+def load_language(
+    blocks_folder: Path,
+    robot_file: Path,
+    *,
+    gestures: Mapping[str, str] | None = None,
+    nodes: Mapping[str, str] | None = None,
+) -> Language:
+    """Read the definitions and the robot profile.
+
+    ``gestures`` (name to label) and ``nodes`` ("type/name" to label) are what this installation
+    can recognise and launch. Raises DefinitionError, which names the file and the block.
+    """
+    found = load_definitions(blocks_folder, generator_names())
+    profile = load_profile(robot_file)
+    choices: dict[str, Mapping[str, str]] = {
+        "gestures": gestures or {},
+        "nodes": nodes or {},
+        **profile.choices,
+        **drivers_beside(robot_file, profile),
+        **found.choices,
+    }
+    return Language(found.definitions, tuple(found.categories), choices, profile)
+
+
+# The block language with what this installation can recognise and launch.
+
+
+def shipped_gestures() -> dict[str, str]:
+    """The gestures of the shipped model: name to label."""
+    path = paths.resources() / "gestures" / "paper.toml"
+    gestures: dict[str, str] = tomllib.loads(path.read_text(encoding="utf-8"))["gestures"]
+    return gestures
+
+
+def launchable_nodes() -> dict[str, str]:
+    """The nodes that can be launched: "type/name" to title.
+
+    A node whose manifest is wrong is there too, so that a check can say what is wrong with it.
+    """
+    nodes = {}
+    for path in NodeCatalog(node_folders()).paths():
+        try:
+            nodes[f"{path.parent.name}/{path.stem}"] = read_manifest(path).title
+        except ManifestError:
+            nodes[f"{path.parent.name}/{path.stem}"] = path.stem
+    return nodes
+
+
+def studio_language(code: str = "en") -> Language:
+    """The language of this installation, in the words of ``code``; raises DefinitionError.
+
+    Words that the table of ``code`` does not have stay English, all of them without a table.
+    """
+    resources = paths.resources()
+    language = load_language(
+        resources / "blocks",
+        resources / "robots" / "nao" / "robot.toml",
+        gestures=shipped_gestures(),
+        nodes=launchable_nodes(),
+    )
+    table = resources / "translations" / f"{code}.toml"
+    if code == "en" or not table.is_file():
+        return language
+    return translated(language, tomllib.loads(table.read_text(encoding="utf-8")))

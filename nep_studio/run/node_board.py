@@ -1,0 +1,215 @@
+"""How every node of the network is doing, from what they tell; for the node panel."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+from PySide6.QtCore import QThread, Signal
+
+from nep_core.wire.messages import NodeEvent, NodeState, NodeType
+
+FROZEN_S = 3.0
+"""A node that has said nothing for so long, three heartbeats, is frozen."""
+
+Health = Literal["planned", "starting", "ready", "busy", "warning", "frozen", "crashed", "stopped"]
+
+HEALTH: dict[NodeEvent, Health] = {
+    "starting": "starting",
+    "connecting": "starting",
+    "ready": "ready",
+    "running": "ready",
+    "connected": "ready",
+    "busy": "busy",
+    "warning": "warning",
+    "disconnected": "warning",
+    "connection_failed": "warning",
+    "crashed": "crashed",
+    "stopped": "stopped",
+}
+"""What an event says of a node's health; a heartbeat says that it is as it was."""
+
+ENDED: frozenset[Health] = frozenset({"planned", "crashed", "stopped"})
+
+
+@dataclass(frozen=True)
+class NodeStatus:
+    """A node as it was heard last; ``node`` is "type/name" of its manifest, "" when not known.
+
+    ``since_s`` is when it took this state, ``heard_s`` when it was heard last (time.time()).
+    ``measures`` are the last that it sent; new ones alone are no change of its status.
+    """
+
+    name: str
+    type: NodeType
+    node: str = ""
+    event: NodeEvent | None = None
+    description: str = ""
+    pid: int = 0
+    since_s: float = 0.0
+    heard_s: float = 0.0
+    restarts: int = 0
+    health: Health = "planned"
+    measures: Mapping[str, float] = field(default_factory=dict, compare=False)
+
+    @property
+    def is_there(self) -> bool:
+        """Whether it runs, as far as is known."""
+        return self.health not in ENDED
+
+
+class NodeBoard:
+    """The nodes by name; one thread at a time."""
+
+    def __init__(self) -> None:
+        self.nodes: dict[str, NodeStatus] = {}
+
+    def plan(self, name: str, type: NodeType, node: str) -> bool:
+        """Note a node that a project needs; whether that is news."""
+        known = self.nodes.get(name)
+        if known is not None and (known.node, known.type) == (node, type):
+            return False
+        base = known or NodeStatus(name, type)
+        self.nodes[name] = replace(base, type=type, node=node)
+        return True
+
+    def forget(self, name: str) -> bool:
+        """Drop a node that nobody needs and that does not run; whether it was there."""
+        known = self.nodes.get(name)
+        if known is None or known.is_there:
+            return False
+        del self.nodes[name]
+        return True
+
+    def update(self, state: NodeState, heard_s: float | None = None) -> bool:
+        """Take in what a node told, or somebody for it; whether its status has changed.
+
+        ``heard_s``: when it was heard; another computer's clock may be wrong.
+        """
+        before = self.nodes.get(state.node) or NodeStatus(state.node, state.type)
+        after = _heard(before, state)
+        if heard_s is not None:
+            after = replace(after, heard_s=heard_s)
+        self.nodes[state.node] = after
+        return replace(after, heard_s=before.heard_s) != before
+
+    def frozen(self, now_s: float) -> list[str]:
+        """Mark the nodes that have fallen silent; those that have just become so."""
+        found = [
+            one.name
+            for one in self.nodes.values()
+            if one.is_there and one.health != "frozen" and now_s - one.heard_s > FROZEN_S
+        ]
+        for name in found:
+            self.nodes[name] = replace(self.nodes[name], health="frozen", since_s=now_s)
+        return found
+
+    def wake(self, now_s: float) -> None:
+        """Nobody could be heard until now, as after the computer's sleep: begin anew to wait."""
+        for name, one in self.nodes.items():
+            if one.is_there and one.health != "frozen":
+                self.nodes[name] = replace(one, heard_s=now_s)
+
+    def all_gone(self) -> list[str]:
+        """The network is closed: nothing runs any more; those that did."""
+        found = [one.name for one in self.nodes.values() if one.is_there]
+        for name in found:
+            self.nodes[name] = replace(self.nodes[name], health="stopped", event="stopped")
+        return found
+
+
+def _heard(before: NodeStatus, state: NodeState) -> NodeStatus:
+    if state.measures or state.event == "starting":
+        before = replace(before, measures=state.measures)
+    if state.event == "alive":
+        was_silent = before.health in ("frozen", "planned")
+        health: Health = "ready" if was_silent else before.health
+        if before.health in ("crashed", "stopped") and state.pid != before.pid:
+            health = "ready"
+        return replace(before, health=health, heard_s=state.time, pid=state.pid or before.pid)
+    is_new = before.event is not None and state.event == "starting" and state.pid != before.pid
+    return replace(
+        before,
+        type=state.type,
+        event=state.event,
+        description=state.description,
+        pid=state.pid or before.pid,
+        since_s=state.time,
+        heard_s=state.time,
+        restarts=before.restarts + (is_new and before.event == "crashed"),
+        health=HEALTH[state.event],
+    )
+
+
+# Brings what several threads hear into one thread of Qt, in batches that it can take.
+
+BATCHES_HZ = 30
+LARGEST_BATCH = 300
+"""So many messages are passed on at once: a window can deal with them between two frames."""
+
+MOST_WAITING = 5000
+"""So many messages wait for a thread that is busy; the oldest of more are dropped and counted."""
+
+
+class Monitor(QThread):
+    """Passes on what was heard: ``arrived`` gives a list, at most 30 times a second.
+
+    The next batch is only sent when the last one was taken, so that a busy window is not flooded:
+    who is connected to ``arrived`` calls ``taken()`` when it is done.
+    """
+
+    arrived = Signal(list)
+
+    def __init__(self, batches_hz: float = BATCHES_HZ, most_waiting: int = MOST_WAITING) -> None:
+        super().__init__()
+        self.dropped = 0
+        self._pause_s = 1 / batches_hz
+        self._waiting: deque[Any] = deque()
+        self._most = most_waiting
+        self._lock = threading.Lock()
+        self._came = threading.Event()
+        self._may_send = threading.Event()
+        self._may_send.set()
+        self._is_ending = False
+
+    def hear(self, item: object) -> None:
+        """Take in one item; from any thread."""
+        with self._lock:
+            self._waiting.append(item)
+            if len(self._waiting) > self._most:
+                self._waiting.popleft()
+                self.dropped += 1
+        self._came.set()
+
+    def taken(self) -> None:
+        """The last batch has been dealt with."""
+        self._may_send.set()
+
+    def end(self) -> None:
+        """End the thread, and wait for it."""
+        if self._is_ending:
+            return
+        self._is_ending = True
+        self._came.set()
+        self._may_send.set()
+        self.wait()
+
+    def run(self) -> None:
+        """Send batches until the end."""
+        while not self._is_ending:
+            self._came.wait()
+            self._may_send.wait()
+            self._came.clear()
+            with self._lock:
+                count = min(len(self._waiting), LARGEST_BATCH)
+                batch = [self._waiting.popleft() for _ in range(count)]
+                if self._waiting:
+                    self._came.set()
+            if batch and not self._is_ending:
+                self._may_send.clear()
+                self.arrived.emit(batch)
+                time.sleep(self._pause_s)

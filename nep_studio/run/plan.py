@@ -1,0 +1,241 @@
+"""Which nodes a project needs: those on its pages, and those that its rules cannot do without."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Protocol
+
+from nep_studio.blocks.deployment import (
+    NodeEntry,
+    RobotEntry,
+    gestures_used,
+    is_recognised,
+    named_gestures,
+    node_entries,
+    robot_entries,
+)
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.own_gestures import TRIGGER, trained_gestures
+from nep_studio.blocks.program import Project
+from nep_studio.project.kept_files import (
+    AnimationFiles,
+    animation_files,
+    recogniser_file,
+    take_files,
+)
+
+VIRTUAL_WATCH = "sensory/virtual_watch"
+REPLAY = "sensory/replay"
+GESTURE = "perceptual/gesture"
+FASTEST = 50.0
+"""The highest ``speed`` that nodes take."""
+
+Setting = str | float | int | bool
+
+
+class KeptFiles(Protocol):
+    """What a node reads of what the project keeps, in a folder of its own."""
+
+    @property
+    def folder(self) -> Path:
+        """Where it is, or will be."""
+
+    def moved(self, folder: Path) -> KeptFiles:
+        """The same in another folder."""
+
+    def write(self) -> None:
+        """Write what is not there. Raises OSError."""
+
+
+@dataclass(frozen=True)
+class PlannedNode:
+    """A node to start, and why, in words; ``block_id`` is its block, if it has one.
+
+    ``files`` are written before it starts.
+    """
+
+    node: str
+    name: str
+    parameters: Mapping[str, Setting] = field(default_factory=dict)
+    reason: str = ""
+    block_id: str = ""
+    files: KeptFiles | None = None
+
+    @property
+    def is_sensory(self) -> bool:
+        """Whether it measures; such nodes start last, so that nothing they say is missed."""
+        return self.node.startswith("sensory/")
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the person who runs the project decides: a recording, addresses of robots by name.
+
+    ``speed``: how many times as fast the recording goes, or who wears a virtual watch, and how
+    fast virtual robots act. What is real keeps its pace. ``virtual``: the real robots whose
+    parts those on the screen play.
+    """
+
+    recording: Path | None = None
+    speed: float = 1.0
+    addresses: Mapping[str, str] = field(default_factory=dict)
+    virtual: frozenset[str] = frozenset()
+
+
+def plan(project: Project, language: Language, choices: Choices, folder: Path) -> list[PlannedNode]:
+    """The nodes to start; files in their settings are looked for in ``folder``, the project's."""
+    listed = node_entries(project, language)
+    robots = _robots(project, language, choices)
+    nodes = [_listed(entry, folder) for entry in listed]
+    names = {node.name for node in nodes}
+    nodes += [robot for robot in robots if robot.name not in names]
+    if (files := animation_files(project)) is not None:
+        nodes = [_with_animations(node, files, language.profile.node) for node in nodes]
+    nodes = [_with_recogniser(node, entry, project) for node, entry in _paired(nodes, listed)]
+    nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
+    nodes = _with_a_watch(nodes, choices, _known_gestures(project, language))
+    nodes = [with_takes(node, project) for node in nodes]
+    return [_hurried(node, choices.speed, language.profile.node) for node in nodes]
+
+
+def _robots(project: Project, language: Language, choices: Choices) -> list[PlannedNode]:
+    node = language.profile.node
+    return [_robot(entry, choices, node) for entry in robot_entries(project, language)]
+
+
+def _robot(entry: RobotEntry, choices: Choices, node: str) -> PlannedNode:
+    address = choices.addresses.get(entry.name, entry.address)
+    driver = "naoqi" if entry.name in choices.addresses else entry.driver
+    if entry.name in choices.virtual:
+        driver = "virtual"
+    settings: dict[str, Setting] = {"robot": entry.name, "driver": driver, "address": address}
+    if entry.model:
+        settings["model"] = entry.model
+    return PlannedNode(node, entry.name, settings, block_id=entry.block_id)
+
+
+def _with_animations(planned: PlannedNode, files: AnimationFiles, robot: str) -> PlannedNode:
+    """A robot's node with the animations of the project; others as they are."""
+    if planned.node != robot or "animations" in planned.parameters:
+        return planned
+    settings = {**planned.parameters, "animations": str(files.folder)}
+    return replace(planned, parameters=settings, files=files)
+
+
+def _hurried(planned: PlannedNode, speed: float, robot: str) -> PlannedNode:
+    """A node of what is only simulated at a speed; others as they are."""
+    settings = planned.parameters
+    is_virtual_robot = planned.node == robot and settings.get("driver", "virtual") == "virtual"
+    own = settings.get("speed", 1.0)
+    if speed == 1.0 or not isinstance(own, int | float):
+        return planned
+    if planned.node != VIRTUAL_WATCH and not is_virtual_robot:
+        return planned
+    return replace(planned, parameters={**settings, "speed": min(own * speed, FASTEST)})
+
+
+def _listed(entry: NodeEntry, folder: Path) -> PlannedNode:
+    settings = {key: _found(value, folder) for key, value in entry.parameters.items()}
+    return PlannedNode(entry.node, entry.name, settings, "", entry.block_id)
+
+
+def _found(value: Setting, folder: Path) -> Setting:
+    """A file name as a path, when there is such a file in the project's folder."""
+    if not isinstance(value, str) or not value or "\0" in value or len(value) > 255:
+        return value
+    return str(folder / value) if (folder / value).is_file() else value
+
+
+def _known_gestures(project: Project, language: Language) -> list[str]:
+    """The gestures that rules wait for and somebody has taught."""
+    known = {*language.choices.get("gestures", {})} | {*trained_gestures(project)}
+    return [gesture for gesture in gestures_used(project, language) if gesture in known]
+
+
+def _missing_gestures(
+    project: Project, language: Language, listed: tuple[NodeEntry, ...], names: set[str]
+) -> list[PlannedNode]:
+    """Nodes for gestures that no node of the page recognises: one for all of the project's own."""
+    shipped, own = language.choices.get("gestures", {}), trained_gestures(project)
+    missing = [
+        gesture
+        for gesture in _known_gestures(project, language)
+        if not is_recognised(gesture, listed, shipped, own)
+    ]
+    reason = "a rule waits for this gesture"
+    nodes = [
+        PlannedNode(GESTURE, _free(gesture, names), {"gesture": gesture}, reason)
+        for gesture in missing
+        if gesture not in own
+    ]
+    if any(gesture in own for gesture in missing):
+        node = PlannedNode(GESTURE, _free("gestures", names), {}, "rules wait for your gestures")
+        nodes.append(_of_project(node, project))
+    return nodes
+
+
+def _paired(
+    nodes: list[PlannedNode], listed: tuple[NodeEntry, ...]
+) -> list[tuple[PlannedNode, NodeEntry | None]]:
+    entries = {entry.block_id: entry for entry in listed}
+    return [(node, entries.get(node.block_id)) for node in nodes]
+
+
+def _with_recogniser(node: PlannedNode, entry: NodeEntry | None, project: Project) -> PlannedNode:
+    """A node of the page that is to recognise what the project has learned; others as they are."""
+    if entry is None or node.node != GESTURE or node.parameters.get("model"):
+        return node
+    own = trained_gestures(project)
+    named = named_gestures(entry)
+    is_own = all(gesture in own for gesture in named) if named else bool(own)
+    return _of_project(node, project) if is_own else node
+
+
+def _of_project(node: PlannedNode, project: Project) -> PlannedNode:
+    """A gesture node with what the project has learned, as certain as each gesture wants it."""
+    file, own = recogniser_file(project), trained_gestures(project)
+    if file is None:
+        return node
+    settings: dict[str, Setting] = {**node.parameters, "model": str(file.path)}
+    points = {name: one.certainty for name, one in own.items() if one.certainty != TRIGGER}
+    if points and "certainty" not in settings:
+        settings["certainties"] = ", ".join(f"{name} {point:g}" for name, point in points.items())
+    return replace(node, parameters=settings, files=file)
+
+
+def with_takes(node: PlannedNode, project: Project) -> PlannedNode:
+    """A virtual watch that can make the project's gestures; others as they are."""
+    if node.node != VIRTUAL_WATCH or node.parameters.get("takes"):
+        return node
+    files = take_files(project)
+    if files is None:
+        return node
+    return replace(node, parameters={**node.parameters, "takes": str(files.folder)}, files=files)
+
+
+def _free(name: str, names: set[str]) -> str:
+    return name if name not in names else _free(f"{name}_gesture", names)
+
+
+def _with_a_watch(
+    nodes: list[PlannedNode], choices: Choices, gestures: list[str]
+) -> list[PlannedNode]:
+    """Give the gesture nodes something to look at: the recording, else a watch.
+
+    The virtual watch makes ``gestures``, those that the rules wait for.
+    """
+    if choices.recording is not None:
+        settings: dict[str, Setting] = {
+            "recording": str(choices.recording),
+            "speed": choices.speed,
+            "quit_at_end": True,
+        }
+        others = [node for node in nodes if not node.is_sensory]
+        return [*others, PlannedNode(REPLAY, "recording", settings, "it was asked for")]
+    if gestures and not any(node.is_sensory for node in nodes):
+        schedule = {"gestures": ", ".join(gestures)}
+        reason = "somebody must make the gestures"
+        return [*nodes, PlannedNode(VIRTUAL_WATCH, "virtual_watch", schedule, reason)]
+    return nodes

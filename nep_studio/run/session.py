@@ -1,0 +1,258 @@
+"""A running project: nodes and program started, watched and stopped; no Qt in here."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from nep_core.processes.launcher import LaunchedNode
+from nep_core.processes.manifest import Value
+from nep_core.processes.process import Outcome
+from nep_core.wire import messages as m
+from nep_studio.problems import Problem
+
+from .local_network import Listener, LocalNetwork
+from .plan import REPLAY, PlannedNode
+from .signals import postponed, undisturbed
+
+PROGRAM = "program"
+ASK_TO_END_S = 1.0
+LAST_RULES_S = 2.0
+"""How long a rule that a recording's end set off may still take."""
+SIGNALS_S = 0.2
+"""How long Python may wait at once: a signal can miss a wait that is just beginning."""
+LAST_WORDS_S = 0.3
+"""How long a program's last message may take, which is not always quicker than its end."""
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a session ended: well, or with a problem; ``line`` of the program, 0 where none is."""
+
+    problem: Problem | None = None
+    line: int = 0
+
+
+@dataclass(frozen=True)
+class Watching:
+    """How a program is watched: the lines at which it pauses, and how long it stays at each."""
+
+    breakpoints: tuple[int, ...] = ()
+    line_s: float = 0.0
+
+
+class Session:
+    """Starts the parts of a project and keeps them running until the program ends.
+
+    Use it in a ``with`` statement: entering raises NepError when a part cannot start, leaving
+    stops the robots first and then everything that it started. With a ``network`` of somebody
+    else that stays as it was. With ``watching`` the program tells of each of its lines.
+    """
+
+    def __init__(
+        self,
+        program: Path,
+        nodes: list[PlannedNode],
+        listener: Listener,
+        *,
+        logs: Path | None = None,
+        master: str | None = None,
+        network: LocalNetwork | None = None,
+        watching: Watching | None = None,
+    ) -> None:
+        self._program = program
+        self._nodes = nodes
+        self._listener = listener
+        self._watching = watching
+        self._ending: Ending | None = None
+        self._failure: m.ProgramState | None = None
+        self._may_begin = False
+        self._changed = threading.Condition()
+        self._is_over = threading.Event()
+        self._owns_network = network is None
+        self._started: list[str] = []
+        self.network = network or LocalNetwork(logs=logs, master=master)
+
+    def use_program(self, program: Path) -> None:
+        """Run this file; before the session is entered."""
+        self._program = program
+
+    def wait(self, seconds: float | None = None) -> Ending:
+        """Wait until the program ends, or for so long; how it ended."""
+        deadline = math.inf if seconds is None else time.monotonic() + seconds
+        with self._changed:
+            while self._ending is None and (left_s := deadline - time.monotonic()) > 0:
+                self._changed.wait(min(left_s, SIGNALS_S))
+            return self._ending or Ending()
+
+    def end(self, ending: Ending | None = None) -> None:
+        """Let wait() return, and a start that is under way be given up; the first ending counts."""
+        with self._changed:
+            self._ending = self._ending or ending or Ending()
+            self._is_over.set()
+            self._changed.notify_all()
+
+    def hush(self) -> None:
+        """Stop the robots and ask the program to end; waits for nothing."""
+        voice = self.network.voice
+        if voice is not None:
+            voice.stop_robots()
+            voice.stop_program()
+
+    def stop(self) -> None:
+        """Stop the robots at once, then the program, then all nodes; the master goes last."""
+        try:
+            with undisturbed():
+                self._stop_program()
+        finally:
+            with undisturbed():
+                self._stop_nodes()
+                self.network.unlisten(self._on_message, self._on_end)
+                if self._owns_network:
+                    self.network.close()
+
+    def watch(self, watching: Watching) -> None:
+        """Pause at other lines, or go at another pace, from now on."""
+        self._watching = watching
+        self._order("set")
+
+    def pause(self) -> None:
+        """Let every part of the program pause at its next line."""
+        self._order("pause")
+
+    def resume(self) -> None:
+        """Let the program go on."""
+        self._order("resume")
+
+    def step(self, thread: str = "") -> None:
+        """Let a part of the program that is paused run one line more."""
+        self._order("step", thread)
+
+    def __enter__(self) -> Session:
+        self.network.listen(self._on_message, self._on_end)
+        try:
+            self.network.open()
+            self._start_nodes([node for node in self._nodes if not node.is_sensory])
+            self._start_program()
+            self._start_nodes([node for node in self._nodes if node.is_sensory])
+            self._begin_program()
+        except BaseException:
+            self.stop()
+            raise
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.stop()
+
+    def _start_nodes(self, nodes: Sequence[PlannedNode]) -> None:
+        if self._is_over.is_set():
+            return
+        running = {
+            name for name, one in self.network.launcher.nodes.items() if not one.ended.is_set()
+        }
+        self._started += [node.name for node in nodes if node.name not in running]
+        self._wait_ready(self.network.start(nodes))
+
+    def _start_program(self) -> None:
+        """Let the program listen, but not act yet: no robot moves before every node is there."""
+        if self._is_over.is_set():
+            return
+        settings: dict[str, Value] = {"file": str(self._program), "hold": True}
+        if self._watching is not None:
+            settings["trace"] = True
+        with postponed():
+            launched = self.network.launcher.launch(
+                "cognitive/program", PROGRAM, settings, restart="on-kill"
+            )
+        self._started.append(PROGRAM)
+        self._wait_ready([launched])
+
+    def _wait_ready(self, nodes: Iterable[LaunchedNode]) -> None:
+        for launched in nodes:
+            launched.wait_ready(given_up=self._is_over)
+
+    def _begin_program(self) -> None:
+        if self._is_over.is_set():
+            return
+        self._may_begin = True
+        if self._watching is not None:
+            self._order("set")
+        self._order("start")
+
+    def _order(self, command: m.ProgramCommand, thread: str = "") -> None:
+        voice, watching = self.network.voice, self._watching or Watching()
+        if voice is not None:
+            order = m.ProgramControl(
+                command=command,
+                program=PROGRAM,
+                thread=thread,
+                breakpoints=list(watching.breakpoints),
+                line_s=watching.line_s,
+            )
+            voice.order(order)
+
+    def _stop_program(self) -> None:
+        self.hush()
+        program = self.network.launcher.nodes.get(PROGRAM)
+        if program is not None and program.process is not None:
+            program.stopping = True
+            program.process.wait(ASK_TO_END_S)
+
+    def _stop_nodes(self) -> None:
+        started, self._started = self._started, []
+        self.network.launcher.stop_all(reversed(started))
+
+    def _on_message(self, topic: str, message: msgspec.Struct) -> None:
+        if isinstance(message, m.ProgramState):
+            self._note_failure(message)
+        elif isinstance(message, m.NodeState):
+            self._note_restart(message)
+        self._listener(topic, message)
+
+    def _note_restart(self, state: m.NodeState) -> None:
+        """A program that was killed and started again waits to be told to begin."""
+        if self._may_begin and (state.node, state.event) == (PROGRAM, "ready"):
+            self._begin_program()
+
+    def _note_failure(self, state: m.ProgramState) -> None:
+        if state.event == "failed" and state.program == PROGRAM:
+            with self._changed:
+                self._failure = state
+                self._changed.notify_all()
+
+    def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        if launched.name == PROGRAM and again and self.network.voice is not None:
+            self.network.voice.stop_robots()  # it begins anew, and they with it
+        if again or outcome.asked:
+            return
+        if launched.name == PROGRAM:
+            self.end(self._program_ending(outcome))
+        elif launched.manifest is not None and launched.manifest.id == REPLAY:
+            self._end_soon(_replay_ending(outcome))
+
+    def _program_ending(self, outcome: Outcome) -> Ending:
+        if outcome.was_successful:
+            return Ending()
+        with self._changed:
+            self._changed.wait_for(lambda: self._failure is not None, LAST_WORDS_S)
+            failure = self._failure
+        sentence, line = (failure.description, failure.line) if failure else (f"{outcome}.", 0)
+        title = "The program stopped with an error"
+        return Ending(Problem(title, sentence, outcome.checklist), line)
+
+    def _end_soon(self, ending: Ending) -> None:
+        timer = threading.Timer(LAST_RULES_S, self.end, [ending])
+        timer.daemon = True
+        timer.start()
+
+
+def _replay_ending(outcome: Outcome) -> Ending:
+    if outcome.was_successful:
+        return Ending()
+    return Ending(Problem("The recording stopped", f"{outcome}.", outcome.checklist))

@@ -1,0 +1,366 @@
+"""What happens in a running project, as lines that a person reads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from faults import Tr, plain
+from nep_core.wire import messages as m
+from nep_core.wire.messages import ActionRequest
+from nep_studio.blocks.language import Language
+
+# What a robot does with its joints, voice and lights, in words: "opens the left hand".
+
+Label = Callable[[str, str], str]
+"""The label of an argument: the table of choices, and the argument's name."""
+
+
+def body_words(action: str, args: Mapping[str, Any], label: Label, tr: Tr = plain) -> str:
+    """An action as the predicate of a sentence; "" when it is none of these."""
+    match action:
+        case "hand":
+            hand = label("hands", "side")
+            return (
+                tr("opens {hand}", hand=hand)
+                if args.get("open")
+                else tr("closes {hand}", hand=hand)
+            )
+        case "move_joint":
+            joint, deg = args.get("joint"), args.get("degrees")
+            if args.get("relative"):
+                return tr("moves {joint} by {deg}°", joint=joint, deg=deg)
+            return tr("moves {joint} to {deg}°", joint=joint, deg=deg)
+        case "stiffness":
+            part = label("lock_parts", "part")
+            return (
+                tr("locks {part}", part=part)
+                if args.get("on")
+                else tr("releases {part}", part=part)
+            )
+        case "awareness" if not args.get("on"):
+            return tr("no longer looks at people by itself")
+        case "breathing" if not args.get("on"):
+            return tr("no longer breathes")
+        case "look_at" | "point_at":
+            return _at_words(action, args, label("frames", "frame"), tr)
+        case "look_at_seen":
+            return tr("looks at {thing}", thing=label("things", "thing"))
+        case "track":
+            thing, how = label("things", "thing"), label("tracking", "using")
+            return tr("follows {thing} {how}", thing=thing, how=how)
+    return _plain_words(action, tr) or _voice_words(action, args, label, tr)
+
+
+def _at_words(action: str, args: Mapping[str, Any], frame: str, tr: Tr) -> str:
+    x, y, z = (args.get(key) for key in ("x_m", "y_m", "z_m"))
+    place = tr("{x} m forward, {y} m left, {z} m up from {frame}", x=x, y=y, z=z, frame=frame)
+    if action == "look_at":
+        return tr("looks at {place}", place=place)
+    return tr("points at {place}", place=place)
+
+
+def _voice_words(action: str, args: Mapping[str, Any], label: Label, tr: Tr) -> str:
+    file, percent = args.get("file"), args.get("percent")
+    match action:
+        case "volume":
+            return tr("sets its volume to {percent} %", percent=percent)
+        case "language":
+            return tr("speaks {language} from now on", language=label("languages", "language"))
+        case "listen":
+            words = tr(" or ").join(f"“{word}”" for word in args.get("words", ()))
+            return tr("listens for {words}", words=words or tr("an answer"))
+        case "intensity":
+            lights = label("led_groups", "group")
+            return tr("makes {lights} {percent} % bright", lights=lights, percent=percent)
+        case "reset_leds":
+            return tr("lights {lights} as at the start", lights=label("led_groups", "group"))
+        case "learn_face":
+            return tr("learns the face of {name}", name=args.get("name"))
+        case "forget_face":
+            return tr("forgets the face of {name}", name=args.get("name"))
+        case "take_picture":
+            return tr("takes the picture {file}", file=file)
+        case "record_video":
+            return tr("records the video {file}", file=file)
+        case "play_sound":
+            return tr("plays the sound {file}", file=file)
+    return ""
+
+
+def _plain_words(action: str, tr: Tr) -> str:
+    """Actions without arguments that need telling."""
+    match action:
+        case "wake_up":
+            return tr("wakes up")
+        case "rest":
+            return tr("rests")
+        case "awareness":
+            return tr("looks at people by itself")
+        case "breathing":
+            return tr("breathes")
+        case "walk_freely":
+            return tr("walks on and on")
+        case "random_eyes":
+            return tr("lets its eyes change colours by chance")
+        case "rotate_eyes":
+            return tr("lets colours go round its eyes")
+    return ""
+
+
+# What a robot does, in words: "says “Hello” with a greeting", "turns 90 degrees to the left".
+
+
+def action_words(request: ActionRequest, language: Language, tr: Tr = plain) -> str:
+    """An action as the predicate of a sentence about the robot; ``tr`` translates."""
+    args = request.args
+
+    def label(table: str, key: str) -> str:
+        name = str(args.get(key, ""))
+        return language.choices.get(table, {}).get(name, name)
+
+    match request.action:
+        case "say":
+            return _say_words(str(args.get("text", "")), args.get("gesture"), label, tr)
+        case "do":
+            return tr("takes the posture {posture}", posture=label("postures", "posture"))
+        case "imitate":
+            return tr("imitates the animal {animal}", animal=label("animals", "animal"))
+        case "play":
+            return tr("plays the animation {animation}", animation=label("animations", "animation"))
+        case "walk":
+            return _walk_words(args, tr)
+        case "turn":
+            return tr("turns {where}", where=_turned(_number(args, "degrees"), tr) or "0°")
+        case "look":
+            ways = _turned(_number(args, "yaw_deg"), tr), _nodded(_number(args, "pitch_deg"), tr)
+            where = _joined(*ways, tr)
+            return tr("looks {where}", where=where) if where else tr("looks ahead")
+        case "leds":
+            lights, colour = label("led_groups", "group"), args.get("colour")
+            return tr("lights {lights} in {colour}", lights=lights, colour=colour)
+    return body_words(request.action, args, label, tr) or request.action
+
+
+def _say_words(text: str, gesture: object, label: Label, tr: Tr) -> str:
+    if gesture in (None, "no_gesture"):
+        return tr("says “{text}”", text=text)
+    manner = label("say_gestures", "gesture")
+    return tr("says “{text}” with {manner}", text=text, manner=manner)
+
+
+def _walk_words(args: Mapping[str, Any], tr: Tr) -> str:
+    ahead = _ahead(_number(args, "forward_m"), tr)
+    steps = _joined(ahead, _sideways(_number(args, "left_m"), tr), tr)
+    turn = _turned(_number(args, "turn_deg"), tr)
+    walks = tr("walks {where}", where=steps) if steps else ""
+    turns = tr("turns {where}", where=turn) if turn else ""
+    return _joined(walks, turns, tr) or tr("stays where it is")
+
+
+def _joined(first: str, second: str, tr: Tr) -> str:
+    if first and second:
+        return tr("{first} and {second}", first=first, second=second)
+    return first or second
+
+
+def _ahead(amount_m: float, tr: Tr) -> str:
+    """How far forward; nothing for nothing, here and below."""
+    if amount_m == 0:
+        return ""
+    m = f"{abs(amount_m):g}"
+    return tr("{m} m forward", m=m) if amount_m > 0 else tr("{m} m back", m=m)
+
+
+def _sideways(amount_m: float, tr: Tr) -> str:
+    if amount_m == 0:
+        return ""
+    m = f"{abs(amount_m):g}"
+    return tr("{m} m to the left", m=m) if amount_m > 0 else tr("{m} m to the right", m=m)
+
+
+def _turned(angle_deg: float, tr: Tr) -> str:
+    if angle_deg == 0:
+        return ""
+    deg = f"{abs(angle_deg):g}"
+    is_left = angle_deg > 0
+    return tr("{deg}° to the left", deg=deg) if is_left else tr("{deg}° to the right", deg=deg)
+
+
+def _nodded(angle_deg: float, tr: Tr) -> str:
+    if angle_deg == 0:
+        return ""
+    deg = f"{abs(angle_deg):g}"
+    return tr("{deg}° down", deg=deg) if angle_deg > 0 else tr("{deg}° up", deg=deg)
+
+
+def _number(args: Mapping[str, Any], key: str) -> float:
+    value = args.get(key, 0.0)
+    return float(value) if isinstance(value, int | float) else 0.0
+
+
+MOST_ACTIONS = 1000
+"""So many are remembered, of which the oldest are forgotten."""
+
+Line = tuple[str, str]
+"""Who, and what."""
+
+
+@dataclass
+class _Action:
+    """What is known of a requested action; its results may be quicker than the request."""
+
+    request: m.ActionRequest | None = None
+    results: dict[tuple[str, str], m.ActionResult] = field(default_factory=dict)
+
+
+class Timeline:
+    """Turns messages into sentences, which ``tr`` translates; one thread at a time."""
+
+    def __init__(self, language: Language, tr: Tr = plain) -> None:
+        self._language = language
+        self.tr = tr
+        self._actions: dict[str, _Action] = {}
+        self._stopped: set[str] = set()
+
+    def lines(self, message: msgspec.Struct) -> list[Line]:
+        """Who did what; nothing for what need not be told."""
+        match message:
+            case m.ActionRequest():
+                return self._requested(message)
+            case m.ActionResult():
+                return self._answered(message)
+        line = self._line(message)
+        return [line] if line else []
+
+    def _line(self, message: msgspec.Struct) -> Line | None:
+        match message:
+            case m.NodeState() if self._has_stopped_before(message):
+                return None  # the node and the session both tell it
+            case m.NodeState(event="alive" | "starting" | "connected"):
+                return None  # "ready" tells the same
+            case m.NodeState(type="cognitive", event="stopped"):
+                return None  # the program's own state tells how it ended
+            case m.NodeState(event="crashed") if not message.description.startswith(message.node):
+                return None  # the session tells it too, and whether the node is started again
+            case m.NodeState():
+                return message.node, _node_words(message, self.tr)
+            case m.HumanBehavior():
+                return message.source or self.tr("human"), self._recognised(message)
+            case m.ProgramState():
+                words = _program_words(message, self.tr)
+                return (self.tr("program"), words) if words else None
+        return None
+
+    def _has_stopped_before(self, state: m.NodeState) -> bool:
+        if state.event != "stopped":
+            if state.event != "alive":  # its last heartbeat may come late
+                self._stopped.discard(state.node)
+            return False
+        has_stopped = state.node in self._stopped
+        self._stopped.add(state.node)
+        return has_stopped
+
+    def _requested(self, request: m.ActionRequest) -> list[Line]:
+        action = self._action(request.id)
+        if action.request is not None:
+            return []  # it asks how the action is doing
+        action.request = request
+        return self._told(request, list(action.results.values()))
+
+    def _answered(self, result: m.ActionResult) -> list[Line]:
+        action = self._action(result.id)
+        if (result.robot, result.state) in action.results:
+            return []  # a result comes again each time it is asked for
+        action.results[result.robot, result.state] = result
+        return self._told(action.request, [result])
+
+    def _told(self, request: m.ActionRequest | None, results: list[m.ActionResult]) -> list[Line]:
+        if request is None or request.action == "stop":
+            return []
+        told = [(result.robot, self._result_words(request, result)) for result in results]
+        return [(robot, words) for robot, words in told if words]
+
+    def _action(self, action_id: str) -> _Action:
+        action = self._actions.setdefault(action_id, _Action())
+        if len(self._actions) > MOST_ACTIONS:
+            del self._actions[next(iter(self._actions))]
+        return action
+
+    def _recognised(self, message: m.HumanBehavior) -> str:
+        name = message.human_state.removeprefix("gesture_")
+        if name == message.human_state:
+            return self.tr("sees {state}", state=name.replace("_", " "))
+        label = self._language.choices.get("gestures", {}).get(name, name)
+        certainty = f"{message.certainty:.0%}"
+        return self.tr(
+            "recognised {gesture} ({certainty} certain)", gesture=label, certainty=certainty
+        )
+
+    def _result_words(self, request: m.ActionRequest, result: m.ActionResult) -> str:
+        tr, reason = self.tr, result.description
+        match result.state:
+            case "started":
+                return action_words(request, self._language, tr)
+            case "failed" if reason:
+                told = tr(reason)
+                return tr("failed to {action}: {reason}", action=request.action, reason=told)
+            case "failed":
+                return tr("failed to {action}", action=request.action)
+            case "cancelled":
+                return tr("no longer {does}", does=action_words(request, self._language, tr))
+        return ""
+
+
+def _node_words(state: m.NodeState, tr: Tr) -> str:
+    told = tr(state.description) if state.description else ""
+    if state.event in ("running", "warning", "crashed", "stopped") and told:
+        return told
+    words = _event_words(state.event, tr)
+    return f"{words}: {told}" if told else words
+
+
+def _event_words(event: m.NodeEvent, tr: Tr) -> str:
+    match event:
+        case "ready":
+            return tr("ready")
+        case "running":
+            return tr("running")
+        case "busy":
+            return tr("busy")
+        case "connecting":
+            return tr("connecting")
+        case "connection_failed":
+            return tr("connection failed")
+        case "disconnected":
+            return tr("disconnected")
+        case "warning":
+            return tr("warning")
+        case "stopped":
+            return tr("stopped")
+        case "crashed":
+            return tr("crashed")
+    return event.replace("_", " ")
+
+
+def _program_words(state: m.ProgramState, tr: Tr) -> str:
+    match state.event:
+        case "rule_started":
+            rule = state.rule.replace("_", " ")
+            return tr("the rule “when {rule}” begins", rule=rule)
+        case "goal_started":
+            return tr("pursues the goal “{goal}”", goal=state.rule)
+        case "goal_finished":
+            return tr("has reached the goal “{goal}”", goal=state.rule)
+        case "goal_stopped":
+            return tr("gives the goal “{goal}” up", goal=state.rule)
+        case "goal_interrupted":
+            return tr("interrupts the goal “{goal}”", goal=state.rule)
+        case "failed":
+            return tr("stopped with an error: {reason}", reason=tr(state.description))
+        case "finished":
+            return tr("has ended")
+    return ""

@@ -1,0 +1,315 @@
+"""The canvas for those who do not see it: what each block is, where it is, what has happened."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, QPoint, QRect
+from PySide6.QtGui import (
+    QAccessible,
+    QAccessibleAnnouncementEvent,
+    QAccessibleEvent,
+    QAccessibleInterface,
+    QWindow,
+)
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.text import sentence
+from nep_studio.ui.words import count_words, tr
+
+from .view import ScrollingView
+
+# A block in the words that a screen reader says.
+
+
+def described(editor: Editor, block_id: str, problem: str = "") -> str:
+    """A block's sentence, and what its looks say: "repeat 10 times, contains 3 blocks"."""
+    project = editor.project
+    block = project.blocks[block_id]
+    parts = [sentence(project, editor.language, block_id)]
+    if block.bodies:
+        inside = sum(1 for chain in block.bodies.values() for _ in project.within(chain))
+        parts.append(count_words(inside, "contains 1 block", "contains {n} blocks"))
+    if block.collapsed:
+        parts.append(tr("folded"))
+    if block.disabled:
+        parts.append(tr("switched off"))
+    if block.comment:
+        parts.append(tr("comment: {comment}", comment=block.comment))
+    if problem:
+        parts.append(tr("problem: {problem}", problem=problem))
+    return ", ".join(parts)
+
+
+def position(project: Project, block_id: str) -> str:
+    """Where a block is: "2 of 5", or "in a slot"."""
+    chain = project.chain_of(project.parents[block_id])
+    if chain is None or block_id not in chain:
+        return tr("in a slot")
+    return tr("{number} of {count}", number=chain.index(block_id) + 1, count=len(chain))
+
+
+def level(project: Project, block_id: str) -> int:
+    """How deep a block is: 1 for a block of a stack."""
+    depth, owner = 0, block_id
+    while owner in project.parents:
+        owner, depth = project.parents[owner].owner, depth + 1
+    return depth
+
+
+# The canvas and its blocks as Qt's accessible interfaces, which screen readers ask.
+#
+# Qt takes "nothing" from several of these methods; the stubs of PySide6 do not say so, hence the
+# ``type: ignore[override]``.
+
+
+class CanvasInterface(QAccessibleInterface):
+    """The canvas: a tree whose items are the blocks of the stacks in view."""
+
+    def __init__(self, view: ScrollingView) -> None:
+        super().__init__()
+        self.view = view
+        self._blocks: dict[str, BlockInterface] = {}
+
+    def block(self, block_id: str) -> BlockInterface:
+        """The interface of a block, always the same one."""
+        if block_id not in self._blocks:
+            self._blocks[block_id] = BlockInterface(self, block_id)
+        return self._blocks[block_id]
+
+    def forget_gone(self) -> None:
+        """Drop the interfaces of blocks that are not there any more."""
+        blocks = self.view.editor.project.blocks
+        for block_id in [i for i in self._blocks if i not in blocks]:
+            gone = self._blocks.pop(block_id)
+            QAccessible.deleteAccessibleInterface(QAccessible.uniqueId(gone))
+
+    def shown(self) -> list[str]:
+        """The blocks of the stacks in view, from top to bottom."""
+        layout = self.view.page_layout
+        stacks = layout.near(self.view.visible_page_rect())
+        return [box.block for stack in stacks for box in layout.chains[stack].boxes if box.block]
+
+    def isValid(self) -> bool:
+        """Whether the canvas is still there."""
+        return True
+
+    def object(self) -> QObject:
+        """The widget."""
+        return self.view
+
+    def window(self) -> QWindow:
+        """The window it is in."""
+        return self.view.window().windowHandle()
+
+    def role(self) -> QAccessible.Role:
+        """A tree."""
+        return QAccessible.Role.Tree
+
+    def text(self, kind: QAccessible.Text) -> str:
+        """Its name, and how to use it."""
+        if kind == QAccessible.Text.Name:
+            return self.view.accessibleName() or tr("Blocks")
+        if kind == QAccessible.Text.Description:
+            return tr("Use the arrow keys to go from block to block, and Enter to edit.")
+        return ""
+
+    def setText(self, kind: QAccessible.Text, text: str) -> None:
+        """A screen reader cannot rename the canvas."""
+
+    def rect(self) -> QRect:
+        """Where it is on the screen."""
+        viewport = self.view.viewport()
+        return QRect(viewport.mapToGlobal(QPoint(0, 0)), viewport.size())
+
+    def state(self) -> QAccessible.State:
+        """Whether it has the keyboard."""
+        state = QAccessible.State()
+        state.focusable = True
+        state.focused = self.view.hasFocus()
+        return state
+
+    def parent(self) -> QAccessibleInterface | None:  # type: ignore[override]
+        """The widget around it."""
+        outer = self.view.parentWidget()
+        return QAccessible.queryAccessibleInterface(outer) if outer is not None else None
+
+    def childCount(self) -> int:
+        """How many blocks it has in view."""
+        return len(self.shown())
+
+    def child(self, index: int) -> QAccessibleInterface | None:  # type: ignore[override]
+        """One of them."""
+        shown = self.shown()
+        return self.block(shown[index]) if 0 <= index < len(shown) else None
+
+    def indexOfChild(self, child: QAccessibleInterface) -> int:
+        """The number of a block among those in view."""
+        shown = self.shown()
+        block_id = child.block_id if isinstance(child, BlockInterface) else ""
+        return shown.index(block_id) if block_id in shown else -1
+
+    def childAt(self, x: int, y: int) -> QAccessibleInterface | None:  # type: ignore[override]
+        """The block at a place of the screen."""
+        hit = self.view.hit(self.view.viewport().mapFromGlobal(QPoint(x, y)))
+        return self.block(hit.block) if hit is not None else None
+
+    def focusChild(self) -> QAccessibleInterface | None:  # type: ignore[override]
+        """The block that the keyboard is at."""
+        cursor = self.view.selection.cursor
+        return self.block(cursor) if cursor in self.view.editor.project.blocks else None
+
+
+class BlockInterface(QAccessibleInterface):
+    """One block: an item whose children are the blocks directly inside it."""
+
+    def __init__(self, canvas: CanvasInterface, block_id: str) -> None:
+        super().__init__()
+        self._canvas = canvas
+        self.block_id = block_id
+
+    def isValid(self) -> bool:
+        """Whether the block is still there."""
+        return self.block_id in self._canvas.view.editor.project.blocks
+
+    def object(self) -> QObject | None:  # type: ignore[override]
+        """A block is no object of Qt."""
+        return None
+
+    def window(self) -> QWindow:
+        """The window it is in."""
+        return self._canvas.window()
+
+    def role(self) -> QAccessible.Role:
+        """An item of a tree."""
+        return QAccessible.Role.TreeItem
+
+    def text(self, kind: QAccessible.Text) -> str:
+        """Its sentence with what is inside it; where it is."""
+        view = self._canvas.view
+        if not self.isValid():
+            return ""
+        if kind == QAccessible.Text.Name:
+            problem = view.problems.problems.get(self.block_id)
+            told = tr(problem.sentence) if problem is not None else ""
+            return described(view.editor, self.block_id, told)
+        if kind == QAccessible.Text.Description:
+            project = view.editor.project
+            depth = level(project, self.block_id)
+            where = position(project, self.block_id)
+            return tr("{position}, level {depth}", position=where, depth=depth)
+        return ""
+
+    def setText(self, kind: QAccessible.Text, text: str) -> None:
+        """A screen reader cannot rename a block."""
+
+    def rect(self) -> QRect:
+        """Where it is on the screen; nowhere when it is folded away."""
+        view = self._canvas.view
+        rect = view.view_rect_of(self.block_id)
+        if rect is None:
+            return QRect()
+        corner = view.viewport().mapToGlobal(rect.topLeft().toPoint())
+        return QRect(corner, rect.size().toSize())
+
+    def state(self) -> QAccessible.State:
+        """Selected, at the keyboard, folded, switched off, out of view."""
+        view = self._canvas.view
+        state = QAccessible.State()
+        block = view.editor.project.blocks.get(self.block_id)
+        if block is None:
+            state.invalid = True
+            return state
+        state.focusable = state.selectable = state.multiSelectable = True
+        state.selected = self.block_id in view.selection
+        state.focused = view.hasFocus() and view.selection.cursor == self.block_id
+        state.expandable = bool(block.bodies)
+        state.collapsed = block.collapsed
+        state.expanded = bool(block.bodies) and not block.collapsed
+        state.disabled = block.disabled
+        rect = self.rect()
+        state.invisible = rect.isEmpty()
+        state.offscreen = not rect.intersects(self._canvas.rect())
+        return state
+
+    def parent(self) -> QAccessibleInterface:
+        """The block around it, or the canvas."""
+        project = self._canvas.view.editor.project
+        parent = project.parents.get(self.block_id)
+        if parent is not None and parent.owner in project.blocks:
+            return self._canvas.block(parent.owner)
+        return self._canvas
+
+    def childCount(self) -> int:
+        """How many blocks are directly inside it."""
+        return len(self._children())
+
+    def child(self, index: int) -> QAccessibleInterface | None:  # type: ignore[override]
+        """One of them."""
+        children = self._children()
+        return self._canvas.block(children[index]) if 0 <= index < len(children) else None
+
+    def indexOfChild(self, child: QAccessibleInterface) -> int:
+        """The number of a block among those inside it."""
+        children = self._children()
+        block_id = child.block_id if isinstance(child, BlockInterface) else ""
+        return children.index(block_id) if block_id in children else -1
+
+    def childAt(self, x: int, y: int) -> QAccessibleInterface | None:  # type: ignore[override]
+        """The block at a place of the screen, when it is inside this one."""
+        found = self._canvas.childAt(x, y)
+        return found if found is not self else None
+
+    def _children(self) -> list[str]:
+        block = self._canvas.view.editor.project.blocks.get(self.block_id)
+        return list(block.children()) if block is not None and not block.collapsed else []
+
+
+def focus_event(canvas: CanvasInterface) -> QAccessibleEvent | None:
+    """What tells a screen reader that the keyboard is at another block."""
+    focused = canvas.focusChild()
+    return QAccessibleEvent(focused, QAccessible.Event.Focus) if focused is not None else None
+
+
+# Give every canvas its accessible interface, and tell screen readers what happens on it.
+
+_is_installed = False
+
+
+def interface_of(view: ScrollingView) -> CanvasInterface:
+    """The interface of a canvas, always the same one."""
+    if not isinstance(view.accessible, CanvasInterface):
+        view.accessible = CanvasInterface(view)  # Qt holds it by pointer only: Python must keep it
+    return view.accessible
+
+
+def make_accessible(view: ScrollingView) -> None:
+    """Let screen readers find the blocks of a canvas, and hear where the keyboard is."""
+    global _is_installed
+    if not _is_installed:
+        QAccessible.installFactory(_factory)
+        _is_installed = True
+    view.selection.changed.connect(lambda: _tell_focus(view))
+    view.layout_changed.connect(lambda: _forget_gone(view))
+
+
+def announce(view: ScrollingView, text: str) -> None:
+    """Let a screen reader say something that has happened."""
+    if QAccessible.isActive():
+        QAccessible.updateAccessibility(QAccessibleAnnouncementEvent(view, text))
+
+
+def _factory(class_name: str, item: QObject | None) -> QAccessibleInterface | None:
+    return interface_of(item) if isinstance(item, ScrollingView) else None
+
+
+def _tell_focus(view: ScrollingView) -> None:
+    if not QAccessible.isActive():
+        return
+    event = focus_event(interface_of(view))
+    if event is not None:
+        QAccessible.updateAccessibility(event)
+
+
+def _forget_gone(view: ScrollingView) -> None:
+    if isinstance(view.accessible, CanvasInterface):
+        view.accessible.forget_gone()

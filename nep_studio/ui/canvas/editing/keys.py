@@ -1,0 +1,281 @@
+"""What each key does on the canvas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QKeyEvent
+
+from nep_studio.blocks.program import Project
+from nep_studio.ui.canvas.accessibility import described, position
+
+from . import navigation
+from .cargo import lift
+from .carrying import KeyboardCarry, reading_order
+
+if TYPE_CHECKING:
+    from nep_studio.ui.canvas.canvas import Canvas
+
+
+# Walk from block to block with the keyboard; what is arrived at is selected, shown and told.
+
+Way = Callable[[Project, Sequence[str], str], str]
+"""From a block to another one, given the stacks in the order of reading."""
+
+
+class Walk:
+    """The cursor of one canvas."""
+
+    def __init__(self, canvas: Canvas) -> None:
+        self._canvas = canvas
+        self._anchor = ""
+
+    def cursor(self) -> str:
+        """The block that the keyboard is at, when the page shows it."""
+        canvas = self._canvas
+        cursor = canvas.selection.cursor
+        if cursor in canvas.editor.project.blocks and canvas.page_layout.placed(cursor):
+            return cursor
+        return ""
+
+    def _first(self) -> str:
+        stacks = reading_order(self._canvas)
+        return self._canvas.editor.project.stacks[stacks[0]].body[0] if stacks else ""
+
+    def go(self, way: Way) -> None:
+        """Go one block further."""
+        cursor, project = self.cursor(), self._canvas.editor.project
+        if not cursor:
+            self._arrive(self._first())
+        else:
+            self._arrive(way(project, reading_order(self._canvas), cursor))
+
+    def sideways(self, step: int) -> None:
+        """Go into the block (1, to the right) or out of it; the other way round when mirrored."""
+        is_inward = (step > 0) != self._canvas.measures.is_mirrored
+        way = navigation.inward if is_inward else navigation.outward
+        cursor = self.cursor()
+        self._arrive(way(self._canvas.editor.project, cursor) if cursor else self._first())
+
+    def go_to_end(self, index: int) -> None:
+        """Go to the first (0) or the last (-1) block of the stack."""
+        cursor = self.cursor()
+        if cursor:
+            self._arrive(self._canvas.editor.project.stack_of(cursor).body[index])
+
+    def go_to_stack(self, index: int) -> None:
+        """Go to the first (0) or the last (-1) stack of the page."""
+        stacks = reading_order(self._canvas)
+        if stacks:
+            self._arrive(self._canvas.editor.project.stacks[stacks[index]].body[0])
+
+    def extend(self, way: Way) -> None:
+        """Stretch the selection from where it began to the next block."""
+        canvas, cursor = self._canvas, self.cursor()
+        if not cursor:
+            return
+        if len(canvas.selection) <= 1 or self._anchor not in canvas.selection:
+            self._anchor = navigation.statement_of(canvas.editor.project, cursor)
+        stacks = reading_order(canvas)
+        target = way(canvas.editor.project, stacks, cursor)
+        blocks = navigation.between(canvas.editor.project, stacks, self._anchor, target)
+        canvas.selection.set(blocks, target)
+        canvas.show_block(target)
+
+    def _arrive(self, block_id: str) -> None:
+        canvas = self._canvas
+        if not block_id:
+            return
+        canvas.selection.set([block_id])
+        canvas.show_block(block_id)
+        told = described(canvas.editor, block_id)
+        canvas.announced.emit(f"{told}. {position(canvas.editor.project, block_id)}")
+
+
+Key, Modifier = Qt.Key, Qt.KeyboardModifier
+Press = tuple[Qt.Key, bool, bool, bool]
+"""A key with Shift, Control and Alt, or without."""
+
+Rule = Callable[[], object]
+
+
+class Keyboard:
+    """The keyboard of one canvas.
+
+    Arrow keys go from block to block, Space picks one up, Enter edits. While blocks are carried
+    the same keys go from place to place.
+    """
+
+    def __init__(self, canvas: Canvas) -> None:
+        self._canvas = canvas
+        self.walk = Walk(canvas)
+        self.is_space_pressed = False
+        """Whether the space bar is down and has only been pressed: the mouse pans with it too."""
+        self.type_letter: Callable[[str], None] = lambda letter: None
+        self._rules = self._resting_rules()
+        self._carrying_rules = self._rules_while_carrying()
+
+    def press(self, event: QKeyEvent) -> bool:
+        """Do what a key means; False when it means nothing here."""
+        if event.isAutoRepeat() and event.key() == Key.Key_Space:
+            return True  # held down, it would pick up and put down in turns
+        held = event.modifiers()
+        press = (
+            Key(event.key()),
+            bool(held & Modifier.ShiftModifier),
+            bool(held & Modifier.ControlModifier),
+            bool(held & Modifier.AltModifier),
+        )
+        if isinstance(self._canvas.gesture, KeyboardCarry):
+            rule = self._carrying_rules.get(press)
+            if rule is not None:
+                rule()
+            return True
+        rule = self._rules.get(press)
+        if rule is not None:
+            rule()
+            return True
+        return self._typed(event)
+
+    def pick_up(self, *, alone: bool = False) -> None:
+        """Take the block at the cursor, or the selection, into the hand."""
+        canvas = self._canvas
+        cursor = canvas.selection.cursor
+        if cursor in canvas.editor.project.blocks and canvas.gesture is None:
+            canvas.gesture = KeyboardCarry(canvas, lift(canvas, cursor, alone=alone), cursor)
+
+    def release_space(self) -> None:
+        """Pick up, unless something else was done while the space bar was down."""
+        if self.is_space_pressed:
+            self.is_space_pressed = False
+            self.pick_up()
+
+    def _press_space(self) -> None:
+        self.is_space_pressed = True
+
+    def _resting_rules(self) -> dict[Press, Rule]:
+        canvas, plain = self._canvas, (False, False, False)
+        walk = self.walk
+        rules: dict[Press, Rule] = {
+            (Key.Key_Down, *plain): lambda: walk.go(navigation.below),
+            (Key.Key_Up, *plain): lambda: walk.go(navigation.above),
+            (Key.Key_Down, True, False, False): lambda: walk.extend(navigation.below),
+            (Key.Key_Up, True, False, False): lambda: walk.extend(navigation.above),
+            (Key.Key_Right, *plain): lambda: walk.sideways(1),
+            (Key.Key_Left, *plain): lambda: walk.sideways(-1),
+            (Key.Key_PageDown, *plain): lambda: walk.go(navigation.next_stack),
+            (Key.Key_PageUp, *plain): lambda: walk.go(navigation.previous_stack),
+            (Key.Key_Home, *plain): lambda: walk.go_to_end(0),
+            (Key.Key_End, *plain): lambda: walk.go_to_end(-1),
+            (Key.Key_Home, False, True, False): lambda: walk.go_to_stack(0),
+            (Key.Key_End, False, True, False): lambda: walk.go_to_stack(-1),
+            (Key.Key_Space, *plain): self._press_space,
+            (Key.Key_Space, True, True, False): lambda: self.pick_up(alone=True),
+            (Key.Key_Space, True, False, False): self._toggle,
+            (Key.Key_Return, *plain): self._edit,
+            (Key.Key_Enter, *plain): self._edit,
+            (Key.Key_F2, *plain): self._edit,
+            (Key.Key_F1, *plain): self._help,
+            (Key.Key_Delete, *plain): canvas.commands.delete,
+            (Key.Key_Backspace, *plain): canvas.commands.delete,
+            (Key.Key_A, False, True, False): canvas.commands.select_all,
+            (Key.Key_A, True, True, False): canvas.commands.select_stack,
+            (Key.Key_D, False, True, False): canvas.commands.duplicate,
+            (Key.Key_C, False, True, False): canvas.commands.copy,
+            (Key.Key_X, False, True, False): canvas.commands.cut,
+            (Key.Key_V, False, True, False): canvas.commands.paste,
+            (Key.Key_Z, False, True, False): canvas.commands.undo,
+            (Key.Key_Z, True, True, False): canvas.commands.redo,
+            (Key.Key_Y, False, True, False): canvas.commands.redo,
+            (Key.Key_E, False, True, False): lambda: canvas.commands.toggle("disabled"),
+            (Key.Key_M, False, True, False): lambda: canvas.commands.toggle("collapsed"),
+            (Key.Key_Menu, *plain): self._menu,
+            (Key.Key_F10, True, False, False): self._menu,
+            (Key.Key_Escape, *plain): self._escape,
+        }
+        return rules
+
+    def _rules_while_carrying(self) -> dict[Press, Rule]:
+        plain, control = (False, False, False), (False, True, False)
+        forward, back = (lambda: self._step(1)), (lambda: self._step(-1))
+        return {
+            (Key.Key_Down, *plain): forward,
+            (Key.Key_Right, *plain): forward,
+            (Key.Key_Up, *plain): back,
+            (Key.Key_Left, *plain): back,
+            (Key.Key_Down, *control): lambda: self._shift(0, 1),
+            (Key.Key_Up, *control): lambda: self._shift(0, -1),
+            (Key.Key_Right, *control): lambda: self._shift(1, 0),
+            (Key.Key_Left, *control): lambda: self._shift(-1, 0),
+            (Key.Key_Return, *plain): self._drop,
+            (Key.Key_Enter, *plain): self._drop,
+            (Key.Key_Space, *plain): self._drop,
+            (Key.Key_Escape, *plain): self._put_back,
+        }
+
+    def _edit(self) -> None:
+        """Edit the first field of the block; unfold it when it is folded."""
+        canvas, cursor = self._canvas, self.walk.cursor()
+        placed = canvas.page_layout.placed(cursor) if cursor else None
+        if placed is None:
+            return
+        if placed.box.is_collapsed:
+            canvas.commands.toggle("collapsed")
+            return
+        field = next((piece for piece in placed.box.pieces if piece.piece == "field"), None)
+        if field is not None:
+            canvas.fields.open(cursor, field.key)
+        else:
+            canvas.block_opened.emit(cursor)
+
+    def _help(self) -> None:
+        """Ask for help about the block that the keyboard is at, when it is selected."""
+        editor, cursor = self._canvas.editor, self._canvas.selection.cursor
+        if cursor in self._canvas.selection and cursor in editor.project.blocks:
+            definition = editor.language.definitions.get(editor.project.blocks[cursor].type)
+            self._canvas.help_requested.emit(definition.help if definition else "")
+
+    def _toggle(self) -> None:
+        if cursor := self.walk.cursor():
+            self._canvas.selection.toggle(cursor)
+
+    def _menu(self) -> None:
+        cursor = self.walk.cursor()
+        rect = self._canvas.view_rect_of(cursor) if cursor else None
+        at = rect.topLeft().toPoint() + QPoint(12, 12) if rect is not None else QPoint(24, 24)
+        self._canvas.menu_requested.emit(at)
+
+    def _escape(self) -> None:
+        if self._canvas.gesture is not None:
+            self._canvas.gesture.cancel(self._canvas)
+            self._canvas.gesture = None
+        else:
+            self._canvas.selection.clear()
+
+    def _typed(self, event: QKeyEvent) -> bool:
+        """A letter begins a new block by its name."""
+        held = event.modifiers() & ~(Modifier.ShiftModifier | Modifier.KeypadModifier)
+        text = event.text()
+        if held or not text or not text.isprintable() or text.isspace():
+            return False
+        self.type_letter("" if text == "/" else text)
+        return True
+
+    def _carried(self) -> KeyboardCarry:
+        gesture = self._canvas.gesture
+        assert isinstance(gesture, KeyboardCarry)
+        return gesture
+
+    def _step(self, by: int) -> None:
+        self._carried().step(self._canvas, by)
+
+    def _shift(self, dx: int, dy: int) -> None:
+        self._carried().shift(self._canvas, dx, dy)
+
+    def _drop(self) -> None:
+        self._carried().drop(self._canvas)
+
+    def _put_back(self) -> None:
+        self._carried().cancel(self._canvas)

@@ -1,0 +1,280 @@
+"""Mouse and finger: what the system reports becomes the moves of one gesture."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QPointF, Qt, QTimer
+from PySide6.QtGui import QMouseEvent, QTouchEvent
+
+from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.canvas.layout.page import Hit
+from nep_studio.ui.canvas.painting.overlay import badge_rect
+
+from .cargo import lift
+from .carrying import KeyboardCarry
+from .drag_blocks import DragBlocks, copy_of, pulled_out
+from .gesture import Gesture, Pointer
+from .notes import NotePress, note_gesture
+from .reorder_parts import ReorderParts, can_reorder
+from .view_gestures import Pan, PinchZoom, RubberBand
+
+if TYPE_CHECKING:
+    from nep_studio.ui.canvas.canvas import Canvas
+
+
+# A finger that rests opens the menu of what is under it.
+
+LONG_PRESS_MS = 500
+"""How long a finger rests until it means the menu."""
+
+
+class LongPress:
+    """The menu is open; lifting the finger means nothing more."""
+
+    def __init__(self, canvas: Canvas, pointer: Pointer) -> None:
+        canvas.request_menu(pointer.view.toPoint())
+
+    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+        """The menu stays where it is."""
+
+    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+        """The menu stays open."""
+
+    def cancel(self, canvas: Canvas) -> None:
+        """The menu closes by itself."""
+
+
+# A press that is not yet a click or a drag: how far it moves, and how long it lasts, decides.
+
+ADDS = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.ControlModifier
+ALONE = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
+
+
+class Press:
+    """A click selects, opens a field or presses a button; a drag carries, selects or scrolls."""
+
+    def __init__(
+        self, canvas: Canvas, pointer: Pointer, hit: Hit | None, *, problem: str = ""
+    ) -> None:
+        self.is_double = False
+        self._start = pointer
+        self._hit = hit
+        self._problem = problem
+        self._timer = QTimer(canvas, singleShot=True, interval=LONG_PRESS_MS)
+        if pointer.is_touch:
+            self._timer.timeout.connect(lambda: canvas.begin(LongPress(canvas, pointer)))
+            self._timer.start()
+
+    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+        """Become a drag when the pointer has moved far enough."""
+        if pointer.is_far(self._start.view):
+            self.cancel(canvas)
+            drag = self._drag(canvas)
+            canvas.begin(drag)
+            drag.move(canvas, pointer)
+
+    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+        """It was a click."""
+        self.cancel(canvas)
+        is_adding = bool(self._start.modifiers & ADDS)
+        if self._problem:
+            canvas.problem_opened.emit(self._problem)
+        elif self._hit is None:
+            if not is_adding:
+                canvas.selection.clear()
+        elif is_adding:
+            canvas.selection.toggle(self._hit.block)
+        else:
+            self._click(canvas, self._hit)
+
+    def cancel(self, canvas: Canvas) -> None:
+        """Nothing has happened yet."""
+        self._timer.stop()
+        self._timer.deleteLater()
+
+    def _click(self, canvas: Canvas, hit: Hit) -> None:
+        canvas.selection.set([hit.block])
+        piece = hit.piece
+        if piece is not None and piece.piece == "button":
+            canvas.fields.press_button(hit.block, piece.kind, piece.key, piece.number)
+        elif piece is not None and canvas.fields.open(hit.block, piece.key):
+            return
+        elif self.is_double:
+            canvas.block_opened.emit(hit.block)
+
+    def _drag(self, canvas: Canvas) -> Gesture:
+        start = self._start
+        if self._hit is None:
+            return Pan(canvas, start) if start.is_touch else RubberBand(canvas, start)
+        if can_reorder(canvas, self._hit):
+            return ReorderParts(canvas, self._hit)
+        held = start.modifiers & ALONE
+        pulled = copy_of(canvas, self._hit) if held == ALONE else pulled_out(canvas, self._hit)
+        cargo = pulled or lift(canvas, self._hit.block, alone=bool(held))
+        return DragBlocks(canvas, cargo, start.page)
+
+
+# Which gesture a press begins, by the button, the keys held, and what is under the pointer.
+
+
+def choose(canvas: Canvas, pointer: Pointer, hit: Hit | None) -> Gesture | None:
+    """The gesture that begins with a press; None when the button begins none."""
+    is_left = pointer.button == Qt.MouseButton.LeftButton
+    if pointer.button == Qt.MouseButton.MiddleButton or (is_left and canvas.pointing.is_space_down):
+        return Pan(canvas, pointer)
+    if not is_left:
+        return None
+    if hit is None and (gesture := note_gesture(canvas, pointer)) is not None:
+        return gesture
+    return Press(canvas, pointer, hit, problem=problem_at(canvas, pointer.page))
+
+
+def problem_at(canvas: Canvas, at: QPointF) -> str:
+    """The block whose problem badge is at a point of the page; empty when there is none."""
+    if not canvas.problems.problems:
+        return ""
+    margin = 20 * canvas.measures.unit
+    around = Rect(at.x() - margin, at.y() - margin, 2 * margin, 2 * margin)
+    for placed in canvas.page_layout.boxes(around):
+        block = placed.box.block
+        if block in canvas.problems.problems and badge_rect(placed, canvas).contains(at):
+            return block
+    return ""
+
+
+class Pointing:
+    """The pointer over one canvas."""
+
+    def __init__(self, canvas: Canvas) -> None:
+        self._canvas = canvas
+        self._last: Pointer | None = None
+        self.is_space_down = False
+        self.was_cancelled_by_right = False
+        """Whether the right button ended a gesture: then it opens no menu."""
+
+    def press(self, event: QMouseEvent) -> None:
+        """A mouse button went down."""
+        canvas = self._canvas
+        self.was_cancelled_by_right = canvas.keyboard.is_space_pressed = False
+        if isinstance(canvas.gesture, KeyboardCarry):  # the mouse begins something of its own
+            canvas.cancel_gesture()
+        if canvas.gesture is not None:
+            if event.button() == Qt.MouseButton.RightButton:
+                self.was_cancelled_by_right = True
+                canvas.cancel_gesture()
+            return
+        self._begin(self._pointer(event.position(), event.button(), event.modifiers()))
+
+    def double_click(self, event: QMouseEvent) -> None:
+        """A second press soon after the first: a click of it opens the block."""
+        self.press(event)
+        if isinstance(self._canvas.gesture, Press | NotePress):
+            self._canvas.gesture.is_double = True
+
+    def move(self, event: QMouseEvent) -> None:
+        """The mouse moved: with a gesture, or over the page."""
+        canvas, last = self._canvas, self._last
+        if canvas.gesture is None or last is None or isinstance(canvas.gesture, KeyboardCarry):
+            self._hover(event.position())
+        elif not event.buttons() & last.button:  # the release went elsewhere
+            canvas.cancel_gesture()
+        else:
+            self.move_to(event.position())
+
+    def release(self, event: QMouseEvent) -> None:
+        """A mouse button came up."""
+        if self._last is not None and event.button() == self._last.button:
+            self.release_at(event.position())
+
+    def move_to(self, view: QPointF) -> None:
+        """Bring the gesture to a point of the view."""
+        if self._canvas.gesture is not None:
+            self._last = self._moved(view)
+            self._canvas.gesture.move(self._canvas, self._last)
+
+    def release_at(self, view: QPointF) -> None:
+        """End the gesture at a point of the view."""
+        gesture, self._canvas.gesture = self._canvas.gesture, None
+        if gesture is not None:
+            self._last = self._moved(view)
+            gesture.release(self._canvas, self._last)
+
+    def take_over(self, view: QPointF) -> None:
+        """Follow a pointer that was pressed elsewhere, such as in the palette."""
+        self._last = self._pointer(view)
+
+    def repeat(self) -> None:
+        """Tell the gesture again where the pointer is: the page has moved under it."""
+        if self._last is not None:
+            self.move_to(self._last.view)
+
+    def touch(self, event: QTouchEvent) -> bool:
+        """Fingers went down, moved or came up; gives whether the canvas takes them."""
+        canvas, kind = self._canvas, event.type()
+        points = [point.position() for point in event.points()]
+        if kind == QEvent.Type.TouchCancel:
+            canvas.cancel_gesture()
+        elif kind == QEvent.Type.TouchBegin and len(points) == 1:
+            self._begin(self._pointer(points[0], is_touch=True))
+        elif kind == QEvent.Type.TouchEnd:
+            self.release_at(points[0])
+        elif len(points) >= 2:
+            self._pinch(points[0], points[1])
+        else:
+            self.move_to(points[0])
+        return True
+
+    def leave(self) -> None:
+        """The pointer left the view."""
+        if self._canvas.gesture is None:
+            self._canvas.viewport().unsetCursor()
+
+    def _begin(self, pointer: Pointer) -> None:
+        canvas = self._canvas
+        self._last = pointer
+        canvas.fields.close()
+        gesture = choose(canvas, pointer, canvas.hit(pointer.view))
+        if gesture is not None:
+            canvas.begin(gesture)
+
+    def _pinch(self, first: QPointF, second: QPointF) -> None:
+        canvas = self._canvas
+        if not isinstance(canvas.gesture, PinchZoom):
+            canvas.cancel_gesture()
+            canvas.begin(PinchZoom(canvas, first, second))
+        elif isinstance(canvas.gesture, PinchZoom):
+            canvas.gesture.pinch(canvas, first, second)
+
+    def _hover(self, view: QPointF) -> None:
+        """Show by the cursor what a press would do."""
+        shape = self._cursor(view)
+        if self._canvas.viewport().cursor().shape() != shape:
+            self._canvas.viewport().setCursor(shape)
+
+    def _cursor(self, view: QPointF) -> Qt.CursorShape:
+        canvas = self._canvas
+        if self.is_space_down:
+            return Qt.CursorShape.OpenHandCursor
+        if problem_at(canvas, canvas.to_page(view)):
+            return Qt.CursorShape.PointingHandCursor
+        hit = canvas.hit(view)
+        if hit is None:
+            return Qt.CursorShape.ArrowCursor
+        is_pressed = hit.piece is not None and hit.piece.piece in ("field", "button")
+        return Qt.CursorShape.PointingHandCursor if is_pressed else Qt.CursorShape.OpenHandCursor
+
+    def _moved(self, view: QPointF) -> Pointer:
+        last = self._last or self._pointer(view)
+        return self._pointer(view, last.button, last.modifiers, is_touch=last.is_touch)
+
+    def _pointer(
+        self,
+        view: QPointF,
+        button: Qt.MouseButton = Qt.MouseButton.LeftButton,
+        modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
+        *,
+        is_touch: bool = False,
+    ) -> Pointer:
+        page = self._canvas.to_page(view)
+        return Pointer(QPointF(view), page, button, modifiers, is_touch)

@@ -1,0 +1,307 @@
+"""A list to choose from, with a search box: type to filter, arrows and Enter to choose."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
+
+from nep_studio.blocks.deployment import GESTURE_STATE, robot_entries
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import ALL_ROBOTS, Project
+from nep_studio.blocks.sentence import Slot
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.words import tr
+
+from .field_edit import Editing
+from .popup import FieldPopup, Question
+
+if TYPE_CHECKING:
+    from .editors import FieldEditors
+
+
+# What a field offers to choose from, as data.
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """A row of the list: the value it sets, or the ``action`` that it begins."""
+
+    label: str
+    value: str = ""
+    icon: str = ""
+    section: str = ""
+    action: str = ""
+
+
+SHIPPED_STATES = (
+    "touched_head",
+    "touched_hand",
+    "touched_foot",
+    "seen_face",
+    "heard_word",
+    "sonar_close",
+)
+"""Human states that a robot tells of whatever the program is."""
+
+
+def options_of(project: Project, language: Language, edit: Editing) -> list[Option]:
+    """What the field of an editing offers."""
+    kind = edit.slot.kind.name
+    if kind == "robot":
+        return _robots(project, language)
+    if kind == "variable":
+        return [Option(v.name, v.id, "variable") for v in project.variables]
+    if kind == "state":
+        return _states(project, language)
+    block = project.blocks[edit.block]
+    offered = language.choices_of(edit.slot, block, edit.key)
+    icon = {"gesture": "hand"}.get(kind, "")
+    return [Option(label, value, icon) for value, label in offered.items()]
+
+
+def matching(options: Iterable[Option], typed: str) -> list[Option]:
+    """The options that hold what is typed, whatever its case and accents; beginnings first."""
+    wanted = plain(typed).split()
+    found = [o for o in options if all(w in plain(f"{o.label} {o.value}") for w in wanted)]
+    if wanted:
+        found.sort(key=lambda option: not plain(option.label).startswith(wanted[0]))
+    return found
+
+
+def plain(text: str) -> str:
+    """A text in small letters without accents, and with spaces for underlines."""
+    apart = unicodedata.normalize("NFKD", text.casefold())
+    bare = "".join(c for c in apart if not unicodedata.combining(c))
+    return unicodedata.normalize("NFKC", bare).replace("_", " ")
+
+
+def _robots(project: Project, language: Language) -> list[Option]:
+    names = dict.fromkeys(entry.name for entry in robot_entries(project, language))
+    found = [Option(name, name, "bot") for name in names if name != ALL_ROBOTS]
+    return [*found, Option(tr("all robots"), ALL_ROBOTS, "users")]
+
+
+def _states(project: Project, language: Language) -> list[Option]:
+    gestures = language.choices.get("gestures", {})
+    known = dict.fromkeys(language.choices.get("states", ()) or SHIPPED_STATES)
+    used = {state: None for state in _used_states(project, language) if state not in known}
+    found = [
+        Option(label, GESTURE_STATE + name, "hand", tr("Gestures"))
+        for name, label in gestures.items()
+    ]
+    gesture_states = {option.value for option in found}
+    found += [Option(_words(s), s, "eye", tr("What the robot notices")) for s in known]
+    rest = (s for s in used if s not in gesture_states)
+    return found + [Option(_words(s), s, "user", tr("In this project")) for s in rest]
+
+
+def _words(state: str) -> str:
+    return state.replace("_", " ")
+
+
+def _used_states(project: Project, language: Language) -> Iterator[str]:
+    slots: dict[str, list[tuple[str, Slot]]] = {}
+    for block in project.blocks.values():
+        definition = language.definitions.get(block.type)
+        if definition is None:
+            continue
+        if block.type not in slots:
+            slots[block.type] = [
+                (s.name, s) for s in definition.slots.values() if s.kind.name == "state"
+            ]
+        for name, _ in slots[block.type]:
+            value = definition.value(block, name)
+            if isinstance(value, str) and value:
+                yield value
+
+
+_MOST_ROWS = 11
+_OPTION = Qt.ItemDataRole.UserRole
+_MOVES = frozenset({Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown})
+
+
+class ChoicePopup(FieldPopup):
+    """Chooses one of the options; with ``is_free``, what is typed is a value too."""
+
+    is_free = False
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors, edit, title)
+        self.search = QLineEdit(self)
+        self.search.setPlaceholderText(tr("Type to search"))
+        self.search.setAccessibleName(tr("Search: {what}", what=title))
+        self.search.textEdited.connect(self._on_typed)
+        self.search.installEventFilter(self)
+        self.list = QListWidget(self)
+        self.list.setAccessibleName(title)
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.list.setIconSize(QSize(self.line, self.line))
+        self.list.itemClicked.connect(self._choose)
+        self.list.currentItemChanged.connect(self._on_row)
+        self.question: Question | None = None
+        self.column.addWidget(self.search)
+        self.column.addWidget(self.list)
+        self.fill("")
+
+    def first(self) -> QWidget:
+        """The search box has the keyboard."""
+        return self.search
+
+    def options(self) -> list[Option]:
+        """What can be chosen."""
+        editor = self._editors.canvas.editor
+        return options_of(editor.project, editor.language, self.edit)
+
+    def more_rows(self) -> list[Option]:
+        """Rows at the end that do something else."""
+        return []
+
+    def act(self, action: str) -> None:
+        """Do what a row at the end says."""
+
+    def fill(self, typed: str) -> None:
+        """Show the options that hold what is typed."""
+        self.list.clear()
+        section, found = "", matching(self.options(), typed)
+        for option in found:
+            if option.section != section and not typed:
+                section = option.section
+                self._add_heading(section)
+            self._add(option)
+        if not found and not self.is_free:
+            self._add_heading(tr("Nothing is called “{typed}”.", typed=typed))
+        for option in self.more_rows():
+            self._add(option)
+        self._point(typed)
+        self._fit()
+
+    def ask(self, question: Question | None) -> None:
+        """Show a question instead of the list, or the list again."""
+        old, self.question = self.question, question
+        if question is not None:
+            self.column.insertWidget(0, question)
+            question.show()
+        else:
+            self.search.show()
+        # the keyboard leaves a widget before it is hidden, or Qt would send it to the next field
+        (question.first() if question else self.search).setFocus(Qt.FocusReason.OtherFocusReason)
+        self.search.setVisible(question is None)
+        self.list.setVisible(question is None)
+        if old is not None:
+            old.hide()
+            old.deleteLater()
+        self.reason.tell(None)
+        self.column.activate()
+        self.follow()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """In the search box, the arrows move in the list and Enter chooses."""
+        if event.type() == QEvent.Type.KeyPress:
+            key = cast(QKeyEvent, event).key()
+            if key in _MOVES:
+                self._move(cast(QKeyEvent, event))
+                return True
+            if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+                self._choose(self.list.currentItem())
+                return True
+        return super().eventFilter(watched, event)
+
+    def _add(self, option: Option) -> None:
+        item = QListWidgetItem(option.label)
+        item.setData(_OPTION, option)
+        item.setSizeHint(QSize(self._wide(option.label), self._row))
+        is_now = not option.action and option.value == self.edit.value
+        name = "check" if is_now else option.icon
+        if name:
+            item.setIcon(icon(name, self._editors.canvas.theme))
+        spoken = tr("{label}, chosen now", label=option.label) if is_now else option.label
+        item.setData(Qt.ItemDataRole.AccessibleTextRole, spoken)
+        self.list.addItem(item)
+
+    @property
+    def _row(self) -> int:
+        """The height of a row."""
+        return round(1.6 * self.line)
+
+    def _wide(self, words: str) -> int:
+        return self.list.fontMetrics().horizontalAdvance(words) + 3 * self.line
+
+    def _add_heading(self, words: str) -> None:
+        item = QListWidgetItem(words)
+        item.setFlags(Qt.ItemFlag.NoItemFlags)
+        font = self.list.font()
+        font.setBold(True)
+        font.setPointSizeF(font.pointSizeF() * 0.9)
+        item.setFont(font)
+        item.setSizeHint(QSize(self._wide(words), self._row))
+        self.list.addItem(item)
+
+    def _point(self, typed: str) -> None:
+        """Point at the value of the field, or at what is found first."""
+        rows = [self.list.item(row) for row in range(self.list.count())]
+        choosable = [item for item in rows if item.data(_OPTION) is not None]
+        now = [i for i in choosable if i.data(_OPTION).value == self.edit.value]
+        is_value = bool(typed) and self.is_free
+        if choosable and not is_value:
+            self.list.setCurrentItem((now if now and not typed else choosable)[0])
+            self.list.scrollToItem(self.list.currentItem())
+
+    def _fit(self) -> None:
+        rows = min(max(self.list.count(), 1), _MOST_ROWS)
+        self.list.setFixedHeight(rows * self._row + 2 * self.list.frameWidth() + self.line // 3)
+        wide = self.list.sizeHintForColumn(0) + 2 * self.line
+        self.list.setMinimumWidth(max(13 * self.line, min(wide, 26 * self.line)))
+        self.adjustSize()
+
+    def _move(self, event: QKeyEvent) -> None:
+        step = -1 if event.key() in (Qt.Key.Key_Up, Qt.Key.Key_PageUp) else 1
+        count = 8 if event.key() in (Qt.Key.Key_PageUp, Qt.Key.Key_PageDown) else 1
+        rows = range(self.list.count())
+        choosable = [row for row in rows if self.list.item(row).data(_OPTION) is not None]
+        if not choosable:
+            return
+        here = self.list.currentRow()
+        if here not in choosable:
+            at = 0 if step > 0 else len(choosable) - 1
+        else:
+            at = choosable.index(here) + step * count
+            at = at % len(choosable) if count == 1 else max(0, min(at, len(choosable) - 1))
+        self.list.setCurrentRow(choosable[at])
+
+    def _choose(self, item: QListWidgetItem | None) -> None:
+        option: Option | None = item.data(_OPTION) if item is not None else None
+        if option is None:
+            if self.is_free:
+                self._editors.close()
+        elif option.action:
+            self.act(option.action)
+        elif self.try_set(option.value):
+            self._editors.close()
+
+    def _on_typed(self, typed: str) -> None:
+        self.fill(typed)
+        if self.is_free and typed:
+            self.try_set(typed)
+
+    def _on_row(self, item: QListWidgetItem | None) -> None:
+        if item is not None and self.isVisible():
+            self._editors.canvas.announced.emit(item.data(Qt.ItemDataRole.AccessibleTextRole) or "")
+
+
+class StatePopup(ChoicePopup):
+    """A human state: one that is known, or any word that a node will say."""
+
+    is_free = True
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors, edit, title)
+        self.search.setText(str(edit.value or ""))
+        self.search.selectAll()
+        self.search.setPlaceholderText(tr("Type a state, or choose one"))

@@ -1,0 +1,123 @@
+"""Popups that choose by name and can make the name: variables and robots."""
+
+from __future__ import annotations
+
+from nep_studio.blocks.deployment import ROBOT_BLOCK
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.project import RemoveVariable, RenameVariable
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.operations.finding import why_not_rename_robot
+from nep_studio.blocks.places import InStack, variable_uses
+from nep_studio.ui.words import count_words, tr
+
+from .choice import ChoicePopup, Option
+from .popup import Question
+
+
+class VariablePopup(ChoicePopup):
+    """A variable: choose one, make one, rename or delete the one that is chosen."""
+
+    def more_rows(self) -> list[Option]:
+        """Make, rename, delete."""
+        rows = [Option(tr("new variable…"), icon="plus", action="new")]
+        if self._name:
+            named = {"name": self._name}
+            rows.append(Option(tr("rename “{name}”…", **named), icon="pencil", action="rename"))
+            rows.append(Option(tr("delete “{name}”…", **named), icon="trash-2", action="delete"))
+        return rows
+
+    def act(self, action: str) -> None:
+        """Ask for the name, or whether to delete."""
+        if action == "delete":
+            self.ask(self._delete_question())
+            return
+        words = tr("Name of the new variable") if action == "new" else tr("New name")
+        answered = self._on_made if action == "new" else self._on_renamed
+        yes = tr("Make") if action == "new" else tr("Rename")
+        name = self.search.text() if action == "new" else self._name
+        self.ask(Question(words, yes, answered=answered, refused=lambda: self.ask(None), name=name))
+
+    @property
+    def _name(self) -> str:
+        variable = self._editors.canvas.editor.project.variable(str(self.edit.value))
+        return variable.name if variable is not None else ""
+
+    def _delete_question(self) -> Question:
+        project = self._editors.canvas.editor.project
+        uses = len(variable_uses(project, str(self.edit.value)))
+        words = count_words(
+            uses,
+            "One block uses the variable “{name}”. It stays, without a variable.",
+            "{n} blocks use the variable “{name}”. They stay, without a variable.",
+            name=self._name,
+        )
+        return Question(
+            words, tr("Delete"), answered=self._on_deleted, refused=lambda: self.ask(None)
+        )
+
+    def _on_made(self, name: str) -> None:
+        editor = self._editors.canvas.editor
+        try:
+            with editor.transaction(tr("make a variable")):
+                variable = editor.add_variable(name.strip())
+                editor.apply(SetField(self.edit.block, self.edit.key, variable))
+        except EditRefused as refused:
+            self.reason.tell(refused.sentence)
+            self.adjustSize()
+            return
+        self._editors.close()
+
+    def _on_renamed(self, name: str) -> None:
+        self._apply(RenameVariable(str(self.edit.value), name.strip()))
+
+    def _on_deleted(self, _name: str) -> None:
+        self._apply(RemoveVariable(str(self.edit.value)))
+
+    def _apply(self, edit: RenameVariable | RemoveVariable) -> None:
+        try:
+            self._editors.canvas.editor.apply(edit)
+        except EditRefused as refused:
+            self.reason.tell(refused.sentence)
+            self.adjustSize()
+            return
+        self._editors.close()
+
+
+class RobotPopup(ChoicePopup):
+    """A robot of the Robots page, all of them, or a new one."""
+
+    def more_rows(self) -> list[Option]:
+        """A new robot goes on the Robots page."""
+        return [Option(tr("new robot…"), icon="plus", action="new")]
+
+    def act(self, action: str) -> None:
+        """Ask for the name."""
+        words = tr("Name of the new robot. It is put on the Robots page.")
+        self.ask(
+            Question(
+                words,
+                tr("Add"),
+                answered=self._on_made,
+                refused=lambda: self.ask(None),
+                name=self.search.text(),
+            )
+        )
+
+    def _on_made(self, name: str) -> None:
+        editor, name = self._editors.canvas.editor, name.strip()
+        reason = why_not_rename_robot(editor, "", name)
+        if reason is not None:
+            self.reason.tell(reason)
+            self.adjustSize()
+            return
+        with editor.transaction(tr("add a robot")):
+            stacks = editor.project.pages["robots"]
+            place = (
+                InStack(stacks[-1].id, len(stacks[-1].body))
+                if stacks
+                else editor.new_stack("robots", 40, 40)
+            )
+            block = editor.create(ROBOT_BLOCK, place)
+            editor.apply(SetField(block, "name", name))
+            editor.apply(SetField(self.edit.block, self.edit.key, name))
+        self._editors.close()

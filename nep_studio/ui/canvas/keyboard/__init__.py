@@ -1,1 +1,0 @@
-"""The canvas without a mouse: moving between blocks, picking up and placing."""

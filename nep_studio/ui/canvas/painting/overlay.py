@@ -1,0 +1,147 @@
+"""What is drawn over the blocks and changes often: selection, focus, hits, glow, badges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Protocol
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+
+from nep_studio.blocks.checks.problem import Problem
+from nep_studio.ui.canvas.layout.page import Placed
+
+if TYPE_CHECKING:
+    from nep_studio.ui.canvas.view import PageView
+
+
+FEW = 4
+"""Up to so many blocks it is faster to look for each than through all that can be seen."""
+
+MANY = 300
+"""Selected blocks in view from which on their outlines are not followed."""
+
+
+class Overlay(Protocol):
+    """Something drawn over the page each time the view is painted, in canvas units."""
+
+    def paint(self, painter: QPainter, view: PageView) -> None:
+        """Draw it."""
+
+
+class SelectionOverlay:
+    """A line around every selected block, and a second one around the keyboard's."""
+
+    def paint(self, painter: QPainter, view: PageView) -> None:
+        """Draw the lines, for the blocks in view."""
+        pixel = 1.0 / view.camera.scale
+        _rings(painter, view, _selected_in_view(view), view.theme.colour("focus"), 2.5 * pixel)
+        cursor = view.selection.cursor
+        if cursor and view.hasFocus():
+            placed = view.page_layout.placed(cursor)
+            if placed is not None:
+                _frame(painter, placed, view.theme.colour("focus"), pixel)
+
+
+def _selected_in_view(view: PageView) -> list[Placed]:
+    """The selected blocks to draw a line around: of many only those that can be seen."""
+    selected, layout = view.selection, view.page_layout
+    if len(selected) <= FEW:
+        shown = (
+            layout.placed(block) for block in selected.ids if block not in layout.layout.hidden
+        )
+        return [placed for placed in shown if placed is not None]
+    seen = layout.boxes(view.visible_page_rect())
+    return [placed for placed in seen if placed.box.block in selected]
+
+
+def _rings(
+    painter: QPainter, view: PageView, blocks: list[Placed], colour: QColor, width: float
+) -> None:
+    """Lines around blocks; around very many, which are small then, plain rectangles."""
+    if len(blocks) <= MANY:
+        for placed in blocks:
+            _ring(painter, view, placed, colour, width)
+        return
+    painter.setPen(QPen(colour, width))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    painter.drawRects([QRectF(*placed.rect) for placed in blocks])
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+
+
+class ProblemOverlay:
+    """A badge at the corner of every block that has a problem."""
+
+    def __init__(self) -> None:
+        self.problems: Mapping[str, Problem] = {}
+
+    def show(self, problems: Iterable[Problem]) -> None:
+        """Show these; of several at a block, the worst."""
+        order = {"info": 0, "warning": 1, "error": 2}
+        worst: dict[str, Problem] = {}
+        for problem in problems:
+            known = worst.get(problem.block)
+            if problem.block and (known is None or order[known.severity] < order[problem.severity]):
+                worst[problem.block] = problem
+        self.problems = worst
+
+    def paint(self, painter: QPainter, view: PageView) -> None:
+        """Draw the badges of the blocks in view."""
+        if not self.problems:
+            return
+        for placed in view.page_layout.boxes(view.visible_page_rect()):
+            problem = self.problems.get(placed.box.block)
+            if problem is not None:
+                _badge(painter, badge_rect(placed, view), problem, view)
+
+
+def badge_rect(placed: Placed, view: PageView) -> QRectF:
+    """Where the badge of a block is: at its far upper corner, half outside."""
+    size = 20 * view.measures.unit
+    is_mirrored = placed.box.is_mirrored
+    x = placed.x - size / 2 if is_mirrored else placed.x + placed.box.width - size / 2
+    return QRectF(x, placed.y - size / 3, size, size)
+
+
+def ring(painter: QPainter, view: PageView, block_id: str, colour: QColor, width: float) -> None:
+    """A line around a block."""
+    placed = view.page_layout.placed(block_id)
+    if placed is not None:
+        _ring(painter, view, placed, colour, width)
+
+
+def _ring(painter: QPainter, view: PageView, placed: Placed, colour: QColor, width: float) -> None:
+    painter.setPen(QPen(colour, width))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.translate(placed.x, placed.y)
+    painter.drawPath(view.block_painter.outlines.of(placed.box))
+    painter.translate(-placed.x, -placed.y)
+
+
+def _frame(painter: QPainter, placed: Placed, colour: QColor, pixel: float) -> None:
+    pen = QPen(colour, 2 * pixel, Qt.PenStyle.DashLine)
+    painter.setPen(pen)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    rect = placed.rect.grown(5 * pixel)
+    painter.drawRoundedRect(QRectF(rect.x, rect.y, rect.width, rect.height), 6 * pixel, 6 * pixel)
+
+
+_SIGNS = {"error": "!", "warning": "!", "info": "i"}
+
+
+def _badge(painter: QPainter, rect: QRectF, problem: Problem, view: PageView) -> None:
+    """A round, a pointed or a square badge: the shape says how bad it is."""
+    painter.setPen(QPen(view.theme.colour("canvas"), 1.5 * view.measures.unit))
+    painter.setBrush(view.theme.colour(problem.severity))
+    if problem.severity == "warning":
+        top = QPointF(rect.center().x(), rect.top())
+        painter.drawPolygon([top, rect.bottomRight(), rect.bottomLeft()])
+    elif problem.severity == "error":
+        painter.drawEllipse(rect)
+    else:
+        painter.drawRoundedRect(rect, 4, 4)
+    painter.setPen(view.theme.colour("canvas"))
+    sign = rect.adjusted(0, rect.height() * 0.15 * (problem.severity == "warning"), 0, 0)
+    painter.setFont(view.badge_font)
+    painter.drawText(sign, Qt.AlignmentFlag.AlignCenter, _SIGNS[problem.severity])

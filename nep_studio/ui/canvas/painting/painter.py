@@ -1,0 +1,254 @@
+"""Paint boxes: outline, words, fields, sockets and buttons, in the colours of the theme."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPainterPath, QPen
+
+from nep_studio.blocks.language import Language
+from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts
+from nep_studio.ui.canvas.layout.page import Placed
+from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
+from nep_studio.ui.canvas.layout.slot_style import LEADS, OPENS
+from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, Theme
+
+from .shapes import Outlines, paint_mark, paint_sign, round_pen
+
+# Paint what is inside a block: words, fields, sockets and buttons.
+
+
+class PiecePainter:
+    """Paints the pieces of boxes."""
+
+    def __init__(self, theme: Theme, outlines: Outlines, measures: Measures) -> None:
+        self._theme = theme
+        self._outlines = outlines
+        self._measures = measures
+        self._texts = Texts()
+        self._hints = Texts()
+        self._hint_font: QFont | None = None
+        self._shades: dict[int, QColor] = {}
+
+    def paint(
+        self, painter: QPainter, piece: Piece, colours: BlockColours, *, with_text: bool
+    ) -> None:
+        """Paint one piece; the painter's origin is the block's corner."""
+        if piece.piece == "words":
+            if with_text:
+                painter.setPen(colours.text)
+                painter.drawStaticText(QPointF(piece.x, piece.y), self._texts.of(piece.text))
+        elif piece.piece == "field":
+            self._field(painter, piece, colours, with_text)
+        elif piece.piece == "socket":
+            self._shape(painter, piece, self._darker(colours.fill), colours.line)
+            if with_text and piece.hint:
+                self._hint(painter, piece, colours.text, piece.x, piece.width)
+        elif with_text:
+            self._button(painter, piece, colours)
+
+    def _shape(self, painter: QPainter, piece: Piece, fill: QColor, line: QColor) -> None:
+        painter.setPen(QPen(line, self._measures.unit))
+        painter.setBrush(fill)
+        painter.translate(piece.x, piece.y)
+        painter.drawPath(self._outlines.slot(piece.shape, piece.width, piece.height))
+        painter.translate(-piece.x, -piece.y)
+
+    def _field(
+        self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
+    ) -> None:
+        kind = piece.kind
+        if kind == "parameter":
+            self._pill(painter, piece, colours, with_text)
+            return
+        fill = QColor(piece.text) if kind == "colour" and piece.text else colours.field
+        self._shape(painter, piece, fill, colours.field_line)
+        if not with_text:
+            return
+        lead = self._measures.line * 0.95 if kind in LEADS else 0.0
+        trail = self._measures.line * 0.75 if kind in OPENS else 0.0
+        if lead or trail or kind in ("checkbox", "slider"):
+            self._marks(painter, piece, fill, colours)
+        if kind in ("colour", "checkbox"):
+            return
+        left = piece.x + (trail if self._measures.is_mirrored else lead)
+        room = piece.width - lead - trail
+        if piece.text:
+            painter.setPen(colours.field_text)
+            self._centred(painter, piece, left, room)
+        elif piece.hint:
+            self._hint(painter, piece, self._faint(colours.field_text), left, room)
+
+    def _centred(self, painter: QPainter, piece: Piece, left: float, room: float) -> None:
+        line = self._measures.line
+        if "\n" not in piece.text:
+            width = self._measures.text_width(piece.text)
+            top = piece.y + (piece.height - line) / 2
+            place = QPointF(left + (room - width) / 2, top)
+            painter.drawStaticText(place, self._texts.of(piece.text))
+            return
+        rows, pad = piece.text.split("\n"), self._measures.field_pad
+        top = piece.y + (piece.height - line * len(rows)) / 2
+        for number, row in enumerate(rows):
+            width = self._measures.text_width(row)
+            x = left + room - pad - width if self._measures.is_mirrored else left + pad
+            painter.drawStaticText(QPointF(x, top + number * line), self._texts.of(row))
+
+    def _hint(
+        self, painter: QPainter, piece: Piece, colour: QColor, left: float, room: float
+    ) -> None:
+        """Faint small words in an empty place."""
+        usual = painter.font()
+        if self._hint_font is None:
+            self._hint_font = QFont(usual)
+            self._hint_font.setPointSizeF(usual.pointSizeF() * HINT_SIZE)
+        width = self._measures.text_width(piece.hint) * HINT_SIZE
+        height = self._measures.line * HINT_SIZE
+        painter.setFont(self._hint_font)
+        painter.setPen(colour)
+        place = QPointF(left + (room - width) / 2, piece.y + (piece.height - height) / 2)
+        painter.drawStaticText(place, self._hints.of(piece.hint))
+        painter.setFont(usual)
+
+    def _pill(
+        self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
+    ) -> None:
+        """A parameter looks like the block that is dragged out of it."""
+        self._shape(painter, piece, self._darker(colours.fill), colours.text)
+        if with_text:
+            painter.setPen(colours.text)
+            self._centred(painter, piece, piece.x, piece.width)
+
+    def _marks(self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours) -> None:
+        """The little drawings in a field: arrow, tick, dial, file, bar."""
+        rect = QRectF(piece.x, piece.y, piece.width, piece.height)
+        unit, is_mirrored = self._measures.unit, self._measures.is_mirrored
+        if piece.kind in OPENS:
+            paint_mark(painter, "arrow", rect, fill, colours, unit, is_mirrored=is_mirrored)
+        if piece.kind in ("angle", "file", "slider", "checkbox"):
+            paint_mark(
+                painter,
+                piece.kind,
+                rect,
+                fill,
+                colours,
+                unit,
+                is_mirrored=is_mirrored,
+                amount=piece.amount,
+            )
+
+    def _button(self, painter: QPainter, piece: Piece, colours: BlockColours) -> None:
+        """A round button with a sign, and a label beside it when it has one."""
+        size, unit = piece.height, self._measures.unit
+        x = piece.x + (piece.width - size if self._measures.is_mirrored else 0.0)
+        circle = QRectF(x, piece.y, size, size).adjusted(unit, unit, -unit, -unit)
+        painter.setPen(QPen(colours.text, 1.2 * unit))
+        painter.setBrush(self._darker(colours.fill))
+        painter.drawEllipse(circle)
+        painter.setPen(round_pen(colours.text, 2 * unit))
+        mirrored = self._measures.is_mirrored
+        paint_sign(painter, piece.kind, circle.center(), size * 0.24, is_mirrored=mirrored)
+        if piece.text:
+            width = self._measures.text_width(piece.text)
+            beside = piece.x if mirrored else piece.x + piece.width - width
+            y = piece.y + (size - self._measures.line) / 2
+            painter.drawStaticText(QPointF(beside, y), self._texts.of(piece.text))
+
+    def _darker(self, colour: QColor) -> QColor:
+        """A shade deeper than the block: a hole in it."""
+        key = colour.rgba()
+        shade = self._shades.get(key)
+        if shade is None:
+            is_black = colour.lightnessF() <= 0.12
+            shade = colour.lighter(180) if is_black else colour.darker(128)
+            self._shades[key] = shade
+        return shade
+
+    def _faint(self, colour: QColor) -> QColor:
+        """The colour of a hint on a field."""
+        faint = QColor(colour)
+        faint.setAlphaF(0.66)
+        return faint
+
+
+SMALLEST_TEXT_SCALE = 0.4
+"""Below this zoom words cannot be read, and are not painted."""
+
+SMALLEST_PIECE_SCALE = 0.2
+"""Below this zoom fields are less than a few pixels, and are not painted either."""
+
+
+class BlockPainter:
+    """Paints blocks with one theme, one language and one font."""
+
+    def __init__(self, theme: Theme, language: Language, measures: Measures, font: QFont) -> None:
+        self.theme = theme
+        self.outlines = Outlines(measures)
+        self._language = language
+        self._measures = measures
+        self._pieces = PiecePainter(theme, self.outlines, measures)
+        self._font = font
+        self._looks: dict[tuple[str, bool], tuple[BlockColours, QBrush, QPen]] = {}
+
+    def paint(self, painter: QPainter, boxes: Iterable[Placed], scale: float) -> None:
+        """Paint boxes, each before those inside it; the painter counts in canvas units."""
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        painter.setFont(self._font)
+        x = y = 0.0
+        detail = 2 if scale >= SMALLEST_TEXT_SCALE else 1 if scale >= SMALLEST_PIECE_SCALE else 0
+        for placed in boxes:
+            painter.translate(placed.x - x, placed.y - y)
+            x, y = placed.x, placed.y
+            self._paint_box(painter, placed.box, detail)
+        painter.translate(-x, -y)
+
+    def colours(self, box: Box) -> BlockColours:
+        """The colours of a block."""
+        return self._look(box)[0]
+
+    def _look(self, box: Box) -> tuple[BlockColours, QBrush, QPen]:
+        key = (box.type, box.is_disabled)
+        look = self._looks.get(key)
+        if look is None:
+            colours = self._colours_of(box)
+            pen = QPen(colours.line, 1.2 * self._measures.unit)
+            look = self._looks[key] = (colours, QBrush(colours.fill), pen)
+        return look
+
+    def _colours_of(self, box: Box) -> BlockColours:
+        if box.is_disabled:
+            return self.theme.block(DISABLED)
+        definition = self._language.definitions.get(box.type)
+        name = definition.category.colour if definition is not None else PLACEHOLDER
+        return self.theme.block(name)
+
+    def _paint_box(self, painter: QPainter, box: Box, detail: int) -> None:
+        if box.outline == "gap":
+            self._paint_gap(painter, box)
+            return
+        colours, brush, pen = self._look(box)
+        path = self.outlines.of(box)
+        painter.setPen(pen if detail else Qt.PenStyle.NoPen)
+        painter.setBrush(brush)
+        painter.drawPath(path)
+        if box.is_disabled:
+            _hatch(painter, path, colours.line)
+        if detail == 0:
+            return
+        for piece in box.pieces:
+            self._pieces.paint(painter, piece, colours, with_text=detail == 2)
+
+    def _paint_gap(self, painter: QPainter, box: Box) -> None:
+        colour = self.theme.colour("snap")
+        colour.setAlphaF(0.28)
+        painter.setPen(QPen(self.theme.colour("snap"), 2 * self._measures.unit))
+        painter.setBrush(colour)
+        painter.drawPath(self.outlines.of(box))
+
+
+def _hatch(painter: QPainter, path: QPainterPath, colour: QColor) -> None:
+    """Stripes: what is switched off shows it by more than its colour."""
+    faint = QColor(colour)
+    faint.setAlphaF(0.35)
+    painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))

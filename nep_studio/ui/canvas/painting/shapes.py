@@ -1,0 +1,267 @@
+"""The outlines of blocks as painter paths, kept by their form."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QTransform, qGray
+
+from nep_studio.ui.canvas.layout.boxes import Box, Measures, Outline
+from nep_studio.ui.theme.colours import BlockColours
+
+
+class Outlines:
+    """Makes the path of a form once; all forms with the same measures share it."""
+
+    def __init__(self, measures: Measures) -> None:
+        self._measures = measures
+        self._paths: dict[tuple[object, ...], QPainterPath] = {}
+
+    def of(self, box: Box) -> QPainterPath:
+        """The outline of a box, from (0, 0)."""
+        path = self._paths.get(box.form)
+        if path is None:
+            if len(self._paths) > 20_000:
+                self._paths.clear()
+            path = self._paths[box.form] = self._new(box)
+        return path
+
+    def slot(self, shape: Outline | str, width: float, height: float) -> QPainterPath:
+        """The outline of a field or a socket, from (0, 0)."""
+        return slot_path(shape, round(width, 1), round(height, 1), self._measures.unit)
+
+    def _new(self, box: Box) -> QPainterPath:
+        if box.outline not in ("statement", "hat", "cap", "gap"):
+            return self.slot(box.outline, box.width, box.height)
+        path = statement_path(box, self._measures)
+        if box.is_mirrored:
+            path = QTransform(-1, 0, 0, 1, box.width, 0).map(path)
+        return path
+
+
+def statement_path(box: Box, m: Measures) -> QPainterPath:
+    """Rows and mouths in turns, with a notch at the top and a tab at the bottom."""
+    path = QPainterPath()
+    r, width, y = m.corner, box.width, 0.0
+    _top(path, box, m)
+    for number, height in enumerate(box.segments):
+        if number % 2 == 0:
+            y += height
+            continue
+        path.lineTo(width, y - r)
+        path.quadTo(width, y, width - r, y)
+        _tab(path, m.indent, y, m)
+        path.lineTo(m.indent + r, y)
+        path.quadTo(m.indent, y, m.indent, y + r)
+        y += height
+        path.lineTo(m.indent, y - r)
+        path.quadTo(m.indent, y, m.indent + r, y)
+        path.lineTo(width - r, y)
+        path.quadTo(width, y, width, y + r)
+    path.lineTo(width, y - r)
+    path.quadTo(width, y, width - r, y)
+    if box.outline != "cap":
+        _tab(path, 0.0, y, m)
+    path.lineTo(r, y)
+    path.quadTo(0, y, 0, y - r)
+    path.closeSubpath()
+    return path
+
+
+def _top(path: QPainterPath, box: Box, m: Measures) -> None:
+    r, width = m.corner, box.width
+    if box.outline == "hat":
+        curve = min(110 * m.unit, width - r)
+        path.moveTo(0, m.hat)
+        path.cubicTo(curve * 0.25, -m.hat * 0.35, curve * 0.75, -m.hat * 0.35, curve, m.hat)
+        path.lineTo(width - r, m.hat)
+        path.quadTo(width, m.hat, width, m.hat + r)
+        return
+    path.moveTo(0, r)
+    path.quadTo(0, 0, r, 0)
+    path.lineTo(m.notch_x, 0)
+    _notch(path, 0.0, 0.0, m)
+    path.lineTo(width - r, 0)
+    path.quadTo(width, 0, width, r)
+
+
+def _notch(path: QPainterPath, x: float, y: float, m: Measures) -> None:
+    """The dent of a block's top, drawn from left to right."""
+    left, right, deep, soft = x + m.notch_x, x + m.notch_x + m.notch_width, m.notch_depth, m.unit
+    path.lineTo(left, y)
+    path.cubicTo(left + 4 * soft, y, left + 3 * soft, y + deep, left + 8 * soft, y + deep)
+    path.lineTo(right - 8 * soft, y + deep)
+    path.cubicTo(right - 3 * soft, y + deep, right - 4 * soft, y, right, y)
+
+
+def _tab(path: QPainterPath, x: float, y: float, m: Measures) -> None:
+    """What fits into a notch, drawn from right to left."""
+    left, right, deep, soft = x + m.notch_x, x + m.notch_x + m.notch_width, m.notch_depth, m.unit
+    path.lineTo(right, y)
+    path.cubicTo(right - 4 * soft, y, right - 3 * soft, y + deep, right - 8 * soft, y + deep)
+    path.lineTo(left + 8 * soft, y + deep)
+    path.cubicTo(left + 3 * soft, y + deep, left + 4 * soft, y, left, y)
+
+
+@lru_cache(maxsize=8192)
+def slot_path(shape: str, width: float, height: float, unit: float) -> QPainterPath:
+    """A rounded, pointed or cut rectangle: the shape says what may be in it."""
+    path = QPainterPath()
+    if shape == "hexagon":
+        point = min(height / 2, 18 * unit)
+        _polygon(
+            path,
+            [
+                (point, 0),
+                (width - point, 0),
+                (width, height / 2),
+                (width - point, height),
+                (point, height),
+                (0, height / 2),
+            ],
+        )
+    elif shape == "bracket":
+        cut = 6 * unit
+        right, low = width - cut, height - cut
+        corners = [(cut, 0), (right, 0), (width, cut), (width, low), (right, height)]
+        _polygon(path, [*corners, (cut, height), (0, low), (0, cut)])
+    else:
+        radius = {"round": min(height / 2, 22 * unit), "square": 4 * unit}.get(shape, 9 * unit)
+        path.addRoundedRect(QRectF(0, 0, width, height), radius, radius)
+    return path
+
+
+def _polygon(path: QPainterPath, points: list[tuple[float, float]]) -> None:
+    path.moveTo(QPointF(*points[0]))
+    for point in points[1:]:
+        path.lineTo(QPointF(*point))
+    path.closeSubpath()
+
+
+# The little drawings inside fields and buttons: arrow, tick, dial, file, bar, plus, minus.
+
+
+def paint_mark(
+    painter: QPainter,
+    mark: str,
+    rect: QRectF,
+    fill: QColor,
+    colours: BlockColours,
+    unit: float,
+    *,
+    is_mirrored: bool,
+    amount: float = 0.0,
+) -> None:
+    """Draw a mark in the rectangle of its field, at the side where it belongs."""
+    is_dark = fill is not colours.field and qGray(fill.rgb()) < 128
+    is_plain = fill is colours.field
+    ink = colours.field_text if is_plain else QColor("white" if is_dark else "black")
+    painter.setPen(round_pen(ink, 1.8 * unit))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    inset = 12 * unit
+    start = QPointF(rect.right() - inset if is_mirrored else rect.left() + inset, rect.center().y())
+    end = QPointF(rect.left() + inset if is_mirrored else rect.right() - inset, rect.center().y())
+    if mark == "arrow":
+        _arrow(painter, rect.center() if not is_plain and rect.width() < 40 * unit else end, unit)
+    elif mark == "checkbox" and amount:
+        _tick(painter, rect.center(), 5 * unit)
+    elif mark == "angle":
+        _dial(painter, start, 6 * unit, amount)
+    elif mark == "file":
+        _sheet(painter, start, unit)
+    elif mark == "slider":
+        _bar(painter, rect, colours, unit, amount, is_mirrored=is_mirrored)
+
+
+def paint_sign(
+    painter: QPainter, action: str, at: QPointF, half: float, *, is_mirrored: bool
+) -> None:
+    """Plus, minus, a triangle that points to what is folded, or lines of writing."""
+    x, y = at.x(), at.y()
+    if action in ("add", "remove"):
+        painter.drawLine(QPointF(x - half, y), QPointF(x + half, y))
+    if action == "add":
+        painter.drawLine(QPointF(x, y - half), QPointF(x, y + half))
+    if action == "expand":
+        side = -half / 2 if is_mirrored else half / 2
+        painter.drawPolyline(
+            [QPointF(x - side, y - half), QPointF(x + side, y), QPointF(x - side, y + half)]
+        )
+    if action == "comment":
+        for row in (-0.5, 0.5):
+            painter.drawLine(QPointF(x - half, y + row * half), QPointF(x + half, y + row * half))
+
+
+def round_pen(colour: QColor, width: float) -> QPen:
+    """A pen with round ends."""
+    return QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
+
+
+def _arrow(painter: QPainter, at: QPointF, unit: float) -> None:
+    x, y = at.x(), at.y()
+    painter.drawPolyline(
+        [
+            QPointF(x - 4 * unit, y - 2 * unit),
+            QPointF(x, y + 2.5 * unit),
+            QPointF(x + 4 * unit, y - 2 * unit),
+        ]
+    )
+
+
+def _tick(painter: QPainter, at: QPointF, half: float) -> None:
+    painter.drawPolyline(
+        [
+            at + QPointF(-half, 0),
+            at + QPointF(-half * 0.25, half * 0.75),
+            at + QPointF(half, -half * 0.75),
+        ]
+    )
+
+
+def _dial(painter: QPainter, at: QPointF, radius: float, degrees: float) -> None:
+    """A circle with a hand: 0 is up, positive to the left."""
+    angle = math.radians(degrees)
+    painter.drawEllipse(at, radius, radius)
+    tip = at + QPointF(-radius * 0.85 * math.sin(angle), -radius * 0.85 * math.cos(angle))
+    painter.drawLine(at, tip)
+
+
+def _sheet(painter: QPainter, at: QPointF, unit: float) -> None:
+    """A sheet of paper with a bent corner."""
+    x, y = at.x(), at.y()
+    wide, high, bend = 4.5 * unit, 6 * unit, 3.5 * unit
+    painter.drawPolygon(
+        [
+            QPointF(x - wide, y - high),
+            QPointF(x + wide - bend, y - high),
+            QPointF(x + wide, y - high + bend),
+            QPointF(x + wide, y + high),
+            QPointF(x - wide, y + high),
+        ]
+    )
+
+
+def _bar(
+    painter: QPainter,
+    rect: QRectF,
+    colours: BlockColours,
+    unit: float,
+    share: float,
+    *,
+    is_mirrored: bool,
+) -> None:
+    """A thin line at the foot of a field, as long as the value is large."""
+    y = rect.bottom() - 3 * unit
+    low, high = rect.left() + 9 * unit, rect.right() - 9 * unit
+    faint = QColor(colours.field_line)
+    faint.setAlphaF(0.3)
+    painter.setPen(round_pen(faint, 2.4 * unit))
+    painter.drawLine(QPointF(low, y), QPointF(high, y))
+    if share <= 0:
+        return
+    length = (high - low) * share
+    painter.setPen(round_pen(colours.field_line, 2.4 * unit))
+    start = high if is_mirrored else low
+    painter.drawLine(QPointF(start, y), QPointF(start + (-length if is_mirrored else length), y))

@@ -1,1 +1,0 @@
-"""The Python beside the blocks: shown live, found by its blocks, and turned back into them."""

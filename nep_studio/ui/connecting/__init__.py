@@ -1,1 +1,0 @@
-"""Connecting a real robot: find it, test the way to it step by step, use it."""

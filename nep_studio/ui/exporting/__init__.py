@@ -1,1 +1,0 @@
-"""Programs on their way out of the studio: as Python files and on paper."""

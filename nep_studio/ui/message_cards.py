@@ -1,0 +1,353 @@
+"""The place over the canvas where messages are shown, the newest below."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, QPoint, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent
+from PySide6.QtWidgets import (
+    QApplication,
+    QDialog,
+    QFrame,
+    QGraphicsDropShadowEffect,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QProgressBar,
+    QPushButton,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from .messages import KIND_ICONS, Answer, Message
+from .theme.colours import Theme
+from .theme.icons import icon, icon_pixmap, icon_room
+from .theme.look import Look
+from .words import tr
+
+# A message as a card: icon, title, sentence, checklist, answers, and details to copy.
+
+
+class MessageText(QWidget):
+    """The words of a message: title, sentence, checklist, details."""
+
+    def __init__(self, message: Message, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(self.fontMetrics().height() // 3)
+        self.title = _label(message.title, "heading")
+        box.addWidget(self.title)
+        if message.sentence:
+            box.addWidget(_label(message.sentence))
+        for step in message.checklist:
+            box.addWidget(ChecklistStep(step))
+        if message.details:
+            box.addWidget(Details(message.details))
+
+
+class ChecklistStep(QWidget):
+    """One thing to try, with a box before it."""
+
+    def __init__(self, words: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        mark = QLabel("\N{WHITE SQUARE}")
+        mark.setAlignment(Qt.AlignmentFlag.AlignTop)
+        mark.setAccessibleName(tr("Try"))
+        row.addWidget(mark)
+        row.addWidget(_label(words), 1)
+
+
+class Details(QWidget):
+    """The technical text, hidden until it is asked for, with a button that copies it."""
+
+    def __init__(self, details: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.text = QPlainTextEdit(details)
+        self.text.setReadOnly(True)
+        self.text.setVisible(False)
+        self.text.setFixedHeight(self.fontMetrics().height() * 7)
+        self.show_button = _quiet_button(tr("Show details"))
+        self.copy_button = _quiet_button(tr("Copy details"))
+        self.copy_button.setVisible(False)
+        self.show_button.clicked.connect(self._on_show_clicked)
+        self.copy_button.clicked.connect(self._on_copy_clicked)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.show_button)
+        buttons.addWidget(self.copy_button)
+        buttons.addStretch(1)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addLayout(buttons)
+        box.addWidget(self.text)
+
+    def _on_show_clicked(self) -> None:
+        is_shown = self.text.isHidden()
+        self.text.setVisible(is_shown)
+        self.copy_button.setVisible(is_shown)
+        self.show_button.setText(tr("Hide details") if is_shown else tr("Show details"))
+
+    def _on_copy_clicked(self) -> None:
+        QGuiApplication.clipboard().setText(self.text.toPlainText())
+        self.copy_button.setText(tr("Copied"))
+
+
+class MessageCard(QFrame):
+    """A message over the canvas. It is ``closed`` by its cross, an answer, Esc, or by itself."""
+
+    closed = Signal()
+
+    def __init__(self, message: Message, theme: Theme, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.message = message
+        self.setProperty("kind", message.kind)
+        self.setAccessibleName(message.spoken)
+        self.close_button = _cross(theme)
+        self.close_button.clicked.connect(self.closed)
+        self.buttons = [self._button(answer) for answer in message.answers]
+        self._fill(theme)
+        self._add_shadow(theme)
+
+    def _fill(self, theme: Theme) -> None:
+        line = self.fontMetrics().height()
+        row = QHBoxLayout(self)
+        row.setSpacing(line // 2)
+        sign, size = QLabel(), round(line * 1.3)
+        kind = self.message.kind
+        ratio = self.devicePixelRatioF()
+        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], theme.colour(kind), size, ratio))
+        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        words = QVBoxLayout()
+        words.addWidget(MessageText(self.message))
+        if self.message.is_busy:
+            words.addWidget(_endless_progress())
+        if self.buttons:
+            answers = QHBoxLayout()
+            for button in self.buttons:
+                answers.addWidget(button)
+            answers.addStretch(1)
+            words.addLayout(answers)
+        row.addLayout(words, 1)
+        row.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
+        self.close_button.setVisible(not self.message.is_busy)
+
+    def _button(self, answer: Answer) -> QPushButton:
+        button = QPushButton(answer.words)
+        if answer.look:
+            button.setProperty("kind", answer.look)
+        button.clicked.connect(self.closed)
+        button.clicked.connect(lambda: answer.do())
+        return button
+
+    def _add_shadow(self, theme: Theme) -> None:
+        shadow = QGraphicsDropShadowEffect(self)
+        shadow.setBlurRadius(self.fontMetrics().height() * 1.2)
+        shadow.setOffset(0, 2)
+        shadow.setColor(QColor(theme.colour("sprite_shadow")))
+        self.setGraphicsEffect(shadow)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Take the room that the words need in another font."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self.updateGeometry()
+
+
+def _cross(theme: Theme) -> QToolButton:
+    button = QToolButton()
+    button.setIcon(icon("x", theme))
+    button.setIconSize(icon_room(button.fontMetrics().height()))
+    button.setToolTip(tr("Close"))
+    button.setAccessibleName(tr("Close this message"))
+    return button
+
+
+def _endless_progress() -> QProgressBar:
+    bar = QProgressBar()
+    bar.setRange(0, 0)
+    bar.setTextVisible(False)
+    return bar
+
+
+def _label(words: str, role: str = "") -> QLabel:
+    label = QLabel(words)
+    label.setWordWrap(True)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    if role:
+        label.setProperty("role", role)
+    return label
+
+
+def _quiet_button(words: str) -> QPushButton:
+    button = QPushButton(words)
+    button.setProperty("kind", "quiet")
+    return button
+
+
+MOST_CARDS = 3
+READ_MS_PER_LETTER = 70
+LEAST_READ_MS = 4000
+WIDEST_LETTERS = 64
+
+
+class MessageArea(QWidget):
+    """Lies over the upper edge of ``host``; it takes no room from it and moves nothing."""
+
+    def __init__(self, look: Look, host: QWidget) -> None:
+        super().__init__(host)
+        self._look, self._host = look, host
+        self.cards: list[MessageCard] = []
+        self._box = QVBoxLayout(self)
+        host.installEventFilter(self)
+        self.hide()
+
+    def show_message(self, message: Message) -> None:
+        """Add a card; one that says the same is shown once."""
+        for card in list(self.cards):
+            if card.message.title == message.title and card.message.passes == message.passes:
+                self._remove(card)
+        while len(self.cards) >= MOST_CARDS:
+            self._remove(next((c for c in self.cards if c.message.passes), self.cards[0]))
+        card = MessageCard(message, self._look.theme, self)
+        card.closed.connect(lambda: self._remove(card))
+        self.cards.append(card)
+        self._box.addWidget(card)
+        if message.passes:
+            self._pass(card)
+        self.show()
+        self._place()
+
+    def withdraw(self, message: Message) -> None:
+        """Take the card of a message away."""
+        for card in [card for card in self.cards if card.message is message]:
+            self._remove(card)
+
+    def clear_passing(self) -> None:
+        """Take away the cards that go by themselves."""
+        for card in [card for card in self.cards if card.message.passes]:
+            self._remove(card)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Stay at the upper edge of the host."""
+        if watched is self._host and event.type() == QEvent.Type.Resize:
+            self._place()
+        return False
+
+    def event(self, event: QEvent) -> bool:
+        """Grow and shrink with the cards."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._place()
+        return super().event(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc closes the newest card."""
+        if event.key() == Qt.Key.Key_Escape and self.cards:
+            self._remove(self.cards[-1])
+            return
+        super().keyPressEvent(event)
+
+    def _pass(self, card: MessageCard) -> None:
+        letters = len(card.message.spoken)
+        timer = QTimer(card, singleShot=True)
+        timer.setInterval(max(LEAST_READ_MS, letters * READ_MS_PER_LETTER))
+        timer.timeout.connect(lambda: self._pass_away(card, timer))
+        timer.start()
+
+    def _pass_away(self, card: MessageCard, timer: QTimer) -> None:
+        is_read = card.underMouse() or card.isAncestorOf(self.focusWidget() or self)
+        if is_read or card.isHidden():
+            timer.start()
+        else:
+            self._remove(card)
+
+    def _remove(self, card: MessageCard) -> None:
+        if card not in self.cards:
+            return
+        self.cards.remove(card)
+        self._box.removeWidget(card)
+        card.hide()
+        card.deleteLater()
+        self.setVisible(bool(self.cards))
+        self._place()
+
+    def _place(self) -> None:
+        if not self.cards:
+            return
+        widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
+        width = min(self._host.width(), widest)
+        self._hide_what_has_no_room(width)
+        height = self._box.heightForWidth(width) if self._box.hasHeightForWidth() else -1
+        height = min(max(height, self._box.sizeHint().height() if height < 0 else height), 10_000)
+        left = (self._host.width() - width) // 2
+        self.setGeometry(left, 0, width, min(height, self._host.height()))
+        self.move(QPoint(left, 0))
+        self.raise_()
+
+    def _hide_what_has_no_room(self, width: int) -> None:
+        """Older cards wait until newer ones are closed: squeezed together, none could be read."""
+        margins = self._box.contentsMargins()
+        inside = width - margins.left() - margins.right()
+        left = self._host.height() - margins.top() - margins.bottom()
+        for card in reversed(self.cards):
+            has_room = card is self.cards[-1] or left >= card.heightForWidth(inside)
+            card.setHidden(not has_room)
+            left = left - card.heightForWidth(inside) - self._box.spacing() if has_room else 0
+
+
+# A question that must be answered: a dialog with the answers as buttons.
+
+
+class QuestionDialog(QDialog):
+    """Asks; the last answer is what Esc and the window's cross mean."""
+
+    def __init__(self, message: Message, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.message = message
+        self.setWindowTitle(QApplication.applicationDisplayName())
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.buttons = [self._button(answer) for answer in message.answers]
+        self._answered: Answer | None = None
+        line = self.fontMetrics().height()
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line)
+        box.addLayout(self._words(line))
+        row = QHBoxLayout()
+        row.addStretch(1)
+        for button in reversed(self.buttons):
+            row.addWidget(button)
+        box.addLayout(row)
+        self.setMinimumWidth(line * 24)
+        for button in self.buttons:
+            if button.isDefault():
+                button.setFocus()  # Enter means what the eye is led to
+        self.finished.connect(self._on_finished)
+
+    def _words(self, line: int) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.setSpacing(line)
+        sign, kind = QLabel(), self.message.kind
+        colour = self.palette().color(self.foregroundRole())
+        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], colour, line * 2, self.devicePixelRatioF()))
+        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(MessageText(self.message), 1)
+        return row
+
+    def _button(self, answer: Answer) -> QPushButton:
+        button = QPushButton(answer.words)
+        button.setDefault(answer.look == "primary")  # which has its look, and moves with the focus
+        if answer.look == "quiet":
+            button.setProperty("kind", answer.look)
+        button.clicked.connect(lambda: self._on_answered(answer))
+        return button
+
+    def _on_answered(self, answer: Answer) -> None:
+        self._answered = answer
+        self.accept()
+
+    def _on_finished(self) -> None:
+        """Do it once the dialog is gone, so that what follows may ask again."""
+        (self._answered or self.message.answers[-1]).do()

@@ -1,1 +1,0 @@
-"""The program as a tree: a second view of the same blocks."""

@@ -1,1 +1,0 @@
-"""The network view: nodes and topics as a live graph, and the messages of each topic."""

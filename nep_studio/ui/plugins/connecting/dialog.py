@@ -1,0 +1,377 @@
+"""The dialog that connects a real robot: choose or write its address, test it, use it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QFormLayout,
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.words import tr
+
+from .search import FoundList, RobotTest
+
+if TYPE_CHECKING:
+    from robots.naoqi.probe import AboutRobot, Check
+
+
+# The steps of the way to a robot, each with a sign and a sentence that says how it went.
+
+SIGNS = {
+    "waiting": ("circle-dashed", "muted"),
+    "trying": ("refresh-cw", "info"),
+    "ok": ("circle-check", "success"),
+    "failed": ("circle-alert", "error"),
+}
+
+
+def step_questions() -> dict[str, str]:
+    """What each step asks, by its name in the probe, in their order."""
+    return {
+        "name": tr("Is the address known?"),
+        "port": tr("Does something answer there?"),
+        "naoqi": tr("Is it a NAOqi robot?"),
+        "login": tr("Does it let us in?"),
+        "services": tr("Can it do what the blocks ask for?"),
+        "robot": tr("How is it?"),
+    }
+
+
+def state_words() -> dict[str, str]:
+    """How a step is, for those who cannot see its sign."""
+    return {
+        "waiting": tr("not tried yet"),
+        "trying": tr("trying…"),
+        "ok": tr("all right"),
+        "failed": tr("did not work"),
+    }
+
+
+class StepsView(QFrame):
+    """One row for each step; below the one that failed stands what to try."""
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self._questions = step_questions()
+        self.setProperty("kind", "card")
+        self._signs: dict[str, QLabel] = {}
+        self._words: dict[str, QLabel] = {}
+        self.states: dict[str, str] = {}
+        self.advice = QLabel()
+        self.advice_card = card_around(self.advice, "warning")
+        self._lay_out()
+        self.clear()
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        grid = QGridLayout()
+        grid.setColumnStretch(1, 1)
+        grid.setVerticalSpacing(line // 3)
+        for row, step in enumerate(self._questions):
+            sign, words = QLabel(), QLabel()
+            words.setWordWrap(True)
+            words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
+            grid.addWidget(words, row, 1)
+            self._signs[step], self._words[step] = sign, words
+        self.advice.setWordWrap(True)
+        self.advice.setTextFormat(Qt.TextFormat.PlainText)
+        self.advice.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
+        box.setSpacing(line // 2)
+        box.addLayout(grid)
+        box.addWidget(self.advice_card)
+
+    def clear(self) -> None:
+        """No step has been tried."""
+        for step in self._questions:
+            self._show(step, "waiting", self._questions[step])
+        self.advice_card.hide()
+
+    def begin(self) -> None:
+        """The first step is being tried."""
+        self.clear()
+        self._try(next(iter(self._questions)))
+
+    def take(self, check: Check) -> None:
+        """Show how a step went, and that the next one is being tried."""
+        self._show(check.step, "ok" if check.is_ok else "failed", tr(check.sentence))
+        if not check.is_ok:
+            lines = [tr("Try this, in this order:"), *(f"•  {tr(it)}" for it in check.checklist)]
+            self.advice.setText("\n".join(lines))
+            self.advice_card.setVisible(bool(check.checklist))
+            return
+        steps = list(self._questions)
+        later = steps[steps.index(check.step) + 1 :]
+        if later:
+            self._try(later[0])
+
+    def _try(self, step: str) -> None:
+        self._show(step, "trying", self._questions[step])
+
+    def _show(self, step: str, state: str, words: str) -> None:
+        name, colour = SIGNS[state]
+        side = round(self.fontMetrics().height() * 1.1)
+        picture = icon(name, self._look.theme.colour(colour))
+        self._signs[step].setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
+        self._words[step].setText(words)
+        self._words[step].setProperty("role", "hint" if state == "waiting" else "")
+        self._words[step].style().polish(self._words[step])
+        self._words[step].setAccessibleName(f"{words} {state_words()[state]}")
+        self.states[step] = state
+
+
+def card_around(label: QLabel, kind: str) -> QFrame:
+    """Put words into a card of a colour."""
+    card = QFrame()
+    card.setProperty("kind", kind)
+    room = label.fontMetrics().height() // 2
+    box = QVBoxLayout(card)
+    box.setContentsMargins(room, room, room, room)
+    box.addWidget(label)
+    return card
+
+
+USUAL_USER = "nao"
+
+
+class ConnectDialog(QDialog):
+    """``used`` gives the robot of the project, then address, user, password and fingerprint."""
+
+    used = Signal(str, str, str, str, str)
+
+    def __init__(self, robots: list[str], look: Look, parent: QWidget | None = None) -> None:
+        """``robots`` are those of the project, the one that is meant first."""
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(tr("Connect a robot"))
+        self.found = FoundList(look)
+        self.steps = StepsView(look)
+        self.test = RobotTest(self)
+        self.robot = QComboBox()
+        self.robot.addItems(robots)
+        self.address, self.user, self.password = QLineEdit(), QLineEdit(USUAL_USER), QLineEdit()
+        self.asks_password = QCheckBox(tr("It asks for user and password"))
+        self.test_button = QPushButton(tr("Test the connection"))
+        self.use_button = QPushButton(tr("Use this robot"))
+        self.close_button = QPushButton(tr("Close"))
+        self.about = QLabel()
+        self._about_card = card_around(self.about, "info")
+        self._tested = ("", "", "", "")
+        self._lay_out()
+        self._connect()
+        self._update()
+
+    def open(self) -> None:
+        """Show it, and begin to look for robots."""
+        super().open()
+        self.found.start()
+        self.address.setFocus()
+
+    # Layout
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        page = QWidget()
+        column = QVBoxLayout(page)
+        column.setContentsMargins(0, 0, line // 2, 0)
+        column.setSpacing(line * 2 // 3)
+        column.addWidget(_heading(tr("Robots in this network")))
+        column.addWidget(self.found)
+        column.addWidget(_heading(tr("Its address")))
+        column.addLayout(self._form())
+        column.addWidget(self.steps)
+        self.about.setWordWrap(True)
+        self.about.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        column.addWidget(self._about_card)
+        column.addStretch(1)
+        self._area = area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setWidget(page)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line // 2)
+        box.addWidget(area, 1)
+        box.addLayout(self._foot())
+        room = room_around(self.parentWidget()).size()
+        self.resize(min(line * 32, room.width()), min(line * 44, round(room.height() * 0.9)))
+
+    def _form(self) -> QFormLayout:
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
+        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
+        self.address.setPlaceholderText("192.168.1.10")
+        self.password.setEchoMode(QLineEdit.EchoMode.Password)
+        form.addRow(_label(tr("Address"), self.address), self.address)
+        form.addRow("", self.asks_password)
+        self._user_label = _label(tr("User"), self.user)
+        self._password_label = _label(tr("Password"), self.password)
+        form.addRow(self._user_label, self.user)
+        form.addRow(self._password_label, self.password)
+        self._kept = QLabel(
+            tr("The password is kept on this computer, for you alone. It is in no project.")
+        )
+        self._kept.setWordWrap(True)
+        self._kept.setProperty("role", "hint")
+        form.addRow("", self._kept)
+        form.addRow(_label(tr("In this project it is"), self.robot), self.robot)
+        self.test_button.setProperty("kind", "primary")
+        self.test_button.setDefault(True)
+        row = QHBoxLayout()
+        row.addWidget(self.test_button)
+        row.addStretch(1)
+        form.addRow("", row)
+        return form
+
+    def _foot(self) -> QHBoxLayout:
+        foot = QHBoxLayout()
+        foot.addStretch(1)
+        self.use_button.setProperty("kind", "primary")
+        for button in (self.close_button, self.use_button):
+            button.setAutoDefault(False)
+            foot.addWidget(button)
+        self.found.button.setAutoDefault(False)
+        return foot
+
+    def _connect(self) -> None:
+        self.found.chosen.connect(self._on_chosen)
+        self.address.textEdited.connect(self._on_changed)
+        self.user.textEdited.connect(self._on_changed)
+        self.password.textEdited.connect(self._on_changed)
+        self.asks_password.toggled.connect(self._on_changed)
+        self.test_button.clicked.connect(self._on_test)
+        self.test.checked.connect(self._on_checked)
+        self.test.ended.connect(self._on_ended)
+        self.use_button.clicked.connect(self._on_use)
+        self.close_button.clicked.connect(self.reject)
+
+    # What happens
+
+    def show_address(self, address: str, user: str = "", password: str = "") -> None:
+        """Begin with an address that is known, and its login if there is one."""
+        self.address.setText(address)
+        if password:
+            self.asks_password.setChecked(True)
+            self.user.setText(user)
+            self.password.setText(password)
+        self._update()
+
+    @property
+    def _login(self) -> tuple[str, str]:
+        if not self.asks_password.isChecked():
+            return "", ""
+        return self.user.text().strip(), self.password.text()
+
+    def _on_chosen(self, address: str) -> None:
+        self.address.setText(address)
+        self._on_changed()
+
+    def _on_changed(self) -> None:
+        """What was tested is not what is written any more."""
+        self.test.stop()
+        self.steps.clear()
+        self._tested = ("", "", "", "")
+        self._update()
+
+    def _update(self) -> None:
+        wants_login = self.asks_password.isChecked()
+        rows = (self._user_label, self.user, self._password_label, self.password, self._kept)
+        for widget in rows:
+            widget.setVisible(wants_login)
+        is_good = self._tested[0] != ""
+        self.test_button.setEnabled(bool(self.address.text().strip()) and not self.test.is_running)
+        self.use_button.setEnabled(is_good)
+        self._about_card.setVisible(is_good)
+
+    def _on_test(self) -> None:
+        self.found.stop()
+        self._tested = ("", "", "", "")
+        self.steps.begin()
+        self._area.ensureWidgetVisible(self.steps)
+        user, password = self._login
+        name = self.robot.currentText() or "NAO"
+        self.test.start(self.address.text(), user, password, name)
+        self._update()
+
+    def _on_checked(self, check: Check) -> None:
+        self.steps.take(check)
+        if check.step == "login" and not check.is_ok:
+            self.asks_password.blockSignals(True)  # what was told of the test stays
+            self.asks_password.setChecked(True)
+            self.asks_password.blockSignals(False)
+        if check.about is not None:
+            self._tested = (self.address.text().strip(), *self._login, check.about.fingerprint)
+            self.about.setText(about_words(check.about))
+        self._update()
+
+    def _on_ended(self, _problem: str) -> None:
+        self.test.stop()
+        self._update()
+        outcome = self._about_card if self._tested[0] else self.steps
+        QTimer.singleShot(0, self, lambda: self._area.ensureWidgetVisible(outcome))
+        if self.use_button.isEnabled():
+            self.use_button.setFocus()
+            self.use_button.setDefault(True)
+
+    def _on_use(self) -> None:
+        self.used.emit(self.robot.currentText(), *self._tested)
+        self.accept()
+
+    def done(self, result: int) -> None:
+        """Look and test no longer."""
+        self.found.search.stop()
+        self.test.stop()
+        super().done(result)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Look and test no longer."""
+        self.found.search.stop()
+        self.test.stop()
+        super().closeEvent(event)
+
+
+def about_words(about: AboutRobot) -> str:
+    """What a robot says of itself, one line each."""
+    lines = [tr("Name: {name}", name=about.name or "NAO")]
+    if about.battery >= 0:
+        lines.append(tr("Battery: {percent} %", percent=round(about.battery * 100)))
+    if about.version:
+        lines.append(tr("NAOqi: {version}", version=about.version))
+    if about.body:
+        lines.append(tr("Body: {body}", body=about.body))
+    return "\n".join(lines)
+
+
+def _heading(words: str) -> QLabel:
+    label = QLabel(words)
+    label.setProperty("role", "heading")
+    return label
+
+
+def _label(words: str, buddy: QWidget) -> QLabel:
+    label = QLabel(words)
+    label.setBuddy(buddy)
+    buddy.setAccessibleName(words)
+    return label

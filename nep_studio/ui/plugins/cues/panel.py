@@ -1,0 +1,296 @@
+"""The cue panel: the operator of a stage piece tells by hand what a person does."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QDateTime, QLocale, QObject, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QMenu,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_core.wire.messages import GESTURE_REQUEST, HUMAN_BEHAVIOR, GestureRequest, HumanBehavior
+from nep_studio.project.triggers import Cue, own_cue
+from nep_studio.run.plan import VIRTUAL_WATCH
+from nep_studio.ui.messages import announce
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import tr
+
+from .arranging import ArrangeDialog
+from .board import CueBoard, cue_words
+from .project import ProjectCues
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+# Sends cues by hand, and remembers which were sent when.
+
+MOST_SENT = 500
+
+
+@dataclass(frozen=True)
+class SentCue:
+    """What was sent, and when (time.time())."""
+
+    time_s: float
+    words: str
+
+
+class CueSender(QObject):
+    """One door for what an operator sends. ``sent`` tells of each, ``refused`` why not."""
+
+    sent = Signal(object)
+    refused = Signal(str)
+    changed = Signal()
+
+    def __init__(
+        self, runner: Runner, parent: QObject, now: Callable[[], float] = time.time
+    ) -> None:
+        super().__init__(parent)
+        self._runner, self._now = runner, now
+        self.log: deque[SentCue] = deque(maxlen=MOST_SENT)
+        runner.state_changed.connect(self.changed)
+        runner.connected.connect(self.changed)
+        runner.disconnected.connect(self.changed)
+
+    @property
+    def why_not(self) -> str:
+        """Why nothing can be sent now, "" when it can."""
+        if self._runner.is_connected and self._runner.state in ("running", "paused"):
+            return ""
+        if self._runner.state == "starting":
+            return tr("The program is starting. It will hear you in a moment.")
+        return tr("The program does not run, so that nobody would hear it.")
+
+    def send(self, cue: Cue) -> bool:
+        """Send the state of a cue."""
+        state = HumanBehavior(human_state=cue.state, source=cue.source)
+        return self._send(HUMAN_BEHAVIOR, state, cue_words(cue))
+
+    def make_gesture(self, gesture: str, words: str) -> bool:
+        """Let the watch on the screen make a gesture, which is then recognised, or not."""
+        request = GestureRequest(gesture=gesture)
+        return self._send(GESTURE_REQUEST, request, tr("movement: {gesture}", gesture=words))
+
+    def run(self) -> None:
+        """Run the program, so that somebody hears."""
+        self._runner.run()
+
+    def _send(self, topic: str, message: HumanBehavior | GestureRequest, words: str) -> bool:
+        reason = self.why_not
+        if reason or not self._runner.send(topic, message):
+            self.refused.emit(reason or tr("The network is down."))
+            return False
+        sent = SentCue(self._now(), words)
+        self.log.append(sent)
+        self.sent.emit(sent)
+        return True
+
+
+MOST_LOGGED = 200
+
+
+class CuePanel(QWidget):
+    """Buttons, a line for words, and what was sent when. With ``is_large`` it is for a show."""
+
+    def __init__(
+        self,
+        window: MainWindow,
+        *,
+        is_large: bool = False,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._look: Look = window.look
+        self._runner: Runner = window.running.runner
+        self.cues = ProjectCues(window.files, self)
+        self.sending = CueSender(self._runner, self)
+        self.board = CueBoard(window.look, self)
+        self.empty = QLabel(tr("The rules of this program wait for nothing that could be sent."))
+        self.empty.setProperty("role", "hint")
+        self.empty.setWordWrap(True)
+        self.why_not = QLabel()
+        self.why_not.setWordWrap(True)
+        self.run_button = QPushButton(tr("Run"))
+        self.run_button.setProperty("kind", "run")
+        self.words = QLineEdit()
+        self.words.setPlaceholderText(tr("Somebody says…"))
+        self.words.setAccessibleName(tr("Words that somebody says"))
+        self.say_button = QPushButton(tr("Send"))
+        self.arrange_button = QPushButton(tr("Arrange…"))
+        self.movements = QPushButton(tr("The watch moves"))
+        self.movements.setToolTip(tr("The movement, which has to be recognised like a real one"))
+        self.movements.setMenu(QMenu(self.movements))
+        self.log = QListWidget()
+        self.log.setAccessibleName(tr("What was sent"))
+        self._has_run_button = not is_large  # a show has its own
+        self._lay_out(is_large)
+        self._connect()
+        self._dress()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the cues of the project as it is now, if somebody looks."""
+        if not self.isVisible():
+            return
+        cues = self.cues.cues()
+        self.board.show_cues(cues)
+        self.empty.setVisible(not self.board.buttons)
+        self._show_movements([cue for cue in cues if cue.gesture and not cue.is_hidden])
+        self._on_running_changed()
+
+    def send(self, cue: Cue) -> bool:
+        """Send a cue, or say why that cannot be."""
+        is_sent = self.sending.send(cue)
+        if is_sent:
+            self.board.flash(cue)
+        return is_sent
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Nothing was followed while nobody looked."""
+        super().showEvent(event)
+        self.refresh()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """The keys of the buttons, wherever the focus is in the panel but in the line."""
+        if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier or not self.board.press(
+            event.text()
+        ):
+            super().keyPressEvent(event)
+
+    def _lay_out(self, is_large: bool) -> None:
+        line = self.fontMetrics().height()
+        state = QHBoxLayout()
+        state.addWidget(self.why_not, 1)
+        state.addWidget(self.run_button)
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        area.setWidget(self.board)
+        say = QHBoxLayout()
+        say.addWidget(self.words, 1)
+        say.addWidget(self.say_button)
+        others = QHBoxLayout()
+        others.addWidget(self.movements)
+        others.addStretch(1)
+        if not is_large:
+            others.addWidget(self.arrange_button)
+        upper = QWidget()
+        column = QVBoxLayout(upper)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(state)
+        column.addWidget(self.empty)
+        column.addWidget(area, 1)
+        column.addLayout(say)
+        column.addLayout(others)
+        split = QSplitter(Qt.Orientation.Horizontal if is_large else Qt.Orientation.Vertical)
+        split.setChildrenCollapsible(False)
+        split.addWidget(upper)
+        split.addWidget(self.log)
+        split.setStretchFactor(0, 4)
+        split.setStretchFactor(1, 1)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
+        box.addWidget(split)
+
+    def _connect(self) -> None:
+        self.cues.changed.connect(self.refresh)
+        self.sending.changed.connect(self._on_running_changed)
+        self.sending.sent.connect(self._on_sent)
+        self.sending.refused.connect(self._on_refused)
+        self.board.chosen.connect(self.send)
+        self.board.change_asked.connect(self.arrange)
+        self.run_button.clicked.connect(self.sending.run)
+        self.say_button.clicked.connect(self._on_said)
+        self.words.returnPressed.connect(self._on_said)
+        self.arrange_button.clicked.connect(lambda: self.arrange())
+        self._look.theme_changed.connect(self._dress)
+
+    def arrange(self, cue: Cue | None = None) -> None:
+        """Let the person arrange the cues."""
+        if not self.cues.is_open or self.arrange_button.parent() is None:
+            return
+        dialog = ArrangeDialog(self.cues.cues(), self._look.theme, self)
+        dialog.arranged.connect(self._on_arranged)
+        if cue is not None:
+            dialog.select(cue)
+        dialog.open()
+
+    def _on_arranged(self, cues: list[Cue]) -> None:
+        self.cues.keep(cues)
+        self.refresh()
+
+    def _show_movements(self, gestures: list[Cue]) -> None:
+        """Let the watch on the screen move, where it is what measures."""
+        nodes = {planned.node for planned in self._runner.planned()} if gestures else set()
+        self.movements.setVisible(VIRTUAL_WATCH in nodes)
+        menu = self.movements.menu()
+        menu.clear()
+        for cue in gestures:
+            make = partial(self.sending.make_gesture, cue.gesture, cue.words)
+            menu.addAction(cue_words(cue)).triggered.connect(lambda _=False, make=make: make())
+
+    def _on_said(self) -> None:
+        try:
+            cue = own_cue(self.words.text(), is_word=True)
+        except ValueError:
+            self.words.setFocus()
+            return
+        if self.send(cue):
+            self.words.clear()
+
+    def _on_running_changed(self) -> None:
+        reason = self.sending.why_not
+        self.board.set_heard(not reason)
+        self.why_not.setText(reason or tr("The program hears you."))
+        is_idle = self._runner.state == "idle" and self.cues.is_open
+        self.run_button.setVisible(self._has_run_button and is_idle)
+
+    def _on_refused(self, reason: str) -> None:
+        self.why_not.setText(reason)
+        announce(self, reason)
+        if self.run_button.isVisible():
+            self.run_button.setFocus()
+
+    def _on_sent(self, sent: SentCue) -> None:
+        moment = QDateTime.fromSecsSinceEpoch(int(sent.time_s)).time()
+        clock = QLocale().toString(moment, "HH:mm:ss")
+        self.log.insertItem(0, f"{clock}  {sent.words}")
+        while self.log.count() > MOST_LOGGED:
+            self.log.takeItem(self.log.count() - 1)
+        announce(self, tr("Sent: {words}", words=sent.words))
+
+    def _dress(self) -> None:
+        theme = self._look.theme
+        self.run_button.setIcon(icon("play", theme.colour("run_text")))
+        self.say_button.setIcon(icon("ear", theme))
+        self.arrange_button.setIcon(icon("sliders-horizontal", theme))
+        self.movements.setIcon(icon("watch", theme))
+
+
+def add_cues_panel(window: MainWindow) -> CuePanel:
+    """Put the panel beside the canvas; hidden until somebody wants it."""
+    panel = CuePanel(window)
+    window.add_side_panel(panel, tr("Cues"), "flag", "right", is_shown=False)
+    return panel

@@ -1,0 +1,476 @@
+"""The cards of all gestures, below each other, and the row that makes a new one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QDragEnterEvent,
+    QDragLeaveEvent,
+    QDropEvent,
+    QMouseEvent,
+    QPainter,
+    QPainterPath,
+    QPaintEvent,
+    QPen,
+)
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.operations.copying import Clip, clip_of
+from nep_studio.blocks.own_gestures import OwnGesture
+from nep_studio.blocks.program import PAGES
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
+from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.words import count_words, tr
+from nep_studio.ui.workbench.placing import insert_clip
+
+from .gesture_controller import TrainerDesk
+from .project_gestures import Keeping
+from .recording import TakeSession
+from .samples import TAKES_MIME, Badges, TakePictures, TakesList, takes_in
+
+# The block "when this gesture is made", to be dragged onto the canvas or put there by a click.
+
+BLOCK = "event.gesture"
+_WIDEST_LINES = 11
+
+
+class GestureChip(QAbstractButton):
+    """Looks like the beginning of the block. Only a press that stays a click adds it."""
+
+    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._canvas = canvas
+        self.gesture = ""
+        self.setCursor(Qt.CursorShape.OpenHandCursor)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self.clicked.connect(self.add_block)
+
+    def show_gesture(self, gesture: str, title: str) -> None:
+        """Be the block of this gesture."""
+        self.gesture = gesture
+        words = tr("when {gesture}", gesture=title)
+        if words != self.text():
+            self.setText(words)
+            self.setToolTip(tr("Drag it onto the page, or click to add it: {words}", words=words))
+            self.setAccessibleName(tr("Add the block “{words}”", words=words))
+            self.updateGeometry()
+
+    def clip(self) -> Clip:
+        """The block."""
+        return clip_of(self._canvas.editor.language, BLOCK, gesture=self.gesture)
+
+    def add_block(self) -> None:
+        """Put the block on the page of behaviour, where one looks."""
+        self._show_behaviour()
+        insert_clip(self._canvas, self.clip())
+
+    def _show_behaviour(self) -> None:
+        canvas = self._canvas
+        if canvas.editor.project.kind_of_page(canvas.page) != PAGES[0]:
+            canvas.show_page(PAGES[0])
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Begin a click or a drag."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._show_behaviour()
+            place = event.globalPosition().toPoint()
+            self._canvas.begin_external_drag(self.clip(), place, self)
+        super().mousePressEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """A click adds the block."""
+        super().mouseReleaseEvent(event)
+
+    def sizeHint(self) -> QSize:
+        """Room for its words; long names are cut."""
+        metrics = self.fontMetrics()
+        line = metrics.height()
+        words = min(metrics.horizontalAdvance(self.text()), line * _WIDEST_LINES)
+        return QSize(round(words + line * 2.2), round(line * 1.75))
+
+    def minimumSizeHint(self) -> QSize:
+        """A few letters."""
+        line = self.fontMetrics().height()
+        return QSize(line * 5, round(line * 1.75))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint a hat of the colour of events."""
+        theme, line = self._canvas.theme, self.fontMetrics().height()
+        colours = theme.block("events")
+        rect = QRectF(self.rect()).adjusted(1.5, 1.5, -1.5, -1.5)
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            is_marked = self.hasFocus()
+            painter.setPen(QPen(theme.colour("focus") if is_marked else colours.line, 2))
+            painter.setBrush(colours.fill)
+            painter.drawPath(_hat(rect, line))
+            is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
+            side = line * 0.95
+            x = rect.right() - side - line * 0.4 if is_mirrored else rect.left() + line * 0.4
+            middle = rect.center().y() + line * 0.1
+            paint_icon(painter, QRectF(x, middle - side / 2, side, side), "hand", colours.text)
+            room = rect.adjusted(line * 1.6, line * 0.2, -line * 0.4, 0)
+            if is_mirrored:
+                room = rect.adjusted(line * 0.4, line * 0.2, -line * 1.6, 0)
+            mode = Qt.TextElideMode.ElideRight
+            shown = self.fontMetrics().elidedText(self.text(), mode, round(room.width()))
+            painter.setPen(colours.text)
+            painter.drawText(room, Qt.AlignmentFlag.AlignCenter, shown)
+
+
+def _hat(rect: QRectF, line: float) -> QPainterPath:
+    """A rounded rectangle with the low hump that blocks have which begin a stack."""
+    hump, corner = line * 0.22, line * 0.25
+    body = rect.adjusted(0, hump, 0, 0)
+    path = QPainterPath()
+    path.addRoundedRect(body, corner, corner)
+    crest = QPainterPath(QPointF(body.left() + corner, body.top() + corner))
+    wide = min(line * 4, body.width() / 2)
+    crest.lineTo(body.left() + corner / 2, body.top() + 1)
+    crest.cubicTo(
+        body.left() + wide * 0.3,
+        rect.top() - hump,
+        body.left() + wide * 0.7,
+        rect.top() - hump / 2,
+        body.left() + wide,
+        body.top() + 1,
+    )
+    crest.closeSubpath()
+    return path.united(crest)
+
+
+# The card of one gesture: its name, its block, what records it, and its takes.
+
+
+class GestureCard(QFrame):
+    """Shows a gesture; everything that is wanted of it is told by signals.
+
+    ``menu_asked`` and ``take_menu_asked`` give a place of the screen; ``takes_dropped`` the ids of
+    takes that are of this gesture from now on.
+    """
+
+    renamed = Signal(str)
+    record_asked = Signal()
+    activated = Signal()
+    menu_asked = Signal(QPoint)
+    take_menu_asked = Signal(QPoint)
+    takes_dropped = Signal(list)
+
+    def __init__(
+        self, name: str, desk: TrainerDesk, canvas: Canvas, pictures: TakePictures
+    ) -> None:
+        super().__init__()
+        self.name, self._desk = name, desk
+        self._is_current = self._is_target = self._is_recording = False
+        self.title = QLineEdit()
+        self.count = QLabel()
+        self.record = QPushButton(tr("Record"))
+        self.chip = GestureChip(canvas)
+        self.menu = QToolButton()
+        self.takes = TakesList(desk, pictures)
+        self.setProperty("kind", "card")
+        self.setAcceptDrops(True)
+        self._lay_out()
+        self._connect()
+        self.dress()
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        self.title.setMaxLength(60)
+        self.title.setAccessibleName(tr("Name of the gesture"))
+        self.count.setProperty("role", "hint")
+        self.record.setAutoDefault(False)
+        self.menu.setToolTip(tr("More"))
+        self.menu.setAccessibleName(tr("More"))
+        above = QHBoxLayout()
+        above.addWidget(self.title, 1)
+        above.addWidget(self.count)
+        above.addWidget(self.menu)
+        between = FlowLayout(gap=line // 3)
+        for widget in (self.record, self.chip):
+            between.addWidget(widget)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line // 2, line // 2, line // 2, line // 3)
+        box.setSpacing(line // 3)
+        box.addLayout(above)
+        box.addLayout(between)
+        box.addWidget(self.takes)
+
+    def _connect(self) -> None:
+        self.title.editingFinished.connect(self._on_title_edited)
+        self.record.clicked.connect(self.record_asked)
+        self.menu.clicked.connect(lambda: self.menu_asked.emit(_below(self.menu)))
+        self.takes.menu_asked.connect(self.take_menu_asked)
+        self.takes.current_changed.connect(self.activated)
+
+    # What is shown
+
+    def show_gesture(self, gesture: OwnGesture, badges: Mapping[str, str]) -> None:
+        """Show the gesture as it is now."""
+        if not self.title.hasFocus() or not self.title.isModified():
+            self._show_title(gesture.title)
+        self.chip.show_gesture(self.name, gesture.title)
+        self.count.setText(count_words(len(gesture.takes), "1 take", "{n} takes"))
+        words = tr("Record “{gesture}”", gesture=gesture.title)
+        self.record.setAccessibleName(words)
+        self.record.setToolTip(words)
+        self.setAccessibleName(gesture.title)
+        self.takes.setAccessibleName(tr("Takes of {gesture}", gesture=gesture.title))
+        self.takes.show_takes(gesture.takes, badges)
+        self.takes.setVisible(bool(gesture.takes))
+
+    def show_state(self, *, is_current: bool, is_recording: bool) -> None:
+        """Show whether Space records this gesture, and whether it is being recorded."""
+        if (is_current, is_recording) == (self._is_current, self._is_recording):
+            return
+        if is_recording != self._is_recording:
+            self.record.setText(tr("Stop") if is_recording else tr("Record"))
+        self._is_current, self._is_recording = is_current, is_recording
+        self.dress()
+        self.update()
+
+    def dress(self) -> None:
+        """Take the theme."""
+        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        name = "square" if self._is_recording else "circle-dot"
+        self.record.setIcon(icon(name, theme.colour("stop")))
+        self.record.setIconSize(icon_room(line))
+        self.menu.setIcon(icon("ellipsis", theme))
+        self.menu.setIconSize(QSize(line, line))
+        self.chip.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Mark the card that Space records, and the one that takes are dropped on."""
+        super().paintEvent(event)
+        if self._is_current or self._is_target:
+            with QPainter(self) as painter:
+                painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+                colour = "focus" if self._is_target else "accent"
+                painter.setPen(QPen(self._desk.look.theme.colour(colour), 2))
+                corner = self.fontMetrics().height() * 0.42
+                painter.drawRoundedRect(self.rect().adjusted(1, 1, -1, -1), corner, corner)
+
+    def edit_title(self) -> None:
+        """Let the name be typed."""
+        self.title.setFocus(Qt.FocusReason.OtherFocusReason)
+        self.title.selectAll()
+
+    # What happens
+
+    def _show_title(self, title: str) -> None:
+        if title != self.title.text():
+            self.title.setText(title)
+            self.title.setCursorPosition(0)
+
+    def _on_title_edited(self) -> None:
+        text = self.title.text().strip()
+        if not self.title.isModified():
+            return
+        self.title.setModified(False)
+        if text:
+            self.renamed.emit(text)
+        gesture = self._desk.gestures.get(self.name)
+        if gesture is not None:
+            self._show_title(gesture.title)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take the takes of other gestures."""
+        if event.mimeData().hasFormat(TAKES_MIME):
+            event.acceptProposedAction()
+            self._is_target = True
+            self.update()
+
+    def dragLeaveEvent(self, event: QDragLeaveEvent) -> None:
+        """They went elsewhere."""
+        self._is_target = False
+        self.update()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Say that they are of this gesture."""
+        self._is_target = False
+        self.update()
+        event.acceptProposedAction()
+        self.takes_dropped.emit(list(takes_in(event.mimeData())))
+
+
+def _below(widget: QToolButton) -> QPoint:
+    return widget.mapToGlobal(QPoint(0, widget.height()))
+
+
+class Cards(QScrollArea):
+    """``record_asked`` and ``menu_asked`` give the name of a gesture, ``current_changed`` tells
+    that Space records another one."""
+
+    record_asked = Signal(str)
+    menu_asked = Signal(str, QPoint)
+    take_menu_asked = Signal(str, QPoint)
+    current_changed = Signal(str)
+
+    def __init__(
+        self, desk: TrainerDesk, keeping: Keeping, session: TakeSession, canvas: Canvas
+    ) -> None:
+        super().__init__()
+        self._desk, self._keeping, self._session = desk, keeping, session
+        self._canvas = canvas
+        self._pictures, self._badges = TakePictures(desk), Badges(desk)
+        self.cards: dict[str, GestureCard] = {}
+        self.current = ""
+        self.empty = QLabel()
+        self.new_name = QLineEdit()
+        self.new_button = QPushButton(tr("New gesture"))
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        self._soon.timeout.connect(self.refresh)
+        self._lay_out()
+        desk.changed.connect(self._on_changed)
+        session.changed.connect(self._show_states)
+        desk.look.theme_changed.connect(self._dress)
+        self.new_button.clicked.connect(self.make_gesture)
+        self.new_name.returnPressed.connect(self.make_gesture)
+        self._dress()
+        self.refresh()
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setAccessibleName(tr("Gestures"))
+        self.new_name.setPlaceholderText(tr("Name of a new gesture"))
+        self.new_name.setAccessibleName(tr("Name of a new gesture"))
+        self.new_name.setMaxLength(60)
+        self.new_button.setAutoDefault(False)
+        self.empty.setWordWrap(True)
+        self.empty.setProperty("role", "hint")
+        new = QHBoxLayout()
+        new.addWidget(self.new_name, 1)
+        new.addWidget(self.new_button)
+        inner = QWidget()
+        self._box = QVBoxLayout(inner)
+        self._box.setContentsMargins(line // 4, line // 4, line // 2, line // 4)
+        self._box.setSpacing(line // 2)
+        self._box.addLayout(new)
+        self._box.addWidget(self.empty)
+        self._box.addStretch(1)
+        self.setWidget(inner)
+
+    def sizeHint(self) -> QSize:
+        """Room for two cards."""
+        line = self.fontMetrics().height()
+        return QSize(line * 24, line * 14)
+
+    def minimumSizeHint(self) -> QSize:
+        """One card can be used."""
+        line = self.fontMetrics().height()
+        return QSize(line * 12, line * 4)
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Show the gestures as they are now; cards that stay are not made anew."""
+        gestures = self._desk.gestures
+        for name in [name for name in self.cards if name not in gestures]:
+            card = self.cards.pop(name)
+            self._box.removeWidget(card)
+            card.hide()
+            card.deleteLater()
+        badges = self._badges.all()
+        for place, (name, gesture) in enumerate(gestures.items()):
+            card = self.cards.get(name) or self._make_card(name)
+            if self._box.indexOf(card) != place:
+                self._box.removeWidget(card)
+                self._box.insertWidget(place, card)
+            card.show_gesture(gesture, badges)
+        self._box.update()
+        self.cards = {name: self.cards[name] for name in gestures}
+        self.new_name.setEnabled(self._desk.editor is not None)
+        self.new_button.setEnabled(self._desk.editor is not None)
+        self._show_empty()
+        if self.current not in gestures:
+            self.choose(next(iter(gestures), ""))
+        self._show_states()
+
+    def choose(self, name: str) -> None:
+        """Let Space record this gesture."""
+        if name != self.current:
+            self.current = name
+            self._show_states()
+            self.current_changed.emit(name)
+
+    def make_gesture(self) -> None:
+        """Make a gesture of the name that was typed; without one, ask for it."""
+        title = self.new_name.text().strip()
+        if not title:
+            self.ask_for_name()
+            return
+        made = self._keeping.new_gesture(title)
+        if made:
+            self.new_name.clear()
+            self.refresh()
+            self.choose(made)
+            self.show_card(made)
+
+    def ask_for_name(self) -> None:
+        """Give the keyboard to the name of a new gesture."""
+        self.ensureWidgetVisible(self.new_name)
+        self.new_name.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def show_card(self, name: str) -> None:
+        """Bring a card into view."""
+        card = self.cards.get(name)
+        if card is not None:
+            self._box.activate()
+            QTimer.singleShot(0, card, lambda: self.ensureWidgetVisible(card))
+
+    def _show_empty(self) -> None:
+        self.empty.setVisible(not self._desk.gestures)
+        words = tr(
+            "A gesture is a movement that your program waits for, such as a wave. "
+            "Give it a name here, then make it five times: the program learns it."
+        )
+        no_project = tr("Gestures belong to a project. Open one, or make a new one.")
+        self.empty.setText(words if self._desk.editor is not None else no_project)
+
+    def _make_card(self, name: str) -> GestureCard:
+        card = self.cards[name] = GestureCard(name, self._desk, self._canvas, self._pictures)
+        card.renamed.connect(lambda title: self._keeping.rename_gesture(name, title))
+        card.record_asked.connect(lambda: self.record_asked.emit(name))
+        card.activated.connect(lambda: self.choose(name))
+        card.menu_asked.connect(lambda place: self.menu_asked.emit(name, place))
+        card.take_menu_asked.connect(lambda place: self.take_menu_asked.emit(name, place))
+        card.takes_dropped.connect(lambda ids: self._keeping.relabel_takes(ids, name))
+        card.takes.opened.connect(self._on_opened)
+        card.takes.delete_asked.connect(self._keeping.delete_takes)
+        return card
+
+    def _show_states(self) -> None:
+        for name, card in self.cards.items():
+            is_recording = self._session.is_on and self._session.gesture == name
+            card.show_state(is_current=name == self.current, is_recording=is_recording)
+            card.record.setEnabled(not self._session.is_on or is_recording)
+
+    def _on_opened(self, take: str) -> None:
+        self._desk.choose_take("" if take == self._desk.chosen_take else take)
+
+    def _on_changed(self) -> None:
+        self._soon.start()
+
+    def _dress(self) -> None:
+        self.new_button.setIcon(icon("plus", self._desk.look.theme))
+        for card in self.cards.values():
+            card.dress()

@@ -1,0 +1,260 @@
+"""The menus of gestures, of takes and of the whole panel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
+
+from nep_core.errors import RecordingError
+from nep_studio.ui.messages import Message
+from nep_studio.ui.plugins.motion.commands import add_title
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.words import count_words, tr
+
+from .cards import Cards
+from .exchange import Imported, add_imported, read_csv, write_csv
+from .exchange_mcap import read_mcap, write_mcap
+from .gesture_controller import TrainerDesk
+from .project_gestures import Keeping
+
+EVERYDAY_S = (30, 120)
+
+
+class Menus:
+    """Makes menus; ``cards`` has the gesture that is meant."""
+
+    def __init__(self, desk: TrainerDesk, keeping: Keeping, cards: Cards) -> None:
+        self._desk, self._keeping, self._cards = desk, keeping, cards
+
+    def of_gesture(self, name: str) -> QMenu:
+        """What can be done with a gesture."""
+        card = self._cards.cards[name]
+        menu = QMenu(self._cards)
+        self._add(menu, "circle-dot", tr("Record"), lambda: self._cards.record_asked.emit(name))
+        words = tr("Add the block “{words}”", words=card.chip.text())
+        self._add(menu, "blocks", words, card.chip.add_block)
+        self._add(menu, "pencil", tr("Another name…"), card.edit_title)
+        menu.addSeparator()
+        words = tr("Delete the gesture with its takes")
+        self._add(menu, "trash-2", words, lambda: self._keeping.delete_gesture(name))
+        return menu
+
+    def of_take(self, name: str) -> QMenu | None:
+        """What can be done with the take at the keyboard; None when there is none."""
+        card = self._cards.cards[name]
+        ids = card.takes.chosen
+        found = self._desk.find_take(ids[0]) if ids else None
+        if found is None:
+            return None
+        take, menu = found[1], QMenu(self._cards)
+        self._add(menu, "maximize", tr("Look at it"), lambda: self._desk.choose_take(take.id))
+        is_out = take.left_out
+        words = tr("Learn from it again") if is_out else tr("Do not learn from it")
+        sign = "eye" if is_out else "eye-off"
+        self._add(menu, sign, words, lambda: self._keeping.leave_out(ids, not is_out))
+        others = {key: one.title for key, one in self._desk.gestures.items() if key != name}
+        if others:
+            add_title(menu, tr("It is a take of"))
+            for key, title in others.items():
+                words = title.replace("&", "&&")
+                self._add(menu, "hand", words, partial(self._keeping.relabel_takes, ids, key))
+        menu.addSeparator()
+        words = tr("Delete the take")
+        self._add(menu, "trash-2", words, lambda: self._keeping.delete_takes(ids))
+        return menu
+
+    def of_everyday(self, record: Callable[[float], object]) -> QMenu:
+        """What records everyday movement, and what there is of it."""
+        menu = QMenu(self._cards)
+        for seconds in EVERYDAY_S:
+            is_short = seconds < 60
+            words = (
+                tr("Record {seconds} seconds", seconds=seconds)
+                if is_short
+                else tr("Record {minutes} minutes", minutes=seconds // 60)
+            )
+            self._add(menu, "circle-dot", words, partial(record, float(seconds)))
+        kept = {key: one for key, one in self._desk.recordings.items() if one.everyday}
+        if kept:
+            add_title(menu, tr("Delete a recording"))
+        for key, one in kept.items():
+            when = one.recorded[:16].replace("T", " ")
+            words = tr(
+                "{person}, {seconds} s, {when}",
+                person=one.person or tr("Somebody"),
+                seconds=round(one.seconds),
+                when=when,
+            ).replace("&", "&&")
+            self._add(menu, "trash-2", words, partial(self._keeping.delete_recording, key))
+        return menu
+
+    def of_panel(self, parts: list[tuple[str, str, Callable[[], object], bool]]) -> QMenu:
+        """Sign, words, what it does, and whether it can be done now."""
+        menu = QMenu(self._cards)
+        for sign, words, do, is_possible in parts:
+            self._add(menu, sign, words, do, is_possible=is_possible)
+        return menu
+
+    def _add(
+        self,
+        menu: QMenu,
+        sign: str,
+        words: str,
+        do: Callable[[], object],
+        *,
+        is_possible: bool = True,
+    ) -> None:
+        action = menu.addAction(icon(sign, self._desk.look.theme), words)
+        action.triggered.connect(lambda _is_on=False: do())
+        action.setEnabled(is_possible)
+
+
+def show_menu(menu: QMenu | None, place: QPoint) -> None:
+    """Show a menu at a place of the screen; it goes when it is closed."""
+    if menu is not None:
+        menu.aboutToHide.connect(menu.deleteLater)
+        menu.popup(place)
+
+
+# Asks for files and folders, imports and exports takes, and tells what came of it.
+
+OnChosen = Callable[[Path], object]
+MCAP_SUFFIX = ".mcap"
+
+
+class GestureFiles:
+    """Asks with the system's dialogs; nothing is called when the person thinks better of it."""
+
+    def choose_file(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
+        """Ask which file to import."""
+        dialog = QFileDialog(parent, tr("Import takes"), str(folder))
+        dialog.setNameFilters([tr("Recordings (*.csv *.mcap)"), tr("All files (*)")])
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        _open(dialog, on_chosen)
+
+    def choose_folder(self, parent: QWidget, folder: Path, words: str, on_chosen: OnChosen) -> None:
+        """Ask for a folder of CSV files; ``words`` says what for."""
+        dialog = QFileDialog(parent, words, str(folder))
+        dialog.setFileMode(QFileDialog.FileMode.Directory)
+        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
+        _open(dialog, on_chosen)
+
+    def choose_place(self, parent: QWidget, suggested: Path, on_chosen: OnChosen) -> None:
+        """Ask where the MCAP file is to be."""
+        dialog = QFileDialog(parent, tr("Export"), str(suggested.parent))
+        dialog.setNameFilters([tr("MCAP files (*.mcap)"), tr("All files (*)")])
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(MCAP_SUFFIX.removeprefix("."))
+        dialog.selectFile(suggested.name)
+        _open(dialog, on_chosen)
+
+
+class Exchange:
+    """Takes from files, takes to files; ``files`` asks which."""
+
+    def __init__(self, desk: TrainerDesk, over: QWidget) -> None:
+        self._desk, self._over = desk, over
+        self.files = GestureFiles()
+
+    def entries(self) -> list[tuple[str, str, Callable[[], object], bool]]:
+        """The entries of a menu: sign, words, what it does, whether it can be done now."""
+        is_open, has_some = self._desk.editor is not None, bool(self._desk.recordings)
+        return [
+            ("upload", tr("Import a file…"), self.ask_for_file, is_open),
+            ("folder-open", tr("Import a folder of CSV files…"), self.ask_for_folder, is_open),
+            ("download", tr("Export as CSV files…"), self.ask_to_export_csv, has_some),
+            ("download", tr("Export as MCAP…"), self.ask_to_export_mcap, has_some),
+        ]
+
+    # What is asked for
+
+    def ask_for_file(self) -> None:
+        """Ask which file to import."""
+        self.files.choose_file(self._over, self._folder(), self.import_from)
+
+    def ask_for_folder(self) -> None:
+        """Ask which folder to import."""
+        words = tr("Import a folder of CSV files")
+        self.files.choose_folder(self._over, self._folder(), words, self.import_from)
+
+    def ask_to_export_csv(self) -> None:
+        """Ask for the folder that the CSV files are to be in."""
+        words = tr("Export CSV files into a folder")
+        self.files.choose_folder(self._over, self._folder(), words, self.export_csv)
+
+    def ask_to_export_mcap(self) -> None:
+        """Ask where the MCAP file is to be."""
+        document = self._desk.files.document
+        stem = document.title if document is not None else tr("gestures")
+        suggested = self._folder() / f"{stem}{MCAP_SUFFIX}"
+        self.files.choose_place(self._over, suggested, self.export_mcap)
+
+    def _folder(self) -> Path:
+        document = self._desk.files.document
+        return document.folder if document is not None else Path.home()
+
+    # What is done
+
+    def import_from(self, path: Path) -> None:
+        """Import a file or a folder, or say why not."""
+        try:
+            if path.suffix.lower() == MCAP_SUFFIX and not path.is_dir():
+                imported, is_whole = read_mcap(path)
+            else:
+                imported, is_whole = read_csv(path), True
+        except RecordingError as error:
+            self._desk.messages.tell_error(error)
+            return
+        if add_imported(self._desk, imported):
+            self._tell_imported(imported, is_whole)
+
+    def export_csv(self, folder: Path) -> None:
+        """Write CSV files into a folder, or say why not."""
+        try:
+            written = write_csv(folder, self._desk.gestures, self._desk.recordings)
+        except RecordingError as error:
+            self._desk.messages.tell_error(error)
+            return
+        self._confirm(count_words(len(written), "1 file was written.", "{n} files were written."))
+
+    def export_mcap(self, path: Path) -> None:
+        """Write an MCAP file, or say why not."""
+        try:
+            write_mcap(path, self._desk.gestures, self._desk.recordings)
+        except RecordingError as error:
+            self._desk.messages.tell_error(error)
+            return
+        self._confirm(tr("“{file}” was written.", file=path.name))
+
+    def _tell_imported(self, imported: Sequence[Imported], is_whole: bool) -> None:
+        takes = sum(len(one.takes) for one in imported)
+        unmarked = sum(one.recording.everyday for one in imported)
+        said = [count_words(takes, "1 take was imported.", "{n} takes were imported.")]
+        if unmarked:
+            said.append(
+                count_words(
+                    unmarked,
+                    "1 recording without takes is kept as everyday movement.",
+                    "{n} recordings without takes are kept as everyday movement.",
+                )
+            )
+        if is_whole:
+            self._confirm(" ".join(said))
+            return
+        said.append(tr("What is before its end was imported."))
+        checklist = (tr("Copy or download the file once more, and import it again."),)
+        title = tr("The file ends in the middle")
+        self._desk.messages.tell(Message("warning", title, " ".join(said), checklist))
+
+    def _confirm(self, words: str) -> None:
+        self._desk.messages.tell(Message("success", words, passes=True))
+
+
+def _open(dialog: QFileDialog, on_chosen: OnChosen) -> None:
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
+    dialog.open()

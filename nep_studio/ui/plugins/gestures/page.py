@@ -1,0 +1,492 @@
+"""The page of the panel: the graph, the gestures, and what was learned of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QApplication,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QSplitter,
+    QTabWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.own_gestures import OwnGesture
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.plugins.watches.status import WatchStatus
+from nep_studio.ui.theme.icons import fit_icons, icon
+from nep_studio.ui.words import count_words, tr
+
+from .cards import Cards
+from .gesture_controller import TrainerDesk
+from .live import Samples
+from .menus import Exchange, Menus, show_menu
+from .project_gestures import Keeping
+from .record_bar import RecordBar
+from .recording import (
+    Session,
+    SimulatedWearer,
+    TakeSession,
+    everyday_words,
+    keep_session,
+    session_words,
+)
+from .results.training import Training
+from .results.try_out import TryOut
+from .results.view import ResultsView
+from .sample_view import TakeView
+from .strip import Strip
+
+# How the parts of the page are arranged, by the room that there is for them.
+
+WIDE, TWO, NARROW = 64.0, 44.0, 30.0
+"""Lines of text across: three columns fit, two fit, fewer than that is one."""
+HIGH = 34.0
+"""So high, the gestures have room below the graph."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Whether recording is a tab beside the others, and what stands beside what."""
+
+    is_tabbed: bool
+    is_beside: bool
+    has_cards_beside: bool
+
+
+def shape_for(wide: float, high: float) -> Shape:
+    """The shape for a room of so many lines of text."""
+    if high >= HIGH:
+        is_narrow = wide < TWO
+        return Shape(is_tabbed=is_narrow, is_beside=not is_narrow, has_cards_beside=False)
+    if wide >= WIDE:
+        return Shape(is_tabbed=False, is_beside=True, has_cards_beside=True)
+    return Shape(is_tabbed=True, is_beside=False, has_cards_beside=wide >= NARROW)
+
+
+# The one next thing to do, from the first connection to the robot that reacts.
+
+Step = Literal["project", "connect", "name", "record", "more", "another", "train", "try"]
+ENOUGH_TAKES = 3
+MANY_TAKES = 5
+
+
+def next_step(desk: TrainerDesk) -> tuple[Step, str]:
+    """The step, and the name of the gesture that it is about."""
+    if desk.editor is None:
+        return "project", ""
+    lacking = _lacking(desk)
+    if not desk.is_hearing and (lacking or len(desk.gestures) < 2):
+        return "connect", ""
+    if not desk.gestures:
+        return "name", ""
+    if lacking:
+        return ("more" if desk.gestures[lacking].takes else "record"), lacking
+    if len(desk.gestures) < 2:
+        return "another", ""
+    return ("try" if desk.is_up_to_date else "train"), ""
+
+
+def hint_words(desk: TrainerDesk) -> str:
+    """The next step in words."""
+    step, name = next_step(desk)
+    gesture = desk.gestures.get(name, OwnGesture(""))
+    said = {
+        "project": tr("Open a project first, or make a new one: gestures belong to a project."),
+        "connect": tr("Connect a watch or phone, so that movements can be recorded."),
+        "name": tr("Give your first gesture a name, such as “wave”."),
+        "record": tr(
+            "Record “{gesture}”: press Record, then make it five times, with a short rest between.",
+            gesture=gesture.title,
+        ),
+        "more": count_words(
+            max(1, ENOUGH_TAKES - _used(gesture)),
+            "Record “{gesture}” once more.",
+            "Record “{gesture}” {n} more times.",
+            gesture=gesture.title,
+        ),
+        "another": tr("Add another gesture: what can be confused can be told apart."),
+        "train": tr("Train: the program learns from the takes."),
+        "try": tr("Try it, then drag “when …” of a gesture onto the page."),
+    }
+    return said[step]
+
+
+def button_words(step: Step) -> str:
+    """What the button beside the words says; empty for none."""
+    return {
+        "name": tr("New gesture"),
+        "record": tr("Record"),
+        "more": tr("Record"),
+        "another": tr("New gesture"),
+        "train": tr("Train"),
+        "try": tr("Try it"),
+    }.get(step, "")
+
+
+def _lacking(desk: TrainerDesk) -> str:
+    """The first gesture with too few takes."""
+    few = (name for name, one in desk.gestures.items() if _used(one) < ENOUGH_TAKES)
+    return next(few, "")
+
+
+def _used(gesture: OwnGesture) -> int:
+    return sum(not take.left_out for take in gesture.takes)
+
+
+# The head of the panel: the watch, more that can be done, and the next step.
+
+LOOK_MS = 500
+
+
+class HintLine(QWidget):
+    """The one next thing to do; ``asked`` gives the step and the gesture when it is pressed."""
+
+    asked = Signal(str, str)
+
+    def __init__(self, desk: TrainerDesk) -> None:
+        super().__init__()
+        self._desk = desk
+        self._sign, self.words, self.button = QLabel(), QLabel(), QPushButton()
+        self.words.setWordWrap(True)
+        self.words.setTextFormat(Qt.TextFormat.PlainText)
+        self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self.button.setAutoDefault(False)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self._sign, 0, Qt.AlignmentFlag.AlignVCenter)
+        row.addWidget(self.words, 1)
+        row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignVCenter)
+        self.button.clicked.connect(lambda: self.asked.emit(*next_step(desk)))
+        self._looking = QTimer(self, interval=LOOK_MS)
+        self._looking.timeout.connect(self.refresh)
+        desk.changed.connect(self.refresh)
+        desk.sources_changed.connect(self.refresh)
+        desk.look.theme_changed.connect(self._dress)
+        self._dress()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the step that is next now."""
+        words = hint_words(self._desk)
+        if words != self.words.text():
+            self.words.setText(words)
+        pressed = button_words(next_step(self._desk)[0])
+        if pressed != self.button.text():
+            self.button.setText(pressed)
+        self.button.setVisible(bool(pressed))
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Look on: whether a watch is heard changes without anybody telling."""
+        super().showEvent(event)
+        self._looking.start()
+        self.refresh()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Nobody looks."""
+        super().hideEvent(event)
+        self._looking.stop()
+
+    def _dress(self) -> None:
+        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        picture = icon("lightbulb", theme.colour("info"))
+        self._sign.setPixmap(picture.pixmap(QSize(line, line), self.devicePixelRatioF()))
+
+
+class Head(QWidget):
+    """``more_asked`` tells that the button with more was pressed."""
+
+    more_asked = Signal()
+
+    def __init__(self, desk: TrainerDesk) -> None:
+        super().__init__()
+        self._desk = desk
+        self.watch, self.more = WatchStatus(desk.runner, desk.look), QToolButton()
+        self.hint = HintLine(desk)
+        self.more.setAccessibleName(tr("Import, export and more"))
+        self.more.setToolTip(tr("Import, export and more"))
+        self.more.clicked.connect(self.more_asked)
+        row = QHBoxLayout()
+        row.addWidget(self.watch, 1)
+        row.addWidget(self.more)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(self.fontMetrics().height() // 3)
+        box.addLayout(row)
+        box.addWidget(self.hint)
+        desk.look.theme_changed.connect(self._dress)
+        self._dress()
+
+    def _dress(self) -> None:
+        line = self.fontMetrics().height()
+        self.more.setIcon(icon("ellipsis", self._desk.look.theme))
+        self.more.setIconSize(QSize(line, line))
+
+
+class TrainerPage(QWidget):
+    """``connect_asked`` wants a watch to be connected."""
+
+    connect_asked = Signal()
+
+    def __init__(self, desk: TrainerDesk, training: Training, canvas: Canvas) -> None:
+        super().__init__()
+        self.desk, self.training = desk, training
+        self.keeping = Keeping(desk)
+        self.session = TakeSession(desk, self)
+        self.simulated = SimulatedWearer(desk, self.session)
+        self.take = TakeView(desk, self.keeping, self)
+        self.head = Head(desk)
+        self.strip = Strip(desk, self.session, self.take)
+        self.bar = RecordBar(desk, self.keeping, self.session, self.take)
+        self.cards = Cards(desk, self.keeping, self.session, canvas)
+        self.menus = Menus(desk, self.keeping, self.cards)
+        self.exchange = Exchange(desk, self)
+        self.results, self.trial = ResultsView(desk, training), TryOut(desk, training)
+        self.beeps = False
+        self._lay_out()
+        self._connect()
+        self._on_current_changed(self.cards.current)
+
+    def _lay_out(self) -> None:
+        self.tabs = QTabWidget()
+        self.tabs.setDocumentMode(True)
+        self.tabs.addTab(self.trial, tr("Try it"))
+        self.tabs.addTab(self.results, tr("What was learned"))
+        self.inner, self.outer = QSplitter(), QSplitter()
+        for splitter, parts in (
+            (self.inner, (self._top(), self.cards)),
+            (self.outer, (self.inner, self.tabs)),
+        ):
+            splitter.setChildrenCollapsible(False)
+            for part in parts:
+                splitter.addWidget(part)
+        self._shape: Shape | None = None
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self.outer)
+        fit_icons(self)
+
+    def _top(self) -> QScrollArea:
+        """The graph with what is above and below it; where there is little room, it scrolls."""
+        line, top = self.fontMetrics().height(), QWidget()
+        box = QVBoxLayout(top)
+        box.setContentsMargins(line // 2, line // 3, line // 2, line // 3)
+        box.setSpacing(line // 3)
+        box.addWidget(self.head)
+        box.addWidget(self.strip, 1)
+        box.addWidget(self.bar)
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setWidget(top)
+        area.setMinimumSize(line * 15, line * 4)
+        return area
+
+    def _connect(self) -> None:
+        self.head.watch.connect_asked.connect(self.connect_asked)
+        self.head.hint.asked.connect(self.take_step)
+        self.bar.everyday.clicked.connect(self._on_everyday_asked)
+        self.head.more_asked.connect(self._on_more_asked)
+        self.bar.button.clicked.connect(self.record_or_stop)
+        self.cards.record_asked.connect(self.record)
+        self.cards.current_changed.connect(self._on_current_changed)
+        self.cards.menu_asked.connect(lambda name, at: show_menu(self.menus.of_gesture(name), at))
+        self.cards.take_menu_asked.connect(lambda name, at: show_menu(self.menus.of_take(name), at))
+        self.session.ended.connect(self._on_ended)
+        self.session.everyday_ended.connect(self._on_everyday_ended)
+        self.session.changed.connect(self._on_session_changed)
+        self.session.movement_found.connect(self._on_movement_found)
+        self.results.takes_asked.connect(self._on_takes_asked)
+        self.results.record_asked.connect(lambda name: self.record(name or self.cards.current))
+        self.results.everyday_asked.connect(lambda: self.record_everyday(60.0))
+        self.results.gesture_asked.connect(self.ask_for_gesture)
+        self.results.trial_asked.connect(lambda: self.tabs.setCurrentWidget(self.trial))
+
+    # Recording
+
+    def record_or_stop(self) -> None:
+        """Record the gesture in use; stop when something is recorded."""
+        if self.session.is_on:
+            self.session.stop()
+        else:
+            self.record(self.cards.current)
+
+    def record(self, name: str) -> None:
+        """Record takes of a gesture; when it is recorded already, stop."""
+        if self.session.is_on:
+            self.session.stop()
+            return
+        if name not in self.desk.gestures:
+            self.ask_for_gesture()
+            return
+        self.cards.choose(name)
+        self._begin(self.session.start(name))
+
+    def record_everyday(self, seconds: float) -> None:
+        """Record everyday movement."""
+        if not self.session.is_on:
+            self._begin(self.session.start_everyday(seconds))
+
+    def _begin(self, has_begun: bool) -> None:
+        if not has_begun:
+            self.bar.tell(tr("Nothing is heard yet. Connect a watch or phone, and move it."))
+            return
+        self.desk.choose_take("")
+        self.show_recording()
+        self.bar.tell(self._what_to_do())
+        self.strip.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _what_to_do(self) -> str:
+        gesture = self.session.gesture
+        if not gesture:
+            return tr("Move as you usually do, without your gestures.")
+        if self.simulated.is_there:
+            made = self.simulated.movement_for(gesture)
+            return tr("The simulated person makes the movement {movement}.", movement=made)
+        return tr("Hold still. After the countdown, make the gesture and rest, five times.")
+
+    def _on_ended(self, session: Session) -> None:
+        if session.takes and not keep_session(self.keeping, session):
+            self.bar.tell(tr("The takes could not be kept. Is the gesture still there?"))
+            return
+        self.cards.show_card(session.gesture)
+        self.bar.tell(session_words(session))
+
+    def _on_everyday_ended(self, samples: Samples) -> None:
+        self.bar.tell(everyday_words(samples, self.keeping.keep_everyday(samples)))
+
+    def _on_session_changed(self) -> None:
+        is_on = self.session.is_on
+        if self.head.isHidden() != is_on:
+            self.head.setVisible(not is_on)  # the graph has its room meanwhile
+        if not is_on and not self.isVisible():
+            self.desk.listen(False)
+        if self.beeps and self.session.state == "countdown":
+            QApplication.beep()
+
+    def _on_movement_found(self, _movement: object) -> None:
+        self.bar.tell(self.strip.big_words)
+        if self.beeps:
+            QApplication.beep()
+
+    # What else is asked for
+
+    def take_step(self, step: str, name: str) -> None:
+        """Do what the hint says."""
+        if step == "connect":
+            self.connect_asked.emit()
+        elif step in ("name", "another"):
+            self.ask_for_gesture()
+        elif step in ("record", "more"):
+            self.record(name)
+        elif step == "train":
+            self.training.train()
+            self.tabs.setCurrentWidget(self.results)
+        elif step == "try":
+            self.tabs.setCurrentWidget(self.trial)
+
+    def ask_for_gesture(self) -> None:
+        """Let the name of a new gesture be typed."""
+        self.show_recording()
+        self.cards.ask_for_name()
+
+    def _on_current_changed(self, name: str) -> None:
+        self.bar.set_gesture(name)
+
+    def show_recording(self) -> None:
+        """Show the graph and the gestures, where they share the room with other tabs."""
+        if self.tabs.indexOf(self.inner) >= 0:
+            self.tabs.setCurrentWidget(self.inner)
+
+    def _on_takes_asked(self, ids: object) -> None:
+        takes = (
+            [one for one in ids if isinstance(one, str)] if isinstance(ids, (list, tuple)) else []
+        )
+        found = self.desk.find_take(takes[0]) if takes else None
+        if found is not None:
+            self.show_recording()
+            self.desk.choose_take(found[1].id)
+            self.cards.choose(found[0])
+            self.cards.show_card(found[0])
+
+    def _on_everyday_asked(self) -> None:
+        button = self.bar.everyday
+        menu = self.menus.of_everyday(self.record_everyday)
+        show_menu(menu, button.mapToGlobal(QPoint(0, button.height())))
+
+    def _on_more_asked(self) -> None:
+        button, menu = self.head.more, self.menus.of_panel(self.exchange.entries())
+        menu.addSeparator()
+        beep = menu.addAction(tr("Beep while recording"))
+        beep.setCheckable(True)
+        beep.setChecked(self.beeps)
+        beep.toggled.connect(self._on_beep_chosen)
+        show_menu(menu, button.mapToGlobal(QPoint(0, button.height())))
+
+    def _on_beep_chosen(self, is_on: bool) -> None:
+        self.beeps = is_on
+
+    # Keys, size, and being looked at
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Space records and stops; Escape stops, or goes back to the live graph."""
+        if event.key() == Qt.Key.Key_Space and not event.isAutoRepeat():
+            self.record_or_stop()
+        elif event.key() == Qt.Key.Key_Escape and self.session.is_on:
+            self.session.stop()
+        elif event.key() == Qt.Key.Key_Escape and self.desk.chosen_take:
+            self.desk.choose_take("")
+        else:
+            super().keyPressEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take the shape that there is room for."""
+        super().resizeEvent(event)
+        line = max(1, self.fontMetrics().height())
+        shape = shape_for(self.width() / line, self.height() / line)
+        if shape != self._shape:
+            self._shape = shape
+            self._take_shape(shape)
+
+    def _take_shape(self, shape: Shape) -> None:
+        shown = self.tabs.currentWidget()
+        is_first = self.tabs.indexOf(self.inner) >= 0
+        if shape.is_tabbed and not is_first:
+            self.tabs.insertTab(0, self.inner, tr("Record"))
+            self.tabs.setCurrentIndex(0)
+        elif not shape.is_tabbed and is_first:
+            self.outer.insertWidget(0, self.inner)
+            self.inner.show()
+            self.tabs.setCurrentWidget(self.trial if shown is self.inner else shown)
+        across, down = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
+        self.outer.setOrientation(across if shape.is_beside else down)
+        self.inner.setOrientation(across if shape.has_cards_beside else down)
+        QTimer.singleShot(0, self, self._share_room)
+
+    def _share_room(self) -> None:
+        """Give the parts their usual shares, once they have the room of the shape."""
+        self.outer.setSizes([3000, 2000])
+        self.inner.setSizes([1000, 1000])
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Hear the sensors, and let the training be ready."""
+        super().showEvent(event)
+        self.desk.listen(True)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Hear them no more, unless something is recorded."""
+        super().hideEvent(event)
+        if not self.session.is_on:
+            self.desk.listen(False)

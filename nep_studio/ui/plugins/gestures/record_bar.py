@@ -1,0 +1,292 @@
+"""Below the graph: what records, how far it is, and what came of it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, QPoint, QSignalBlocker, QSize, Qt
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QProgressBar,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.own_gestures import WRISTS
+from nep_studio.blocks.slots import why_not_name
+from nep_studio.ui.messages import announce
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.questions import Asking
+from nep_studio.ui.words import tr
+
+from .gesture_controller import TrainerDesk
+from .project_gestures import Keeping
+from .recording import TakeSession
+from .sample_view import TakeView
+
+# Who wears the sensor, and where: chosen here before something is recorded.
+
+
+def wrist_words() -> dict[str, str]:
+    """Where a sensor can be, in words."""
+    return {
+        "left": tr("Left wrist"),
+        "right": tr("Right wrist"),
+        "hand": tr("In the hand"),
+    }
+
+
+class WearerBox(QObject):
+    """A list of people with a menu, a list of wrists, and the sensor if there are several.
+
+    ``who`` and ``where`` are the two widgets, which may stand apart.
+    """
+
+    def __init__(self, desk: TrainerDesk, keeping: Keeping) -> None:
+        super().__init__(desk)
+        self._desk, self._keeping = desk, keeping
+        self.asking: Asking | None = None
+        self.who, self.where = QWidget(), QWidget()
+        self.sign = QLabel()
+        self.person, self.wrist, self.source = QComboBox(), QComboBox(), QComboBox()
+        self.more = QToolButton()
+        self._lay_out()
+        for key, words in wrist_words().items():
+            self.wrist.addItem(words, key)
+        self.person.activated.connect(self._on_person_chosen)
+        self.wrist.activated.connect(self._on_wrist_chosen)
+        self.source.activated.connect(self._on_source_chosen)
+        self.more.clicked.connect(self.show_menu)
+        for signal in (desk.changed, desk.wearer_changed, desk.sources_changed):
+            signal.connect(self.refresh)
+        desk.look.theme_changed.connect(self._dress)
+        self._dress()
+        self.refresh()
+
+    def _lay_out(self) -> None:
+        self.person.setAccessibleName(tr("Who records"))
+        self.person.setToolTip(tr("Who records: each take belongs to a person"))
+        self.wrist.setAccessibleName(tr("Where the watch or phone is"))
+        self.wrist.setToolTip(tr("Where the watch or phone is while it is recorded"))
+        self.source.setAccessibleName(tr("Which watch or phone"))
+        self.more.setAccessibleName(tr("Change people"))
+        self.more.setToolTip(tr("Change people"))
+        for box in (self.person, self.wrist, self.source):
+            box.setSizeAdjustPolicy(
+                QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+            )
+            box.setMinimumContentsLength(9)
+        people, places = (self.sign, self.person, self.more), (self.wrist, self.source)
+        for outer, widgets in ((self.who, people), (self.where, places)):
+            row = QHBoxLayout(outer)
+            row.setContentsMargins(0, 0, 0, 0)
+            row.setSpacing(outer.fontMetrics().height() // 3)
+            for widget in widgets:
+                row.addWidget(widget)
+
+    def refresh(self) -> None:
+        """Show who is there."""
+        desk = self._desk
+        _fill(self.person, {name: name for name in desk.people}, desk.person)
+        with QSignalBlocker(self.wrist):
+            self.wrist.setCurrentIndex(WRISTS.index(desk.wrist))
+        in_use = desk.live.source if desk.live is not None else ""
+        _fill(self.source, {name: name for name in desk.streams}, in_use)
+        self.source.setVisible(len(desk.streams) > 1)
+
+    # The menu
+
+    def menu(self) -> QMenu:
+        """New person, another name, delete."""
+        menu, theme = QMenu(self.who), self._desk.look.theme
+        menu.addAction(icon("plus", theme), tr("New person…"), self.ask_for_new)
+        words = tr("Another name for {person}…", person=self._desk.person)
+        menu.addAction(icon("pencil", theme), words, self.ask_for_name)
+        words = tr("Delete {person} with all takes", person=self._desk.person)
+        menu.addAction(icon("trash-2", theme), words, self.delete_person)
+        return menu
+
+    def show_menu(self) -> None:
+        """Show it below its button."""
+        menu = self.menu()
+        menu.aboutToHide.connect(menu.deleteLater)
+        menu.popup(self.more.mapToGlobal(QPoint(0, self.more.height())))
+
+    def ask_for_new(self) -> None:
+        """Ask for the name of somebody who has not recorded yet."""
+        self._ask(tr("Name of the new person"), tr("Add"), self.add_person, "")
+
+    def ask_for_name(self) -> None:
+        """Ask for another name."""
+        self._ask(
+            tr("Another name for {person}", person=self._desk.person),
+            tr("Rename"),
+            lambda name: self._keeping.rename_person(self._desk.person, name),
+            self._desk.person,
+        )
+
+    def add_person(self, name: str) -> None:
+        """Record for somebody else from now on."""
+        if why_not_name(name.strip()) is None:
+            self._desk.set_wearer(name)
+
+    def delete_person(self) -> None:
+        """Delete all that the person in use recorded; it can be undone."""
+        self._keeping.delete_person(self._desk.person)
+
+    def _ask(self, words: str, yes: str, answer: object, name: str) -> None:
+        assert callable(answer)
+        self.asking = Asking(self.who, self._desk.look.theme, words, yes, answer, name=name)
+        self.asking.show_at(self.person.mapToGlobal(QPoint(0, self.person.height())))
+
+    # What is chosen
+
+    def _on_person_chosen(self, row: int) -> None:
+        self._desk.set_wearer(str(self.person.itemData(row)))
+
+    def _on_wrist_chosen(self, row: int) -> None:
+        self._desk.set_wearer(wrist=WRISTS[row])
+
+    def _on_source_chosen(self, row: int) -> None:
+        self._desk.use_source(str(self.source.itemData(row)))
+
+    def _dress(self) -> None:
+        theme, line = self._desk.look.theme, self.who.fontMetrics().height()
+        self.sign.setPixmap(
+            icon("user", theme).pixmap(QSize(line, line), self.who.devicePixelRatioF())
+        )
+        self.more.setIcon(icon("ellipsis", theme))
+        self.more.setIconSize(QSize(line, line))
+
+
+def _fill(box: QComboBox, entries: dict[str, str], current: str) -> None:
+    """Offer these, if they are others than before."""
+    with QSignalBlocker(box):
+        if [box.itemData(row) for row in range(box.count())] != list(entries):
+            box.clear()
+            for key, words in entries.items():
+                box.addItem(words, key)
+        box.setCurrentIndex(max(0, box.findData(current)))
+
+
+class RecordBar(QWidget):
+    """One button that records and stops, beside it who is recorded and what goes on."""
+
+    def __init__(
+        self, desk: TrainerDesk, keeping: Keeping, session: TakeSession, take: TakeView
+    ) -> None:
+        super().__init__()
+        self._desk, self._session, self._take = desk, session, take
+        self.gesture = ""
+        self.button, self.cancel = QPushButton(), QPushButton(tr("Cancel"))
+        self.play, self.back = QToolButton(), QPushButton(tr("Back to the live graph"))
+        self.everyday = QPushButton(tr("Everyday movement"))
+        self.wearer = WearerBox(desk, keeping)
+        self.wearer.setParent(self)
+        self.words, self.progress = QLabel(), QProgressBar()
+        self._lay_out()
+        self.cancel.clicked.connect(session.cancel)
+        self.play.clicked.connect(take.play)
+        self.back.clicked.connect(lambda: desk.choose_take(""))
+        for signal in (session.changed, desk.changed, take.changed, desk.take_chosen):
+            signal.connect(self.refresh)
+        desk.look.theme_changed.connect(self._dress)
+        self._dress()
+        self.refresh()
+
+    def _lay_out(self) -> None:
+        for button in (self.button, self.cancel, self.back, self.everyday):
+            button.setAutoDefault(False)
+        tip = tr("Record how you usually move: the program learns what is no gesture")
+        self.everyday.setToolTip(tip)
+        self.back.setProperty("kind", "quiet")
+        self.words.setTextFormat(Qt.TextFormat.PlainText)
+        self.words.setWordWrap(True)
+        self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self.progress.setRange(0, 100)
+        self.progress.setAccessibleName(tr("How much is recorded"))
+        row = FlowLayout(gap=self.fontMetrics().height() // 3)
+        wearer = (self.wearer.who, self.wearer.where)
+        for widget in (self.button, self.cancel, self.play, self.back, *wearer, self.everyday):
+            row.addWidget(widget)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(self.fontMetrics().height() // 4)
+        box.addWidget(self.words)  # first: what came of it is seen without scrolling
+        box.addWidget(self.progress)
+        box.addLayout(row)
+
+    def tell(self, words: str) -> None:
+        """Say what came of it, on the screen and to screen readers."""
+        self.words.setText(words)
+        self.words.setVisible(bool(words))
+        announce(self, words)
+
+    def set_gesture(self, name: str) -> None:
+        """Record this gesture when the button is pressed."""
+        self.gesture = name
+        self.refresh()
+
+    def refresh(self, _what: object = None) -> None:
+        """Show what can be done now."""
+        session, is_open = self._session, self._take.is_open
+        is_everyday = session.state == "everyday"
+        gesture = self._desk.gestures.get(self.gesture)
+        self.button.setVisible(session.is_on or not is_open)
+        self.button.setEnabled(session.is_on or gesture is not None)
+        if session.is_on:
+            self._show_button(tr("Stop"), "stop")
+        elif gesture is not None:
+            words = tr("Record “{gesture}”", gesture=_short(gesture.title))
+            self._show_button(words, "primary")
+        else:
+            self._show_button(tr("Record"), "primary")
+        self.cancel.setVisible(session.is_on)
+        self.play.setVisible(is_open and not session.is_on)
+        self.back.setVisible(is_open and not session.is_on)
+        for widget in (self.wearer.who, self.wearer.where, self.everyday):
+            widget.setVisible(not session.is_on and not is_open)
+        self.everyday.setEnabled(self._desk.editor is not None)
+        self.progress.setVisible(is_everyday)
+        self.progress.setValue(round(session.share * 100))
+        self._dress_play()
+        self.words.setVisible(bool(self.words.text()))
+
+    def _show_button(self, words: str, kind: str) -> None:
+        if (words, kind) == (self.button.text(), self.button.property("kind")):
+            return
+        self.button.setText(words)
+        self.button.setToolTip(tr("Space"))
+        if kind != self.button.property("kind"):
+            self.button.setProperty("kind", kind)
+            self.button.style().unpolish(self.button)
+            self.button.style().polish(self.button)
+            self._dress()
+
+    def _dress(self) -> None:
+        theme = self._desk.look.theme
+        is_on = self._session.is_on
+        name, colour = ("square", "stop_text") if is_on else ("circle-dot", "accent_text")
+        self.button.setIcon(icon(name, theme.colour(colour)))
+        line = self.fontMetrics().height()
+        self.play.setIconSize(QSize(line, line))
+        self.everyday.setIcon(icon("footprints", theme))
+        self._dress_play()
+
+    def _dress_play(self) -> None:
+        is_playing = self._take.cursor_s is not None
+        words = tr("Stop playing") if is_playing else tr("Play the take")
+        if words != self.play.accessibleName():
+            self.play.setAccessibleName(words)
+            self.play.setToolTip(words)
+        self.play.setIcon(icon("square" if is_playing else "play", self._desk.look.theme))
+
+
+def _short(title: str) -> str:
+    """A title that leaves room for others."""
+    return title if len(title) <= 24 else title[:23] + "…"

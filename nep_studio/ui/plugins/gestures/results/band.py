@@ -1,0 +1,390 @@
+"""A movement beside the curve that the paper's recogniser expects, and the band around it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+
+from nep_core.errors import RecordingError
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.live import Samples
+from nep_studio.ui.plugins.sensors.streams import Floats
+from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import tr
+from nodes.perceptual.recognition.features import POINTS, Integers, Singles, cut_windows
+from nodes.perceptual.recognition.gmr import Gmr
+from nodes.perceptual.recognition.model import Model, Recogniser
+from nodes.perceptual.recognition.streams import EvenStream, mirrored
+from nodes.perceptual.recognition.windows import Detection
+
+from .certainties import Looks, is_mirrored
+from .labels import Words
+
+WIDE = 2.0
+"""The band is so many standard deviations wide, to each side."""
+KINDS = ("body", "rotation", "gravity")
+_INSIDE, _MOSTLY = 0.9, 0.7
+_PARTS = 3
+_STEP = 2
+"""Of so many samples, one is tried as the end of the movement."""
+_LEAST_SAMPLES = 6
+
+
+@dataclass(frozen=True)
+class Band:
+    """n signals over 32 points; ``mean`` and ``spread`` (32, n) are expected, ``live`` was made.
+
+    ``names`` are such as "body x". ``live`` is None while nothing was made.
+    """
+
+    gesture: str
+    names: tuple[str, ...]
+    mean: Floats
+    spread: Floats
+    live: Floats | None
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Which kinds of signals there are."""
+        return tuple(kind for kind in KINDS if any(name.startswith(kind) for name in self.names))
+
+    def columns(self, kind: str) -> list[int]:
+        """The signals of a kind along x, y and z."""
+        wanted = [f"{kind} {axis}" for axis in "xyz"]
+        return [self.names.index(name) for name in wanted if name in self.names]
+
+    @property
+    def is_inside(self) -> np.ndarray[tuple[int, int], np.dtype[np.bool_]]:
+        """Where what was made is within the band; (32, n)."""
+        if self.live is None:
+            return np.ones(self.mean.shape, bool)
+        inside: np.ndarray[tuple[int, int], np.dtype[np.bool_]] = (
+            np.abs(self.live - self.mean) <= WIDE * self.spread
+        )
+        return inside
+
+    @property
+    def share_inside(self) -> float:
+        """Which part of the movement is within the band."""
+        return float(self.is_inside.mean())
+
+    def worst(self) -> tuple[str, int]:
+        """The kind of signal that leaves the band most, and the part of the movement (0 to 2)."""
+        outside = ~self.is_inside
+        parts = np.array_split(outside, _PARTS)
+        amounts = {
+            (kind, part): float(rows[:, self.columns(kind)].mean())
+            for kind in self.kinds
+            for part, rows in enumerate(parts)
+        }
+        return max(amounts, key=lambda key: amounts[key])
+
+
+def band_of(
+    model: Model, gesture: str, movement: Samples | None, *, gravity_included: bool
+) -> Band | None:
+    """What is expected of a gesture, and the movement in the same signals; None without a curve.
+
+    Of the movement that part is taken that is most like the gesture.
+    """
+    has_rotation = movement is None or movement.gyr is not None
+    try:
+        recogniser = model.recogniser("gmr", gravity_included, has_rotation)
+    except RecordingError:
+        return None
+    if gesture not in model.names or not isinstance(recogniser.scorer, Gmr):
+        return None
+    number, curves = model.names.index(gesture), recogniser.scorer.curves
+    mean, spread = curves.expected(number)
+    live = None
+    if movement is not None:
+        signals = _windows(movement, recogniser, model.lengths[model.fits[:, number]])
+        if len(signals):
+            live = signals[curves.distances(signals)[:, number].argmin()].astype(float)
+    return Band(gesture, recogniser.channels.signal_names, mean, spread, live)
+
+
+def _windows(movement: Samples, recogniser: Recogniser, lengths: Integers) -> Singles:
+    """All windows of a movement as the recogniser sees them; (n, 32, signals)."""
+    channels = recogniser.channels
+    parts = [movement.acc] if movement.gyr is None else [movement.acc, movement.gyr]
+    values = np.hstack(parts)[:, : channels.columns]
+    stretches = list(EvenStream().push(movement.t, values))
+    rows = max((one.values for one in stretches), key=len, default=values[:0])
+    if len(rows) < _LEAST_SAMPLES:
+        return np.empty((0, POINTS, channels.signals), np.float32)
+    usable = lengths[lengths <= len(rows)]
+    sizes = usable if len(usable) else np.array([len(rows)])
+    pairs = [(last, size) for size in sizes.tolist() for last in range(size - 1, len(rows), _STEP)]
+    last, length = np.array(pairs, np.intp).T
+    return recogniser.windows(cut_windows(rows, last, length), length).signals
+
+
+def kind_words(kind: str) -> str:
+    """What the signals of a kind are called."""
+    words = {
+        "body": tr("Movement"),
+        "rotation": tr("Rotation"),
+        "gravity": tr("How the watch is held"),
+    }
+    return words[kind]
+
+
+def in_words(band: Band, title: str) -> str:
+    """What the picture shows."""
+    if band.live is None:
+        return tr(
+            "The line is how “{gesture}” is expected, the band how far takes stray from it."
+            " Make the gesture to see yours over it.",
+            gesture=title,
+        )
+    share, percent = band.share_inside, round(band.share_inside * 100)
+    if share >= _INSIDE:
+        return tr(
+            "Your movement follows “{gesture}”: {percent} % of it is within the band.",
+            gesture=title,
+            percent=percent,
+        )
+    kind, part = band.worst()
+    where = (tr("at the beginning"), tr("in the middle"), tr("at the end"))[part]
+    if share >= _MOSTLY:
+        return tr(
+            "Your movement is near “{gesture}”: {percent} % of it is within the band."
+            " It strays most {where} ({signal}).",
+            gesture=title,
+            percent=percent,
+            where=where,
+            signal=kind_words(kind),
+        )
+    return tr(
+        "Your movement is not “{gesture}”: only {percent} % of it is within the band."
+        " It strays most {where} ({signal}).",
+        gesture=title,
+        percent=percent,
+        where=where,
+        signal=kind_words(kind),
+    )
+
+
+# Draws the expected curve of a gesture with its band, and the last movement over it.
+
+LINES_HIGH = 3.6
+"""How high the strip of one axis is."""
+_AXES = "xyz"
+
+
+class BandView(QWidget):
+    """Three strips, one for each axis, over the duration of the movement."""
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self.band: Band | None = None
+        self.kind = "body"
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(tr("Expected curve"))
+        look.theme_changed.connect(self.update)
+
+    def show_band(self, band: Band | None, kind: str, words: str) -> None:
+        """Show the signals of a kind; ``words`` say what is to be seen."""
+        self.band, self.kind = band, kind
+        self.setAccessibleDescription(words)
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """Three strips and the legend."""
+        line = self.fontMetrics().height()
+        return QSize(line * 16, round(line * (LINES_HIGH * len(_AXES) + 1.5)))
+
+    def minimumSizeHint(self) -> QSize:
+        """Rather narrow, and as high."""
+        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
+
+    def strip(self, number: int) -> QRectF:
+        """Where the strip of an axis is."""
+        line = self.fontMetrics().height()
+        top = line * (1.5 + number * LINES_HIGH)
+        return QRectF(line * 1.2, top, self.width() - line * 1.2 - 1, line * (LINES_HIGH - 0.4))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the strips."""
+        theme = self._look.theme
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        columns = self.band.columns(self.kind) if self.band is not None else []
+        for number, axis in enumerate(_AXES):
+            strip = self.strip(number)
+            painter.fillRect(strip, theme.colour("field"))
+            if self.band is not None and number < len(columns):
+                painter.setClipRect(strip)
+                self._paint_strip(painter, theme, self.band, columns, number)
+                painter.setClipping(False)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(theme.colour("line"), 1))
+            painter.drawRect(strip)
+            painter.setPen(theme.colour("muted"))
+            room = QRectF(0, strip.top(), strip.left(), strip.height())
+            painter.drawText(room, Qt.AlignmentFlag.AlignCenter, axis)
+        self._paint_legend(painter, theme)
+        painter.end()
+
+    def _paint_strip(
+        self, painter: QPainter, theme: Theme, band: Band, columns: list[int], number: int
+    ) -> None:
+        column, strip = columns[number], self.strip(number)
+        low, high = _range(band, columns)
+
+        def line_of(values: Floats) -> list[QPointF]:
+            xs = np.linspace(strip.left(), strip.right(), len(values))
+            ys = strip.bottom() - (values - low) / (high - low) * strip.height()
+            return [QPointF(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
+
+        mean, wide = band.mean[:, column], WIDE * band.spread[:, column]
+        pale = QColor(theme.colour("plot_1"))
+        pale.setAlphaF(0.25)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(pale)
+        painter.drawPolygon(QPolygonF([*line_of(mean + wide), *reversed(line_of(mean - wide))]))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(self._pen(theme, "plot_1"))
+        painter.drawPolyline(QPolygonF(line_of(mean)))
+        if band.live is not None:
+            painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
+            painter.drawPolyline(QPolygonF(line_of(band.live[:, column])))
+
+    def _paint_legend(self, painter: QPainter, theme: Theme) -> None:
+        line, metrics = self.fontMetrics().height(), self.fontMetrics()
+        x, middle = self.strip(0).left(), line * 0.7
+        for colour, words in (("plot_1", tr("expected")), ("plot_2", tr("yours"))):
+            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
+            painter.drawLine(QPointF(x, middle), QPointF(x + line * 1.6, middle))
+            painter.setPen(theme.colour("text"))
+            painter.drawText(QPointF(x + line * 1.9, middle + metrics.ascent() * 0.4), words)
+            x += line * 2.9 + metrics.horizontalAdvance(words)
+
+    def _pen(self, theme: Theme, colour: str, *, is_dashed: bool = False) -> QPen:
+        pen = QPen(theme.colour(colour), max(2.0, self.fontMetrics().height() / 9))
+        if is_dashed:
+            pen.setDashPattern([3.0, 2.0])
+        return pen
+
+
+def _range(band: Band, columns: list[int]) -> tuple[float, float]:
+    """The values that the strips have room for, the same for all three."""
+    mean, wide = band.mean[:, columns], WIDE * band.spread[:, columns]
+    parts = [mean - wide, mean + wide] + ([] if band.live is None else [band.live[:, columns]])
+    low, high = min(float(one.min()) for one in parts), max(float(one.max()) for one in parts)
+    margin = max(high - low, 0.1) * 0.05
+    return low - margin, high + margin
+
+
+# The expected curve of the gesture that fits best, or of a chosen one, in pictures and words.
+
+LOOKED_BACK_S = 4.0
+AROUND_S = 0.5
+"""The curve may fit best a little earlier or later than where the gesture was recognised."""
+_LEAST = 0.25
+"""A movement of which it is less certain is none of the gestures: the last one stays."""
+
+
+class BandPanel(QWidget):
+    """Follows what is tried out."""
+
+    def __init__(
+        self, desk: TrainerDesk, title: Callable[[str], str], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._desk, self._title = desk, title
+        self._model: Model | None = None
+        self._shown: Detection | None = None
+        self.band: Band | None = None
+        self.gesture = QComboBox()
+        self.gesture.setAccessibleName(tr("Gesture of the curve"))
+        self.kind = QComboBox()
+        self.kind.setAccessibleName(tr("What is drawn"))
+        self.view = BandView(desk.look)
+        self.sentence = Words()
+        self._lay_out()
+        self.gesture.currentIndexChanged.connect(self._on_chosen)
+        self.kind.currentIndexChanged.connect(self._show)
+        self.use_model(None)
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout()
+        for box in (self.gesture, self.kind):
+            box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+            row.addWidget(box, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(row)
+        column.addWidget(self.view)
+        column.addWidget(self.sentence)
+
+    def use_model(self, model: Model | None) -> None:
+        """Show the curves of this model."""
+        self._model, self._shown = model, None
+        chosen = self.gesture.currentData()
+        with QSignalBlocker(self.gesture):
+            self.gesture.clear()
+            self.gesture.addItem(tr("Best fit"), "")
+            for name in model.names if model is not None else ():
+                self.gesture.addItem(self._title(name), name)
+            self.gesture.setCurrentIndex(max(0, self.gesture.findData(chosen)))
+        self._on_chosen()
+
+    def follow(self, looks: Looks) -> None:
+        """Show the last movement, if it is another one and may be a gesture."""
+        since_s, name = looks.now_s - LOOKED_BACK_S, str(self.gesture.currentData() or "")
+        found = looks.best(name, since_s) if name else looks.most_certain(since_s)
+        if found is not None and found.certainty >= _LEAST and found != self._shown:
+            self._shown = found
+            self._compute(found.gesture)
+
+    def _on_chosen(self) -> None:
+        name = str(self.gesture.currentData() or "")
+        if self._shown is not None and name not in ("", self._shown.gesture):
+            self._shown = None
+        shown = self._shown.gesture if self._shown is not None else name
+        self._compute(shown or next(iter(self._model.names if self._model else ()), ""))
+
+    def _compute(self, name: str) -> None:
+        """Bring the movement and the curve together."""
+        live, shown = self._desk.live, self._shown
+        movement: Samples | None = None
+        if live is not None and shown is not None:
+            movement = live.between(shown.t_start - AROUND_S, shown.t_end + AROUND_S)
+            if self._model is not None and is_mirrored(self._desk.wrist, self._model):
+                movement = Samples(movement.t, *mirrored(movement.acc, movement.gyr))
+        gravity = live.gravity_included if live is not None else True
+        self.band = None
+        if self._model is not None:
+            self.band = band_of(self._model, name, movement, gravity_included=gravity)
+        self._offer_kinds()
+        self._show()
+
+    def _offer_kinds(self) -> None:
+        kinds = self.band.kinds if self.band is not None else KINDS[:1]
+        if [self.kind.itemData(at) for at in range(self.kind.count())] == list(kinds):
+            return
+        chosen = self.kind.currentData()
+        with QSignalBlocker(self.kind):
+            self.kind.clear()
+            for kind in kinds:
+                self.kind.addItem(kind_words(kind), kind)
+            self.kind.setCurrentIndex(max(0, self.kind.findData(chosen)))
+
+    def _show(self) -> None:
+        if self.band is None:
+            words = tr("There is no expected curve for this sensor.") if self._model else ""
+        else:
+            words = in_words(self.band, self._title(self.band.gesture))
+        self.view.show_band(self.band, str(self.kind.currentData()), words)
+        self.sentence.setText(words)

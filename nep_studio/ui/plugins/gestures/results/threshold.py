@@ -1,0 +1,349 @@
+"""Sets how certain the recogniser must be of one gesture, and shows both sides of it at once."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QSlider,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.own_gestures import TRIGGER
+from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import count_words, tr
+
+from .findings import Findings, Point, between
+from .tuning import HIGHEST, LOWEST, Tuning
+
+# What a recognition point of a gesture means, in one sentence with both of its sides.
+
+_NEVER = 0.05
+"""Fewer false triggers an hour are told as none."""
+
+
+def both_sides(findings: Findings, name: str, certainty: float) -> str:
+    """How much is caught and how much is false at a certainty; empty when it was not measured."""
+    point = findings.found_at(name, certainty)
+    if point is None:
+        return ""
+    takes = findings.takes.get(name, 0)
+    caught = tr("Caught {caught} of {all}", caught=round(point.caught * takes), all=takes)
+    false = _false_words(findings, point.false_per_hour)
+    others = round(point.false_in_others)
+    parts = [caught, false]
+    if others:
+        parts.append(count_words(others, "once at another gesture", "{n} times at other gestures"))
+    return " — ".join(parts)
+
+
+def _false_words(findings: Findings, rate: float) -> str:
+    if not findings.everyday_s:
+        return tr("false triggers not known yet")
+    if rate < _NEVER:
+        minutes = round(findings.everyday_s / 60)
+        return count_words(
+            max(minutes, 1),
+            "no false one in a minute of everyday movement",
+            "no false one in {n} minutes of everyday movement",
+        )
+    return tr(
+        "false about {rate} times an hour", rate=f"{rate:.0f}" if rate >= 3 else f"{rate:.1f}"
+    )
+
+
+# Draws what each recognition point of a gesture catches, and what it lets through.
+
+LINES_HIGH = 7.0
+_LEAST_RATE = 1.0
+"""The scale of false triggers an hour goes up to this at least: one false one looks small."""
+
+
+class PointCurve(QWidget):
+    """Two curves over the certainty, and the place where the recognition point is.
+
+    ``dragged`` gives the certainty that the mouse is at, ``let_go`` that it was let go.
+    """
+
+    dragged = Signal(float)
+    let_go = Signal()
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self.points: tuple[Point, ...] = ()
+        self.certainty = 0.75
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as all scales of numbers are
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setCursor(Qt.CursorShape.SizeHorCursor)
+        look.theme_changed.connect(self.update)
+
+    def show_points(self, points: tuple[Point, ...], certainty: float) -> None:
+        """Show the curves of a gesture and its recognition point."""
+        self.points, self.certainty = points, certainty
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """As wide as there is room, some lines high."""
+        line = self.fontMetrics().height()
+        return QSize(line * 16, round(line * LINES_HIGH))
+
+    def minimumSizeHint(self) -> QSize:
+        """Rather narrow, and as high."""
+        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
+
+    # The mouse
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Set the recognition point."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.dragged.emit(self.certainty_at(event.position().x()))
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Move it."""
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            self.dragged.emit(self.certainty_at(event.position().x()))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Let it go."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.let_go.emit()
+
+    # Where things are
+
+    def area(self) -> QRectF:
+        """Where the curves are; as wide as the groove of a slider below."""
+        line = self.fontMetrics().height()
+        return QRectF(
+            line * 0.5, line * 1.4, max(self.width() - line, 1.0), self.height() - line * 2.8
+        )
+
+    def certainty_at(self, x: float) -> float:
+        """The certainty at a place."""
+        area = self.area()
+        share = min(max((x - area.left()) / area.width(), 0.0), 1.0)
+        return LOWEST + share * (HIGHEST - LOWEST)
+
+    def x_of(self, certainty: float) -> float:
+        """Where a certainty is."""
+        area = self.area()
+        return area.left() + (certainty - LOWEST) / (HIGHEST - LOWEST) * area.width()
+
+    @property
+    def most_per_hour(self) -> float:
+        """What the top of the scale of false triggers is."""
+        return max(_LEAST_RATE, *(point.false_per_hour for point in self.points), 0.0)
+
+    # Painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the curves and the place."""
+        theme, area = self._look.theme, self.area()
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        painter.fillRect(area, theme.colour("field"))
+        painter.setPen(QPen(theme.colour("line"), 1))
+        painter.drawRect(area)
+        if self.points:
+            self._paint_curves(painter, theme)
+        self._paint_place(painter, theme)
+        painter.end()
+
+    def _paint_curves(self, painter: QPainter, theme: Theme) -> None:
+        most = self.most_per_hour
+        caught = [self._place(point.certainty, point.caught) for point in self.points]
+        false = [self._place(p.certainty, _height(p.false_per_hour, most)) for p in self.points]
+        pale = QColor(theme.colour("plot_1"))
+        pale.setAlphaF(0.15)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(pale)
+        bottom = self.area().bottom()
+        ends = [QPointF(caught[-1].x(), bottom), QPointF(caught[0].x(), bottom)]
+        painter.drawPolygon(QPolygonF([*caught, *ends]))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
+        painter.drawPolyline(QPolygonF(false))
+        painter.setPen(self._pen(theme, "plot_1"))
+        painter.drawPolyline(QPolygonF(caught))
+        self._paint_legend(painter, theme)
+
+    def _paint_legend(self, painter: QPainter, theme: Theme) -> None:
+        """Above the curves, each word with a piece of its line."""
+        line, metrics = self.fontMetrics().height(), self.fontMetrics()
+        x, middle = self.area().left(), line * 0.7
+        for colour, words in (("plot_1", tr("caught")), ("plot_2", tr("false alarms"))):
+            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
+            painter.drawLine(QLineF(x, middle, x + line * 1.6, middle))
+            painter.setPen(theme.colour("text"))
+            room = QRectF(x + line * 1.9, 0, self.width() - x - line * 1.9, line * 1.4)
+            flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft
+            painter.drawText(room, flags, words)
+            x += line * 2.9 + metrics.horizontalAdvance(words)
+
+    def _paint_place(self, painter: QPainter, theme: Theme) -> None:
+        area, line, x = self.area(), self.fontMetrics().height(), self.x_of(self.certainty)
+        painter.setPen(QPen(theme.colour("snap"), max(2.0, line / 8)))
+        painter.drawLine(QLineF(x, area.top(), x, area.bottom() + line * 0.3))
+        found = between(self.points, self.certainty)
+        if found is not None:
+            most = self.most_per_hour
+            painter.setBrush(theme.colour("field"))
+            heights = {"plot_1": found.caught, "plot_2": _height(found.false_per_hour, most)}
+            for colour, height in heights.items():
+                painter.setPen(QPen(theme.colour(colour), max(2.0, line / 8)))
+                painter.drawEllipse(self._place(self.certainty, height), line / 4, line / 4)
+        painter.setPen(theme.colour("text"))
+        words = f"{self.certainty * 100:.0f} %"
+        wide = self.fontMetrics().horizontalAdvance(words)
+        left = min(max(x - wide / 2, 0.0), self.width() - wide)
+        room = QRectF(left, area.bottom() + line * 0.25, wide + 1, line * 1.1)
+        painter.drawText(room, Qt.AlignmentFlag.AlignCenter, words)
+
+    def _pen(self, theme: Theme, colour: str, *, is_dashed: bool = False) -> QPen:
+        wide = max(2.0, self.fontMetrics().height() / 8)
+        pen = QPen(theme.colour(colour), wide * (1.5 if theme.name == HIGH_CONTRAST else 1))
+        if is_dashed:
+            pen.setDashPattern([3.0, 2.0])
+        return pen
+
+    def _place(self, certainty: float, share: float) -> QPointF:
+        area = self.area()
+        return QPointF(self.x_of(certainty), area.bottom() - min(share, 1.0) * area.height())
+
+
+def _height(per_hour: float, most: float) -> float:
+    """Where a rate is between none and the most: few false triggers matter, many are many."""
+    return math.sqrt(per_hour / most)
+
+
+KEEP_MS = 700
+"""Steps of keys that follow each other within this time are one step of undo."""
+
+
+class PointPanel(QWidget):
+    """A gesture is chosen, its curves are shown, a slider below them sets its point."""
+
+    def __init__(self, tuning: Tuning, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.tuning = tuning
+        self.gesture = QComboBox()
+        self.gesture.setAccessibleName(tr("Gesture"))
+        self.gesture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.curve = PointCurve(look)
+        self.slider = PointSlider(tuning)
+        self.sentence = QLabel()
+        self.sentence.setWordWrap(True)
+        self.reset = QPushButton(tr("Usual"))
+        self.reset.setToolTip(tr("Set the recognition point to {percent} %", percent=75))
+        self.reset.setProperty("kind", "quiet")
+        self._lay_out()
+        self.gesture.currentIndexChanged.connect(self.refresh)
+        self.curve.dragged.connect(lambda certainty: tuning.preview(self.name, certainty))
+        self.curve.let_go.connect(lambda: tuning.keep(self.name))
+        self.reset.clicked.connect(lambda: tuning.reset(self.name))
+        tuning.point_changed.connect(self._on_point_changed)
+        tuning.method_changed.connect(self.refresh)
+        self.fill()
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout()
+        row.addWidget(self.gesture, 1)
+        row.addWidget(self.reset)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addLayout(row)
+        box.addWidget(self.curve)
+        box.addWidget(self.slider)
+        box.addWidget(self.sentence)
+
+    @property
+    def name(self) -> str:
+        """The gesture that is chosen."""
+        return str(self.gesture.currentData() or "")
+
+    def fill(self) -> None:
+        """Offer the gestures that were learned."""
+        findings, gestures = self.tuning.findings, self.tuning.desk.gestures
+        known = [name for name in gestures if findings is not None and name in findings.takes]
+        chosen = self.name
+        with QSignalBlocker(self.gesture):
+            self.gesture.clear()
+            for name in known:
+                self.gesture.addItem(gestures[name].title, name)
+            self.gesture.setCurrentIndex(max(0, self.gesture.findData(chosen)))
+        self.refresh()
+
+    def choose(self, name: str) -> None:
+        """Show a gesture."""
+        if (at := self.gesture.findData(name)) >= 0:
+            self.gesture.setCurrentIndex(at)
+
+    def refresh(self) -> None:
+        """Show the recognition point as it is now."""
+        findings, certainty = self.tuning.findings, self.tuning.point(self.name)
+        points = findings.curves.get(self.name, ()) if findings is not None else ()
+        self.curve.show_points(points, certainty)
+        self.slider.show_gesture(self.name)
+        words = both_sides(findings, self.name, certainty) if findings is not None else ""
+        missing = tr("Record each gesture at least twice: then it is known what a point means.")
+        self.sentence.setText(words or missing)
+        self.slider.setAccessibleDescription(words)
+        self.reset.setEnabled(bool(self.name) and round(certainty - TRIGGER, 3) != 0)
+
+    def _on_point_changed(self, name: str) -> None:
+        if name == self.name:
+            self.refresh()
+
+
+class PointSlider(QSlider):
+    """The recognition point of a gesture in hundredths; a drag is one step of undo."""
+
+    def __init__(self, tuning: Tuning, parent: QWidget | None = None) -> None:
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self.tuning, self.name = tuning, ""
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        self.setRange(round(LOWEST * 100), round(HIGHEST * 100))
+        self.setPageStep(5)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self._keep_soon = QTimer(self, singleShot=True, interval=KEEP_MS)
+        self._keep_soon.timeout.connect(self.keep)
+        self.valueChanged.connect(self._on_value_changed)
+        self.sliderReleased.connect(self.keep)
+
+    def show_gesture(self, name: str) -> None:
+        """Be the slider of this gesture."""
+        if name != self.name:
+            self.keep()
+            self.name = name
+            gesture = self.tuning.desk.gestures.get(name)
+            title = gesture.title if gesture is not None else ""
+            self.setAccessibleName(tr("Recognition point of “{gesture}”", gesture=title))
+        with QSignalBlocker(self):
+            self.setValue(round(self.tuning.point(name) * 100))
+        self.setEnabled(bool(name))
+        self.update()
+
+    def keep(self) -> None:
+        """Let the project have what is shown, if it was moved."""
+        self._keep_soon.stop()
+        if self.name in self.tuning.moved:
+            self.tuning.keep(self.name)
+
+    def _on_value_changed(self, value: int) -> None:
+        self.tuning.preview(self.name, value / 100)
+        if not self.isSliderDown():
+            self._keep_soon.start()
+
+    def minimumSizeHint(self) -> QSize:
+        """As narrow as the curves above may be."""
+        return QSize(self.fontMetrics().height() * 6, super().minimumSizeHint().height())

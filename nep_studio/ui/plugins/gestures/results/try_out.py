@@ -1,0 +1,379 @@
+"""Tries the gestures out: what the recogniser sees now, and what it would recognise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QVBoxLayout, QWidget
+
+from nep_core.errors import RecordingError
+from nep_studio.ui.messages import announce
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.live import Samples
+from nep_studio.ui.plugins.gestures.project_gestures import Keeping
+from nep_studio.ui.widgets.layouts import FlowLayout, Halves, scrolled
+from nep_studio.ui.words import tr
+from nodes.perceptual.recognition.model import Model
+from nodes.perceptual.recognition.windows import Detection
+
+from .band import BandPanel
+from .certainties import KEPT_S, Listening, LookedAt, Looks, Wanted
+from .labels import Sign, Words
+from .threshold import both_sides
+from .timeline import GestureBar, TriggerTimeline
+from .training import Training
+
+# What "it missed it" and "false alarm" add to the project: the last seconds, as movement.
+
+BEFORE_S, AFTER_S = 1.0, 0.5
+"""So much around a movement is kept with it."""
+SHORTEST_S, LONGEST_S = 0.3, 8.0
+
+
+def keep_missed(desk: TrainerDesk, name: str, start_s: float, end_s: float) -> bool:
+    """Keep a movement (on the clock of the live stream) as a take more of a gesture.
+
+    What is around it may be anything, so nothing is learned from that. False when too little of
+    the movement is still known.
+    """
+    samples = _around(desk, start_s, end_s)
+    if not len(samples):
+        return False
+    first_s, last_s = float(samples.t[0]), float(samples.t[-1])
+    take = (max(start_s, first_s), min(end_s, last_s))
+    if not SHORTEST_S <= take[1] - take[0] <= LONGEST_S:
+        return False
+    unknown = [span for span in ((first_s, take[0]), (take[1], last_s)) if span[1] > span[0]]
+    label = "add what was missed"
+    return bool(Keeping(desk).keep_session(name, samples, [take], unknown, label))
+
+
+def keep_false_alarm(desk: TrainerDesk, start_s: float, end_s: float) -> bool:
+    """Keep a movement as everyday movement; False when too little of it is still known."""
+    samples = _around(desk, start_s, end_s)
+    return samples.seconds >= SHORTEST_S and Keeping(desk).keep_everyday(samples)
+
+
+def _around(desk: TrainerDesk, start_s: float, end_s: float) -> Samples:
+    live = desk.live
+    return Samples.none() if live is None else live.between(start_s - BEFORE_S, end_s + AFTER_S)
+
+
+# Two buttons that tell the recogniser what it did wrong, while one tries it out.
+
+MISSED_S, ALARM_S = 6.0, 10.0
+"""How far back a missed gesture, and a false alarm, is looked for."""
+USUAL_S = 1.5
+"""A movement of which nothing is known is taken to be so long."""
+
+
+class CorrectionBar(QWidget):
+    """``looks`` gives what the recogniser saw in the last half minute."""
+
+    def __init__(
+        self, desk: TrainerDesk, looks: Callable[[], Looks], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._desk, self._looks = desk, looks
+        self.missed = QPushButton(tr("It missed it"))
+        self.missed.setToolTip(tr("Keep the last seconds as a take more of a gesture"))
+        self.false_alarm = QPushButton(tr("False alarm"))
+        self.false_alarm.setToolTip(tr("Keep the last seconds as everyday movement"))
+        self.menu = QMenu(self.missed)
+        self.menu.aboutToShow.connect(self.fill_menu)
+        self.missed.setMenu(self.menu)
+        self.false_alarm.clicked.connect(self.keep_false_alarm)
+        row = FlowLayout(self)
+        row.addWidget(self.missed)
+        row.addWidget(self.false_alarm)
+
+    def fill_menu(self) -> None:
+        """Offer the gestures that may have been missed."""
+        self.menu.clear()
+        for name, gesture in self._desk.gestures.items():
+            action = self.menu.addAction(gesture.title.replace("&", "&&"))
+            action.triggered.connect(partial(self.keep_missed, name))
+
+    def keep_missed(self, name: str, _is_on: bool = False) -> None:
+        """Keep the movement of the last seconds that is most like a gesture as a take of it."""
+        live, looks = self._desk.live, self._looks()
+        if live is None:
+            return
+        best = looks.best(name, looks.now_s - MISSED_S)
+        end_s = best.t_end if best is not None else live.last_t
+        start_s = best.t_start if best is not None else end_s - USUAL_S
+        title = self._desk.gestures[name].title
+        is_kept = keep_missed(self._desk, name, start_s, end_s)
+        self._tell(is_kept, tr("Kept as a take of “{gesture}”", gesture=title))
+
+    def keep_false_alarm(self) -> None:
+        """Keep what caused the last trigger as everyday movement."""
+        live = self._desk.live
+        if live is None:
+            return
+        recent = [one for one in self._looks().triggers if one.t_end > live.last_t - ALARM_S]
+        end_s = recent[-1].t_end if recent else live.last_t
+        start_s = recent[-1].t_start if recent else end_s - 2 * USUAL_S
+        is_kept = keep_false_alarm(self._desk, start_s, end_s)
+        self._tell(is_kept, tr("Kept as everyday movement"))
+
+    def _tell(self, is_kept: bool, words: str) -> None:
+        if is_kept:
+            self._desk.messages.confirm(words)
+        else:
+            self._desk.messages.refuse(
+                "Too little movement was heard in the last seconds.",
+                ("Make the movement, then press the button at once.",),
+            )
+
+
+WIDE_LINES = 38
+"""So many lines of text wide, bars and curves have room beside each other."""
+FLASH_MS = 1400
+ANNOUNCE_MS = 500
+"""A screen reader says the last of several gestures that follow each other so soon."""
+_HEARING_MS = 500
+_BATCH_S = 1.0
+
+
+class TryOut(QWidget):
+    """``recognised`` gives the Detection of each gesture that was just made."""
+
+    recognised = Signal(object)
+
+    def __init__(
+        self, desk: TrainerDesk, training: Training, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.desk, self.training, self.tuning = desk, training, training.tuning
+        self.looks = Looks()
+        self.model: Model | None = None
+        self.problem: RecordingError | None = None
+        self.listening = Listening(self)
+        self._told_s = 0.0
+        """Until then nothing is news: another recogniser or point may find what is long over."""
+        self._flashing: Detection | None = None
+        self._make()
+        self._lay_out()
+        self._connect()
+        self._fill_bars()
+        self.meaning.hide()
+
+    def _make(self) -> None:
+        look = self.desk.look
+        self.sign = Sign(look)
+        self.said = Words(role="title")
+        self.steps = Words(role="hint")
+        self.bars: dict[str, GestureBar] = {}
+        self.meaning = Words(role="hint")
+        self.timeline = TriggerTimeline(self._title, look)
+        self.corrections = CorrectionBar(self.desk, lambda: self.looks)
+        self.band = BandPanel(self.desk, self._title)
+        self._flash_over = QTimer(self, singleShot=True, interval=FLASH_MS)
+        self._say_soon = QTimer(self, singleShot=True, interval=ANNOUNCE_MS)
+        self._is_heard = QTimer(self, interval=_HEARING_MS)
+
+    def _lay_out(self) -> None:
+        inner = QWidget()
+        box = QVBoxLayout(inner)
+        head = QHBoxLayout()
+        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
+        head.addWidget(self.said, 1)
+        box.addLayout(head)
+        box.addWidget(self.steps)
+        self._bars_box = QVBoxLayout()
+        self._bars_box.setSpacing(0)
+        self.live = Halves(WIDE_LINES)
+        self.live.first.addLayout(self._bars_box)
+        self.live.add(self.meaning, self.timeline, self.corrections)
+        self.live.add_beside(Words(tr("Expected curve"), "heading"), self.band)
+        box.addWidget(self.live)
+        box.addStretch(1)
+        self.area = scrolled(inner)
+        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self.area)
+
+    def _connect(self) -> None:
+        self.desk.heard.connect(self._on_heard)
+        self.desk.changed.connect(self._on_changed)
+        self.desk.sources_changed.connect(self._on_source_changed)
+        self.desk.wearer_changed.connect(self._listen)
+        self.tuning.method_changed.connect(self._on_changed)
+        self.tuning.point_changed.connect(self._on_point_changed)
+        self.listening.model_read.connect(self._on_model_read)
+        self.listening.looked.connect(self._on_looked)
+        self.listening.failed.connect(self._on_failed)
+        self._flash_over.timeout.connect(self._on_flash_over)
+        self._say_soon.timeout.connect(self._announce)
+        self._is_heard.timeout.connect(self._show_state)
+
+    # What is listened for
+
+    def _on_changed(self) -> None:
+        self._listen()
+        self._fill_bars()
+        self._show_state()
+
+    def _on_source_changed(self) -> None:
+        """Another sensor has another clock."""
+        self._begin(self.model)
+        self._listen()
+
+    def _listen(self) -> None:
+        """Listen for what the project has learned, while somebody looks."""
+        recogniser = self.desk.recogniser
+        if recogniser is None or not self.isVisible():
+            self.listening.stop()
+            if recogniser is None:
+                self._begin(None)
+            return
+        gravity = self.desk.live.gravity_included if self.desk.live is not None else True
+        wrist = self.desk.wrist
+        self.listening.listen_for(Wanted(recogniser.file, self.tuning.method, gravity, wrist))
+
+    def _begin(self, model: Model | None) -> None:
+        """Forget what was looked at by another model."""
+        self.model = model
+        self.looks = Looks(model.gestures if model is not None else ())
+        self.looks.set_points(self.tuning.points)
+        self.band.use_model(model)
+        self._fill_bars()
+        self._show_looks()
+
+    def _on_model_read(self, model: Model) -> None:
+        """A new recogniser looks at the last half minute too: its effect is seen at once."""
+        self.problem = None
+        self._begin(model)
+        live = self.desk.live
+        if live is None:
+            return
+        samples, begin_s = live.last(), live.last_t - KEPT_S
+        self._told_s = live.last_t
+        while begin_s < live.last_t:  # in parts: the thread can be stopped in between
+            self.listening.hear(samples.between(begin_s, begin_s + _BATCH_S))
+            begin_s += _BATCH_S
+
+    def _on_failed(self, error: RecordingError) -> None:
+        self.problem = error
+        self._begin(None)
+        self._show_state()
+
+    def _on_heard(self, samples: Samples) -> None:
+        if self.isVisible():
+            self._listen()  # what the sensor sends may be different by now
+            self.listening.hear(samples)
+
+    # What is seen
+
+    def _on_looked(self, looks: list[LookedAt]) -> None:
+        if self.model is None:
+            return
+        for look in looks:
+            self.looks.add(look)
+        last = self.looks.triggers[-1] if self.looks.triggers else None
+        if last is not None and last.t_end > self._told_s:
+            self._told_s = last.t_end
+            self._flash(last)
+        self._show_looks()
+        self.band.follow(self.looks)
+
+    def _show_looks(self) -> None:
+        certainties = self.looks.certainties()
+        flashing = self._flashing.gesture if self._flashing is not None else ""
+        for name, bar in self.bars.items():
+            bar.show_certainty(certainties.get(name, 0.0), is_flashing=name == flashing)
+        self.timeline.show_looks(self.looks, tuple(self.looks.triggers))
+
+    def _flash(self, found: Detection) -> None:
+        self._flashing = found
+        self._flash_over.start()
+        self._say_soon.start()
+        self._show_state()
+        self.recognised.emit(found)
+
+    def _on_flash_over(self) -> None:
+        self._flashing = None
+        self._show_state()
+        self._show_looks()
+
+    def _announce(self) -> None:
+        triggers = self.looks.triggers
+        if triggers:
+            announce(self, self._title(triggers[-1].gesture))
+
+    def _on_point_changed(self, name: str) -> None:
+        self.looks.set_points(self.tuning.points)
+        self._told_s = max(self._told_s, self.looks.now_s)
+        if name in self.bars:
+            self.bars[name].show_gesture(name)
+        self._show_meaning(name)
+        self._show_looks()
+
+    def _show_meaning(self, name: str) -> None:
+        """What the recognition point that is moved means for takes and everyday movement."""
+        findings = self.tuning.findings
+        words = both_sides(findings, name, self.tuning.point(name)) if findings else ""
+        self.meaning.setText(f"{self._title(name)}: {words}" if words else "")
+        self.meaning.setVisible(bool(words))
+
+    def _show_state(self) -> None:
+        icon, colour, words, step = self._state()
+        self.sign.show_icon(icon, colour)
+        self.said.setText(words)
+        self.steps.setText(step)
+        self.steps.setVisible(bool(step))
+        self.live.setVisible(self.model is not None)
+        self.corrections.setEnabled(self.model is not None and self.desk.live is not None)
+
+    def _state(self) -> tuple[str, str, str, str]:
+        """An icon, its colour, what is the case, and what to do."""
+        if self._flashing is not None:
+            return "circle-check", "success", self._title(self._flashing.gesture), ""
+        if self.problem is not None:
+            checklist = "\n".join(map(tr, self.problem.checklist))
+            return "triangle-alert", "warning", tr(self.problem.sentence), checklist
+        if self.desk.recogniser is None:
+            first = tr("Record each gesture a few times, then train: the try-out begins by itself.")
+            return "info", "info", tr("Nothing to try out yet"), first
+        if not self.desk.is_hearing:
+            connect = tr("Connect a watch or phone, and move it.")
+            return "watch", "info", tr("No movement is heard"), connect
+        return "ear", "muted", tr("Make a gesture"), ""
+
+    def _title(self, name: str) -> str:
+        gesture = self.desk.gestures.get(name)
+        return gesture.title if gesture is not None else name
+
+    def _fill_bars(self) -> None:
+        """A bar for each gesture that is listened for."""
+        known = self.model.names if self.model is not None else ()
+        wanted = [name for name in self.desk.gestures if name in known]
+        if wanted == list(self.bars):
+            for name, bar in self.bars.items():
+                bar.show_gesture(name)
+            return
+        for bar in self.bars.values():
+            bar.hide()
+            bar.deleteLater()
+        self.bars = {name: GestureBar(self.tuning, name, self.desk.look) for name in wanted}
+        for bar in self.bars.values():
+            self._bars_box.addWidget(bar)
+
+    # Only while somebody looks
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Listen."""
+        super().showEvent(event)
+        self._is_heard.start()
+        self._on_changed()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Listen no more."""
+        super().hideEvent(event)
+        self._is_heard.stop()
+        self.listening.stop()

@@ -1,0 +1,186 @@
+"""What came of a training: in words first, then what was taken for what, then the points."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QComboBox, QSizePolicy, QVBoxLayout, QWidget
+
+from nep_studio.problems import Problem
+from nep_studio.ui.message_cards import MessageText
+from nep_studio.ui.messages import Message
+from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.widgets.layouts import Halves, scrolled
+from nep_studio.ui.words import tr
+
+from .advice import Advice, AdviceList, Known, advice_on, false_triggers, headline, takes_of_pair
+from .confusion import ConfusionView
+from .labels import Words, card
+from .threshold import PointPanel
+from .train_bar import TrainBar
+from .training import Training
+from .tuning import METHODS, method_words
+
+_FEW_TAKES = "few_takes"
+"""A remark of the training that the advice tells too, with more."""
+
+WIDE_LINES = 42
+"""So many lines of text wide, words and pictures have room beside each other."""
+
+
+class ResultsView(QWidget):
+    """Trains, and shows what came of it.
+
+    What a person asks for here is done elsewhere: ``takes_asked`` gives the ids of takes that are
+    to be shown, ``record_asked`` the gesture to be recorded ("" for any), ``everyday_asked`` wants
+    everyday movement, ``gesture_asked`` a new gesture, ``trial_asked`` the try-out.
+    """
+
+    takes_asked = Signal(object)
+    record_asked = Signal(str)
+    everyday_asked = Signal()
+    gesture_asked = Signal()
+    trial_asked = Signal()
+
+    def __init__(
+        self, desk: TrainerDesk, training: Training, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.desk, self.training, self.tuning = desk, training, training.tuning
+        self.bar = TrainBar(training, desk.look)
+        self.headline = Words(role="heading")
+        self.everyday = Words(role="hint")
+        self.advice = AdviceList(desk.look)
+        self.method = QComboBox()
+        self.table = ConfusionView(self._title, desk.look)
+        self.points = PointPanel(self.tuning, desk.look)
+        self.failure = card()
+        self._told_problem: Problem | None = None
+        self._shown: object = None
+        self._lay_out()
+        self._connect()
+        self.refresh()
+
+    def _lay_out(self) -> None:
+        inner = QWidget()
+        box = QVBoxLayout(inner)
+        self.method.setAccessibleName(tr("Recogniser"))
+        self.method.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        for method in METHODS:
+            self.method.addItem(method_words(method), method)
+        self.found = Halves(WIDE_LINES)
+        legend = tr(
+            "Rows are what was made, columns what was recognised. Press a number to see its takes."
+        )
+        point = tr("How certain it must be before a gesture counts as made.")
+        self.found.add(self.headline, self.everyday, self.advice)
+        self.found.add_beside(
+            Words(tr("What was taken for what"), "heading"),
+            self.table,
+            Words(legend, "hint"),
+            Words(tr("Recognition point"), "heading"),
+            Words(point, "hint"),
+            self.points,
+            Words(tr("Recogniser"), "heading"),
+            self.method,
+        )
+        for widget in (self.bar, self.failure, self.found):
+            box.addWidget(widget)
+        box.addStretch(1)
+        self.area = scrolled(inner)
+        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self.area)
+        QVBoxLayout(self.failure)
+
+    def _connect(self) -> None:
+        self.method.currentIndexChanged.connect(self._on_method_chosen)
+        self.advice.asked.connect(self._on_asked)
+        self.advice.takes_asked.connect(self.takes_asked)
+        self.table.cell_chosen.connect(self._on_cell_chosen)
+        self.training.changed.connect(self.refresh)
+        self.desk.changed.connect(self.refresh)
+        self.tuning.method_changed.connect(self.refresh)
+        self.tuning.point_changed.connect(self._show_advice)
+
+    def refresh(self) -> None:
+        """Show what there is now."""
+        self._show_failure()
+        findings = self.tuning.findings
+        self.found.setVisible(findings is not None)
+        self.method.setCurrentIndex(self.method.findData(self.tuning.method))
+        self._show_advice()
+        shown = (findings, [(name, one.title) for name, one in self.desk.gestures.items()])
+        if shown != self._shown:  # a table that is filled anew forgets which cell is looked at
+            self._shown = shown
+            self.table.show_findings(findings)
+            self.points.fill()
+        self.points.refresh()
+
+    def _show_advice(self) -> None:
+        findings = self.tuning.findings
+        if findings is None:
+            self.advice.show_advice(())
+            return
+        known = self._known()
+        self.headline.setText(headline(findings))
+        self.everyday.setText(false_triggers(findings, is_simulated=not known.everyday_s))
+        self.everyday.setVisible(bool(self.everyday.text()))
+        remarks = [one for one in self.training.remarks if one.code != _FEW_TAKES]
+        told = [Advice("tip", tr(remark.sentence)) for remark in remarks]
+        self.advice.show_advice([*advice_on(findings, known), *told])
+
+    def _known(self) -> Known:
+        everyday = (one.seconds for one in self.desk.recordings.values() if one.everyday)
+        return Known(self.desk.gestures, self.desk.people, sum(everyday))
+
+    def _title(self, name: str) -> str:
+        return self._known().title(name)
+
+    def _show_failure(self) -> None:
+        problem = self.training.problem
+        self.failure.setVisible(problem is not None)
+        if problem is self._told_problem:
+            return
+        self._told_problem = problem
+        box = self.failure.layout()
+        while box is not None and (item := box.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.deleteLater()
+        if problem is not None and box is not None:
+            steps = tuple(map(tr, problem.checklist))
+            told = Message("error", tr(problem.title), tr(problem.sentence), steps, problem.details)
+            box.addWidget(MessageText(told))
+
+    def _on_method_chosen(self) -> None:
+        self.tuning.use_method(str(self.method.currentData()))
+
+    def _on_cell_chosen(self, made: str, found: str) -> None:
+        findings = self.tuning.findings
+        if findings is not None:
+            takes = takes_of_pair(findings, self.desk.gestures, made, found)
+            if takes:
+                self.takes_asked.emit(takes)
+
+    def _on_asked(self, advice: Advice) -> None:
+        match advice.what:
+            case "record":
+                self.record_asked.emit(advice.gesture)
+            case "everyday":
+                self.everyday_asked.emit()
+            case "gesture":
+                self.gesture_asked.emit()
+            case "takes":
+                self.takes_asked.emit(advice.takes)
+            case "try":
+                self.trial_asked.emit()
+            case "point":
+                self.points.choose(advice.gesture)
+                self.area.ensureWidgetVisible(self.points)
+                self.points.slider.setFocus()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Somebody may want to train soon."""
+        super().showEvent(event)
+        self.training.warm()

@@ -1,0 +1,262 @@
+"""The graph at the top: what is measured now, or one take large, with ends that can be dragged."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF, QSize, Qt, QTimer
+from PySide6.QtGui import (
+    QFocusEvent,
+    QFontMetricsF,
+    QHideEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QShowEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from nep_studio.ui.messages import announce
+from nep_studio.ui.words import tr
+
+from .curves import (
+    HANDLE_LINES,
+    Mark,
+    Window,
+    fault_words,
+    paint_big,
+    paint_ground,
+    paint_handle,
+    paint_label,
+    paint_letters,
+    paint_lines,
+    paint_mark,
+    paint_recorded,
+    paint_words,
+    value_range,
+)
+from .gesture_controller import TrainerDesk
+from .live import Samples
+from .recording import TakeSession
+from .sample_view import TakeView
+
+SHOWN_S = 10.0
+FRAME_MS = 33
+_SHRINK = 0.05
+"""How quickly the range of values follows a quieter hand, each frame; a wilder one at once."""
+
+
+_BIG, _SMALLER = 0.6, 0.32
+"""How high the countdown is, and the count of takes, as a share of the graph."""
+
+
+class Strip(QWidget):
+    """Shows the last ten seconds; a chosen take in their place until nobody looks at it."""
+
+    def __init__(self, desk: TrainerDesk, session: TakeSession, take: TakeView) -> None:
+        super().__init__()
+        self._desk, self._session, self.take = desk, session, take
+        self._range = value_range(Samples.none())
+        self._is_due = True
+        self._frames = QTimer(self, interval=FRAME_MS)
+        self._frames.timeout.connect(self._on_frame)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMouseTracking(True)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        desk.heard.connect(self._on_heard)
+        for signal in (session.changed, desk.changed, desk.take_chosen, take.changed):
+            signal.connect(self._on_changed)
+        desk.look.theme_changed.connect(self._on_changed)
+        self._name_it()
+
+    # What is shown
+
+    @property
+    def samples(self) -> Samples:
+        """What is drawn."""
+        if self.take.is_open:
+            return self.take.samples
+        live = self._desk.live
+        return live.last(SHOWN_S + 0.2) if live is not None else Samples.none()
+
+    @property
+    def window_shown(self) -> Window:
+        """Which part of time is where."""
+        line = self.fontMetrics().height()
+        rect = QRectF(self.rect()).adjusted(1, 1, -1 - line * 1.2, -1)
+        if self.take.is_open:
+            low, high = value_range(self.take.samples.between(*self.take.shown_s))
+            return Window(rect, *self.take.shown_s, low, high)
+        end_s = self._desk.live.last_t if self._desk.live is not None else 0.0
+        return Window(rect, end_s - SHOWN_S, end_s, *self._range)
+
+    @property
+    def big_words(self) -> str:
+        """What is written large over the curves; empty for nothing."""
+        session = self._session
+        if session.state == "countdown":
+            return str(session.count)
+        if session.state == "takes":
+            if not session.taken and not session.movements:
+                return tr("Go")
+            return tr("{number} of {count}", number=session.taken, count=session.wanted)
+        return ""
+
+    def sizeHint(self) -> QSize:
+        """Room to see how a movement goes."""
+        line = self.fontMetrics().height()
+        return QSize(line * 26, line * 7)
+
+    def minimumSizeHint(self) -> QSize:
+        """Less shows nothing."""
+        line = self.fontMetrics().height()
+        return QSize(line * 8, line * 5)
+
+    # Painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the curves, and what is known of them."""
+        theme, window = self._desk.look.theme, self.window_shown
+        with QPainter(self) as painter:
+            painter.fillRect(self.rect(), theme.colour("field"))
+            samples = self.samples
+            if self._session.start_s is not None and not self.take.is_open:
+                paint_recorded(painter, window, self._session.start_s, theme)
+            marks = self._marks()
+            for mark in marks:
+                paint_mark(painter, window, mark, theme)
+            paint_ground(painter, window, theme)
+            paint_lines(painter, window, samples, theme, QFontMetricsF(self.font()))
+            shown = samples.between(window.start_s, window.end_s)
+            paint_letters(painter, window, shown, theme, self.font())
+            for mark in marks:
+                paint_label(painter, window, mark, theme, self.font())
+            self._paint_over(painter, window)
+            self._paint_frame(painter)
+
+    def _paint_over(self, painter: QPainter, window: Window) -> None:
+        theme, take = self._desk.look.theme, self.take
+        if take.is_open:
+            line = self.fontMetrics().height()
+            for end, time_s in take.ends.items():
+                is_held = take.held == end and (take.is_dragged or self.hasFocus())
+                paint_handle(painter, window, time_s, theme, line, is_held=is_held)
+            if take.cursor_s is not None:
+                x = window.x(take.cursor_s)
+                painter.setPen(QPen(theme.colour("accent"), 2))
+                painter.drawLine(int(x), int(window.rect.top()), int(x), int(window.rect.bottom()))
+            if not len(take.samples):
+                words = tr("The samples of this take cannot be read.")
+                paint_words(painter, window.rect, words, theme, self.font())
+        elif self.big_words:
+            share = _BIG if self._session.state == "countdown" else _SMALLER
+            paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
+        elif self._desk.live is None or not self._desk.is_hearing:
+            words = tr("No movement is heard. Connect a watch or phone, and move it.")
+            paint_words(painter, window.rect, words, theme, self.font())
+
+    def _paint_frame(self, painter: QPainter) -> None:
+        theme = self._desk.look.theme
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        width = 2 if self.hasFocus() else 1
+        painter.setPen(QPen(theme.colour("focus" if self.hasFocus() else "line"), width))
+        painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+
+    def _marks(self) -> list[Mark]:
+        if self.take.is_open:
+            return self.take.marks()
+        number, marks = 0, []
+        for one in self._session.movements if self._session.is_on else []:
+            number += not one.fault
+            words = fault_words(one.fault) if one.fault else str(number)
+            marks.append(Mark(one.start_s, one.end_s, words, bool(one.fault)))
+        return marks
+
+    # What happens
+
+    def _on_heard(self, _samples: object) -> None:
+        self._is_due = self._is_due or not self.take.is_open
+
+    def _on_changed(self, _what: object = None) -> None:
+        self._is_due = True
+        self._name_it()
+        self.update()
+
+    def _on_frame(self) -> None:
+        if self.take.is_open or not self._is_due:
+            if self._desk.live is not None and not self._desk.is_hearing and not self._is_due:
+                self.update()  # it says that nothing is heard any more
+            return
+        self._is_due = False
+        low, high = value_range(self.samples)
+        old_low, old_high = self._range
+        slow_low, slow_high = (
+            old + _SHRINK * (new - old) for old, new in zip(self._range, (low, high), strict=True)
+        )
+        self._range = min(low, max(old_low, slow_low)), max(high, min(old_high, slow_high))
+        self.update()
+
+    def _name_it(self) -> None:
+        name = tr("A take, large") if self.take.is_open else tr("What is measured now")
+        if name != self.accessibleName():
+            self.setAccessibleName(name)
+        words = tr("Home and End choose an end, arrow keys move it, Space plays, Escape goes back.")
+        self.setAccessibleDescription(words if self.take.is_open else "")
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Draw on."""
+        super().showEvent(event)
+        self._frames.start()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Draw nothing that nobody sees."""
+        super().hideEvent(event)
+        self._frames.stop()
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show that the keyboard is here."""
+        super().focusInEvent(event)
+        self.update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Show that it is elsewhere."""
+        super().focusOutEvent(event)
+        self.take.let_go()
+        self.update()
+
+    # Mouse and keyboard
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Take an end of the take."""
+        reach = self.fontMetrics().height() * max(HANDLE_LINES, 0.6)
+        if event.button() == Qt.MouseButton.LeftButton and self.take.is_open:
+            self.take.hold_near(event.position().x(), self.window_shown, reach)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Drag the end, or show that it can be dragged."""
+        window, x = self.window_shown, event.position().x()
+        if self.take.is_dragged:
+            self.take.drag(window.time(x))
+            return
+        reach = self.fontMetrics().height() * max(HANDLE_LINES, 0.6)
+        is_near = self.take.is_open and self.take.end_near(x, window, reach) is not None
+        shape = Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor
+        self.setCursor(shape)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Keep where the take begins and ends now."""
+        self.take.let_go()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Move the ends of a take by keys; in the live graph keys mean what they do around it."""
+        if not self.take.press_key(Qt.Key(event.key())):
+            super().keyPressEvent(event)
+        elif self.take.is_open and event.key() in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+            announce(self, self.take.words)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Keep what a key has moved."""
+        super().keyReleaseEvent(event)
+        if not event.isAutoRepeat():
+            self.take.let_go()

@@ -1,0 +1,418 @@
+"""The log panel: what happens, and what was told, on two tabs."""
+
+from __future__ import annotations
+
+import platform
+import time
+from collections import deque
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
+from PySide6.QtCore import QSize, Qt, qVersion
+from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut, QShowEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QListView,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QStackedLayout,
+    QTabWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_core.wire import messages as m
+from nep_studio import __version__
+from nep_studio.blocks.language import Language
+from nep_studio.run.timeline import Timeline
+from nep_studio.ui.message_cards import MessageText
+from nep_studio.ui.messages import KIND_ICONS, Kind, Messages, Told
+from nep_studio.ui.node_style import TYPE_ICONS
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.theme.icons import icon, icon_pixmap
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.questions import save_text
+from nep_studio.ui.words import tr
+from nep_studio.ui.workbench.side_panels import Panel
+
+from .lines import RUN, Line, LinePainter, LinesModel, part_of
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+# The buttons of a list that can be copied, saved and emptied.
+
+
+class LogButtons(QWidget):
+    """Copy, save, clear."""
+
+    def __init__(self, look: Look) -> None:
+        super().__init__()
+        self._look = look
+        self.copy, self.save, self.clear = QToolButton(), QToolButton(), QToolButton()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        words = {self.copy: tr("Copy"), self.save: tr("Save as text…"), self.clear: tr("Clear")}
+        for button, tip in words.items():
+            button.setToolTip(tip)
+            button.setAccessibleName(tip)
+            row.addWidget(button)
+        look.theme_changed.connect(self._dress)
+        self._dress()
+
+    def _dress(self) -> None:
+        signs = {self.copy: "copy", self.save: "save", self.clear: "trash-2"}
+        for button, name in signs.items():
+            button.setIcon(icon(name, self._look.theme))
+
+
+# What happens while a program runs, as a live list: who did what, and when.
+
+MOST_AT_ONCE = 600
+"""Of more messages in one batch the rest is counted only: the window must go on."""
+MOST_WAITING = 1500
+"""So many messages are kept for a panel that is hidden."""
+
+
+class WhatHappens(QWidget):
+    """The lines of the timeline; what comes while it is hidden is told when it is shown."""
+
+    def __init__(self, runner: Runner, messages: Messages, language: Language, look: Look) -> None:
+        super().__init__()
+        self._messages, self._look = messages, look
+        self._timeline = Timeline(language, tr)
+        self._waiting: deque[tuple[float, msgspec.Struct]] = deque(maxlen=MOST_WAITING)
+        self._started_s = time.time()
+        self.model = LinesModel(self)
+        self.list = QListView()
+        self.part = QComboBox()
+        self.search = QLineEdit()
+        self.hint = QLabel()
+        self.buttons = LogButtons(look)
+        self._set_up_list()
+        self._set_up_filters()
+        self._lay_out()
+        runner.arrived.connect(self._on_arrived)
+        runner.state_changed.connect(self._on_state_changed)
+        look.theme_changed.connect(self._dress)
+        self._dress()
+        self._show_hint()
+
+    def _set_up_list(self) -> None:
+        self._painter = LinePainter(self._look)
+        self.list.setModel(self.model)
+        self.list.setItemDelegate(self._painter)
+        self.list.setUniformItemSizes(True)
+        self.list.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setAccessibleName(tr("What happens"))
+        copy = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.list)
+        copy.setContext(Qt.ShortcutContext.WidgetShortcut)
+        copy.activated.connect(self.copy)
+
+    def _set_up_filters(self) -> None:
+        parts = {
+            "": tr("Everything"),
+            "perceptual": tr("What people do"),
+            "cognitive": tr("The program"),
+            "action": tr("The robots"),
+            "sensory": tr("The sensors"),
+        }
+        for part, words in parts.items():
+            self.part.addItem(words, part)
+        self.part.setAccessibleName(tr("Whose lines are shown"))
+        self.part.currentIndexChanged.connect(lambda: self.model.show_part(self.part.currentData()))
+        self.search.setPlaceholderText(tr("Find in these lines"))
+        self.search.setAccessibleName(tr("Find in these lines"))
+        self.search.setClearButtonEnabled(True)
+        self.search.textChanged.connect(self.model.search)
+        self.model.modelReset.connect(self._show_hint)
+        self.buttons.copy.clicked.connect(self.copy)
+        self.buttons.save.clicked.connect(self._on_save_clicked)
+        self.buttons.clear.clicked.connect(self.model.clear)
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout()
+        row.addWidget(self.part)
+        row.addWidget(self.search, 1)
+        row.addWidget(self.buttons)
+        self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.hint.setWordWrap(True)
+        self.hint.setProperty("role", "hint")
+        self._stack = QStackedLayout()
+        self._stack.addWidget(self.list)
+        self._stack.addWidget(self.hint)
+        box = QVBoxLayout(self)
+        box.addLayout(row)
+        box.addLayout(self._stack, 1)
+
+    # What a person asks for
+
+    def text(self) -> str:
+        """The lines that are chosen, or all that are shown."""
+        rows = sorted(index.row() for index in self.list.selectedIndexes())
+        shown = self.model.lines()
+        lines = [shown[row] for row in rows] if len(rows) > 1 else shown
+        return "".join(f"{line.words}\n" for line in lines)
+
+    def copy(self) -> None:
+        """Copy them."""
+        QGuiApplication.clipboard().setText(self.text())
+
+    def save(self, path: Path) -> None:
+        """Write them to a file; raises OSError."""
+        path.write_text(self.text(), encoding="utf-8")
+
+    def _on_save_clicked(self) -> None:
+        save_text(self.window(), self._messages, tr("what happened.txt"), self.save)
+
+    # What happens
+
+    def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
+        now_s = time.time()
+        self._waiting.extend((now_s, message) for _, message in batch if _is_told(message))
+        if self.isVisible():
+            self._take_waiting()
+
+    def _on_state_changed(self, state: str) -> None:
+        if state == "starting":
+            self._take_waiting()
+            self._started_s = time.time()
+            clock = time.strftime("%H:%M:%S")
+            self._add([Line(0.0, RUN, "", tr("Run at {time}", time=clock))])
+
+    def _take_waiting(self) -> None:
+        surplus = len(self._waiting) - MOST_AT_ONCE
+        lines: list[Line] = []
+        if surplus > 0:
+            for _ in range(surplus):
+                time_s, _message = self._waiting.popleft()
+            words = tr("{count} messages came too fast to be told one by one", count=surplus)
+            lines.append(Line(max(0.0, time_s - self._started_s), RUN, "", words))
+        for time_s, message in self._waiting:
+            elapsed_s, part = max(0.0, time_s - self._started_s), part_of(message)
+            told = self._timeline.lines(message)
+            lines += [Line(elapsed_s, part, who, what) for who, what in told]
+        self._waiting.clear()
+        self._add(lines)
+
+    def _add(self, lines: list[Line]) -> None:
+        if not lines:
+            return
+        bar = self.list.verticalScrollBar()
+        is_at_end = bar.value() >= bar.maximum() - bar.singleStep()
+        self.model.add(lines)
+        self._show_hint()
+        if is_at_end:
+            self.list.scrollToBottom()
+
+    def _show_hint(self) -> None:
+        if self.model.rowCount():
+            self._stack.setCurrentWidget(self.list)
+            return
+        is_empty = self.model.total == 0
+        begin = tr("Press Run. Here you read who does what, while it happens.")
+        self.hint.setText(begin if is_empty else tr("No line has these words."))
+        self._stack.setCurrentWidget(self.hint)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Tell what came meanwhile."""
+        super().showEvent(event)
+        self._take_waiting()
+        self.list.scrollToBottom()
+
+    def _dress(self) -> None:
+        theme = self._look.theme
+        for index in range(1, self.part.count()):
+            self.part.setItemIcon(index, icon(TYPE_ICONS[self.part.itemData(index)], theme))
+        self.list.viewport().update()
+
+
+def _is_told(message: msgspec.Struct) -> bool:
+    """Whether a message may become a line: lines of code, values and heartbeats never do."""
+    match message:
+        case m.ProgramState(event="line" | "value") | m.NodeState(event="alive"):
+            return False
+    return True
+
+
+# All that the window has told since it was opened, to read again and to copy for support.
+
+TOLD = Qt.ItemDataRole.UserRole
+
+
+class ToldMessages(QWidget):
+    """The messages of the one door, the newest first; beside them the chosen one in full."""
+
+    def __init__(self, messages: Messages, look: Look) -> None:
+        super().__init__()
+        self._messages, self._look = messages, look
+        self._shown = 0
+        self.list = QListWidget()
+        self.list.setAccessibleName(tr("Messages"))
+        self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.detail = QScrollArea()
+        self.detail.setWidgetResizable(True)
+        self.detail.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.copy_button = QPushButton(tr("Copy all for support"))
+        self.hint = QLabel(tr("What the window tells you is kept here until you close it."))
+        self._lay_out()
+        self.list.currentItemChanged.connect(self._on_chosen)
+        self.copy_button.clicked.connect(self._on_copy_clicked)
+        messages.told.connect(self._on_told)
+        look.theme_changed.connect(self._dress)
+        self._dress()
+
+    def _lay_out(self) -> None:
+        self.hint.setProperty("role", "hint")
+        self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.hint.setWordWrap(True)
+        both = QSplitter(Qt.Orientation.Horizontal)
+        both.setChildrenCollapsible(False)
+        both.addWidget(self.list)
+        both.addWidget(self.detail)
+        for number, part in enumerate((2, 3)):
+            both.setStretchFactor(number, part)
+        both.setSizes([2000, 3000])  # parts of what there is
+        full = QWidget()
+        box = QVBoxLayout(full)
+        box.addWidget(both, 1)
+        row = QHBoxLayout()
+        row.addStretch(1)
+        row.addWidget(self.copy_button)
+        box.addLayout(row)
+        self._stack = QStackedLayout(self)
+        self._stack.addWidget(self.hint)
+        self._stack.addWidget(full)
+
+    def text(self) -> str:
+        """All messages as text, with what a supporter asks for first."""
+        about = (
+            f"NEP Studio {__version__}, Python {platform.python_version()}, Qt {qVersion()},"
+            f" {platform.platform()}"
+        )
+        return "\n\n".join([about, *map(_as_text, self._messages.history)]) + "\n"
+
+    def minimumSizeHint(self) -> QSize:
+        """The list may become small: it scrolls."""
+        line = self.fontMetrics().height()
+        return QSize(line * 12, line * 5)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Fill the list, which rests while it is hidden."""
+        super().showEvent(event)
+        self._fill()
+
+    def _on_told(self, told: Told) -> None:
+        if self.isVisible():
+            self._insert(told)
+            self._show_list()
+
+    def _fill(self) -> None:
+        self.list.clear()
+        for told in self._messages.history:
+            self._insert(told)
+        self._show_list()
+
+    def _insert(self, told: Told) -> None:
+        item = QListWidgetItem(f"{_clock(told)}  {told.message.title}")
+        item.setData(TOLD, told)
+        item.setToolTip(told.message.title)
+        kind = told.message.kind
+        item.setIcon(icon(KIND_ICONS[kind], self._look.theme.colour(kind)))
+        spoken = f"{kind_word(kind)}, {_clock(told)}: {told.message.title}"
+        item.setData(Qt.ItemDataRole.AccessibleTextRole, spoken)
+        self.list.insertItem(0, item)
+        if self.list.count() > (self._messages.history.maxlen or self.list.count()):
+            self.list.takeItem(self.list.count() - 1)
+
+    def _show_list(self) -> None:
+        self._stack.setCurrentIndex(1 if self.list.count() else 0)
+        if self.list.currentRow() < 0:
+            self.list.setCurrentRow(0)
+
+    def _on_chosen(self, item: QListWidgetItem | None) -> None:
+        if item is None:
+            self.detail.setWidget(QWidget())
+            return
+        told: Told = item.data(TOLD)
+        page = QWidget()
+        box = QVBoxLayout(page)
+        row = QHBoxLayout()
+        sign, side = QLabel(), round(self.fontMetrics().height() * 1.3)
+        kind = told.message.kind
+        colour, ratio = self._look.theme.colour(kind), self.devicePixelRatioF()
+        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], colour, side, ratio))
+        sign.setAccessibleName(kind_word(kind))
+        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(MessageText(told.message), 1)
+        box.addLayout(row)
+        box.addStretch(1)
+        self.detail.setWidget(page)
+
+    def _on_copy_clicked(self) -> None:
+        QGuiApplication.clipboard().setText(self.text())
+        self._messages.confirm(tr("All messages are copied"))
+
+    def _dress(self) -> None:
+        self.copy_button.setIcon(icon("copy", self._look.theme))
+        if self.isVisible():
+            self._fill()
+
+
+def kind_word(kind: Kind) -> str:
+    """A kind of message in a word: its colour never speaks alone."""
+    words: dict[Kind, str] = {
+        "info": tr("Note"),
+        "success": tr("Done"),
+        "warning": tr("Warning"),
+        "error": tr("Error"),
+    }
+    return words[kind]
+
+
+def _clock(told: Told) -> str:
+    return time.strftime("%H:%M:%S", time.localtime(told.time_s))
+
+
+def _as_text(told: Told) -> str:
+    message = told.message
+    when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(told.time_s))
+    steps = [f"  [ ] {step}" for step in message.checklist]
+    lines = [f"{when}  {message.kind}: {message.title}", message.sentence, *steps, message.details]
+    return "\n".join(filter(None, lines))
+
+
+class LogPanel(QTabWidget):
+    """Reads on while a program runs; it does no work while it is hidden."""
+
+    def __init__(self, runner: Runner, messages: Messages, language: Language, look: Look) -> None:
+        super().__init__()
+        self.what_happens = WhatHappens(runner, messages, language, look)
+        self.told = ToldMessages(messages, look)
+        self.setDocumentMode(True)
+        self.addTab(self.what_happens, tr("What happens"))
+        self.addTab(self.told, tr("Messages"))
+
+    def sizeHint(self) -> QSize:
+        """Room for a few lines."""
+        line = self.fontMetrics().height()
+        return QSize(line * 30, line * 10)
+
+
+def add_log_panel(window: MainWindow) -> Panel:
+    """Put the log below the canvas."""
+    studio = window.studio
+    panel = LogPanel(window.running.runner, window.messages, studio.language, studio.look)
+    return window.add_side_panel(panel, tr("Log"), "history", "bottom", is_shown=False)

@@ -1,0 +1,270 @@
+"""What a motion is called, what it is for, and the posture in which it starts."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QLocale, Qt, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QToolButton,
+    QWidget,
+)
+
+from nep_core.errors import ActionFailed
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.own_animations import AnimationKind
+from nep_studio.ui.messages import announce
+from nep_studio.ui.shell.menus import Actions
+from nep_studio.ui.theme.icons import icon_pixmap
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import count_words, tr
+from robots.body.body import Body, posture_name
+
+from .motion_controller import MotionDesk, Player
+from .timeline import Timeline
+from .timeline_painter import Fault
+
+
+class Header(QWidget):
+    """Three fields over the robot."""
+
+    def __init__(self, desk: MotionDesk, language: Language, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.desk = desk
+        self.title = QLineEdit()
+        self.title.setMaxLength(100)
+        self.title.setPlaceholderText(tr("Name of the motion"))
+        self.title.setAccessibleName(tr("Name of the motion"))
+        self.start = QComboBox()
+        self.start.setAccessibleName(tr("Starts from"))
+        self.start.addItem(tr("any posture"), "")
+        for name, words in posture_words(language, desk.body).items():
+            self.start.addItem(words, name)
+        self.kind = QComboBox()
+        self.kind.setAccessibleName(tr("Used to"))
+        for kind, words in kind_words().items():
+            self.kind.addItem(words, kind)
+        self._lay_out()
+        self.title.textEdited.connect(self._on_title_edited)
+        self.title.editingFinished.connect(desk.seal)
+        self.start.activated.connect(self._on_start_chosen)
+        self.kind.activated.connect(self._on_kind_chosen)
+        desk.changed.connect(self.refresh)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the motion as it is now."""
+        motion = self.desk.motion
+        if self.title.text() != motion.title:
+            self.title.setText(motion.title)
+        self.start.setCurrentIndex(max(0, self.start.findData(motion.starts_from)))
+        self.kind.setCurrentIndex(max(0, self.kind.findData(motion.kind)))
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.title, 1)
+        for words, field in ((tr("Starts from"), self.start), (tr("Used to"), self.kind)):
+            label = QLabel(words)
+            label.setBuddy(field)
+            row.addWidget(label)
+            row.addWidget(field)
+
+    def _on_title_edited(self, title: str) -> None:
+        self.desk.change(tr("name the motion"), merge="title", title=title)
+
+    def _on_start_chosen(self) -> None:
+        self.desk.set_start(self.start.currentData(), tr("choose the posture it starts from"))
+        self.refresh()
+
+    def _on_kind_chosen(self) -> None:
+        self.desk.change(tr("choose what it is for"), kind=self.kind.currentData())
+
+
+def kind_words() -> dict[AnimationKind, str]:
+    """What motions of each kind are used to do."""
+    return {
+        "animation": tr("be played"),
+        "animal": tr("imitate an animal"),
+        "gesture": tr("speak with gestures"),
+    }
+
+
+def posture_words(language: Language, body: Body) -> dict[str, str]:
+    """What the postures of a body are called, by their names."""
+    found = {}
+    for word, label in language.choices.get("postures", {}).items():
+        try:
+            found[posture_name(body, word)] = label
+        except ActionFailed:
+            continue  # a word for a posture that this body does not have
+    return found or {name: name for name in body.postures}
+
+
+# What there is to say of the motion: how to begin, or what the robot could not do.
+
+
+class NotesBar(QFrame):
+    """One line, a sign before it, and what can be done about it."""
+
+    time_asked = Signal()
+    open_asked = Signal()
+
+    def __init__(self, desk: MotionDesk, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.desk, self.look = desk, look
+        self.faults: list[Fault] = []
+        self.sign, self.words = QLabel(), QLabel()
+        self.words.setWordWrap(True)
+        self.give_time = QPushButton(tr("Give it the time it needs"))
+        self.show_place = QPushButton(tr("Show the place"))
+        self.open = QPushButton(tr("Open one as a start…"))
+        for button in (self.give_time, self.show_place, self.open):
+            button.setAutoDefault(False)
+        self._lay_out()
+        self.give_time.clicked.connect(self.time_asked)
+        self.open.clicked.connect(self.open_asked)
+        self.show_place.clicked.connect(self._on_show_asked)
+        desk.changed.connect(self.refresh)
+        look.theme_changed.connect(self.refresh)
+        self.refresh()
+
+    def show_faults(self, faults: list[Fault]) -> None:
+        """Tell of these."""
+        if faults and faults != self.faults:
+            announce(self, faults[0].words)
+        self.faults = faults
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Say what there is to say now."""
+        is_empty = not self.desk.motion.joints
+        self.open.setVisible(is_empty)
+        self.give_time.setVisible(any(fault.kind == "fast" for fault in self.faults))
+        self.show_place.setVisible(bool(self.faults))
+        if is_empty:
+            self._say("lightbulb", "info", self._how_to_begin())
+        elif self.faults:
+            more = len(self.faults) - 1
+            rest = count_words(more, "One more place is marked.", "{n} more places are marked.")
+            words = self.faults[0].words + (f" {rest}" if more else "")
+            self._say("triangle-alert", "warning", words)
+        else:
+            self._say("circle-check", "success", tr("The robot can do this."))
+
+    def _how_to_begin(self) -> str:
+        return tr(
+            "Drag a hand, a foot or the head of the robot, or move a slider: that is the first "
+            "key pose. Then choose a later moment on the timeline, and pose it again."
+        )
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
+        row.addWidget(self.words, 1)
+        for button in (self.open, self.show_place, self.give_time):
+            row.addWidget(button)
+        self.setMinimumHeight(line * 2)
+
+    def _say(self, sign: str, colour: str, words: str) -> None:
+        line = self.fontMetrics().height()
+        drawn = icon_pixmap(
+            sign, self.look.theme.colour(colour), line * 1.2, self.devicePixelRatioF()
+        )
+        self.sign.setPixmap(drawn)
+        self.words.setText(words)
+
+    def _on_show_asked(self) -> None:
+        if self.faults:
+            fault = self.faults[0]
+            is_fall = fault.kind == "fall"
+            self.desk.show(fault.from_s if is_fall else (fault.from_s + fault.to_s) / 2)
+
+
+# Plays and pauses a motion, and says how fast and how often; a row of buttons.
+
+SPEEDS = (0.25, 0.5, 1.0, 2.0)
+SNAPS_S = (0.0, 0.01, 0.05, 0.1, 0.25)
+VIEW_BUTTONS = ("show_curve",)
+BUTTONS = ("first_pose", "play_motion", "loop_motion")
+KEY_BUTTONS = ("add_pose", "copy_pose", "delete_pose")
+
+
+class Transport(QWidget):
+    """The row between the robot and the timeline."""
+
+    def __init__(
+        self,
+        desk: MotionDesk,
+        player: Player,
+        timeline: Timeline,
+        actions: Actions,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.desk, self.player, self.timeline = desk, player, timeline
+        self.time = QLabel()
+        self.speed = QComboBox()
+        self.speed.setAccessibleName(tr("Speed"))
+        self.speed.setToolTip(tr("How fast it is shown here; the motion stays as it is"))
+        for speed in SPEEDS:
+            self.speed.addItem(
+                f"\N{MULTIPLICATION SIGN} {QLocale().toString(speed, 'g', 3)}", speed
+            )
+        self.speed.setCurrentIndex(SPEEDS.index(1.0))
+        self.snap = QComboBox()
+        self.snap.setAccessibleName(tr("Grid"))
+        self.snap.setToolTip(tr("To which times key poses go when they are moved"))
+        for snap in SNAPS_S:
+            words = tr("no grid") if not snap else tr("grid {time} s", time=f"{snap:g}")
+            self.snap.addItem(words, snap)
+        self.snap.setCurrentIndex(SNAPS_S.index(timeline.snap_s))
+        self._lay_out(actions)
+        self.speed.currentIndexChanged.connect(self._on_speed_changed)
+        self.snap.currentIndexChanged.connect(self._on_snap_changed)
+        for signal in (desk.changed, desk.moved):
+            signal.connect(self.refresh)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the moment."""
+        place, whole = self.desk.cursor_s, self.desk.motion.duration_s
+        local = QLocale()
+        words = (local.toString(place, "f", 2), local.toString(whole, "f", 2))
+        self.time.setText(tr("{now} of {all} s", now=words[0], all=words[1]))
+
+    def _lay_out(self, actions: Actions) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        for name in BUTTONS:
+            row.addWidget(_button(actions, name))
+        row.addWidget(self.speed)
+        row.addWidget(self.time)
+        row.addStretch(1)
+        for name in KEY_BUTTONS:
+            row.addWidget(_button(actions, name, has_words=name == "add_pose"))
+        row.addWidget(self.snap)
+        for name in VIEW_BUTTONS:
+            row.addWidget(_button(actions, name))
+
+    def _on_speed_changed(self) -> None:
+        self.player.speed = float(self.speed.currentData())
+
+    def _on_snap_changed(self) -> None:
+        self.timeline.snap_s = float(self.snap.currentData())
+
+
+def _button(actions: Actions, name: str, *, has_words: bool = False) -> QToolButton:
+    button = QToolButton()
+    button.setDefaultAction(actions[name])
+    style = Qt.ToolButtonStyle
+    button.setToolButtonStyle(
+        style.ToolButtonTextBesideIcon if has_words else style.ToolButtonIconOnly
+    )
+    return button

@@ -1,0 +1,438 @@
+"""What can be done with a motion, as actions of its window: each has words, an icon, keys."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QCursor, QKeySequence
+from PySide6.QtWidgets import QInputDialog, QMenu
+
+from nep_core.errors import NepError
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.operations.animations import Use
+from nep_studio.blocks.own_animations import OwnAnimation, free_name
+from nep_studio.problems import problem_of
+from nep_studio.project.kept_files import to_toml
+from nep_studio.ui.message_cards import QuestionDialog
+from nep_studio.ui.messages import Answer, Message, Messages, announce
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.questions import save_text
+from nep_studio.ui.words import count_words, tr
+
+from . import editing
+from .bars import kind_words
+
+if TYPE_CHECKING:
+    from .window import MotionWindow
+
+
+PLAIN_KEYS = {
+    Qt.Key.Key_Space: "play_motion",
+    Qt.Key.Key_K: "add_pose",
+    Qt.Key.Key_D: "copy_pose",
+    Qt.Key.Key_L: "loop_motion",
+    Qt.Key.Key_Home: "first_pose",
+    Qt.Key.Key_Delete: "delete_pose",
+    Qt.Key.Key_Backspace: "delete_pose",
+}
+COPY_GAP_S = 0.5
+"""So much later than the last pose copies come, where the moment shown says nothing else."""
+LEAST_STRETCH, MOST_STRETCH = 10, 1000
+
+
+class Commands:
+    """Adds the actions of a window, and does what they ask for."""
+
+    def __init__(self, window: MotionWindow) -> None:
+        self.window, self.desk, self.player = window, window.desk, window.player
+        self._add_edit()
+        self._add_play()
+        self._add_changes()
+
+    def update(self) -> None:
+        """Let those actions be used that have something to do."""
+        actions, desk = self.window.actions_by_name, self.desk
+        is_there = bool(desk.motion.joints)
+        actions.enable(bool(desk.undo_label), "undo_motion")
+        actions.enable(bool(desk.redo_label), "redo_motion")
+        actions.enable(bool(desk.chosen), "copy_pose", "delete_pose")
+        names = ("first_pose", "play_motion", "mirror", "backwards", "stretch", "all_poses")
+        actions.enable(is_there, *names)
+        for name, label, words in (
+            ("undo_motion", desk.undo_label, tr("Undo")),
+            ("redo_motion", desk.redo_label, tr("Redo")),
+        ):
+            actions[name].setText(f"{words}: {label}" if label else words)
+
+    def press(self, key: int) -> bool:
+        """Do what a key without Ctrl means; False when it means nothing here.
+
+        They are no shortcuts: a button that has the focus is pressed with the space bar.
+        """
+        name = PLAIN_KEYS.get(Qt.Key(key))
+        if name is None:
+            return False
+        self.window.actions_by_name[name].trigger()
+        return True
+
+    def _add_edit(self) -> None:
+        add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
+        desk = self.desk
+        add("undo_motion", tr("Undo"), desk.undo, icon_name="undo-2", keys=keys.Undo)
+        add("redo_motion", tr("Redo"), desk.redo, icon_name="redo-2", keys=(keys.Redo, "Ctrl+Y"))
+        self._add_plain("add_pose", tr("Add a pose"), self.add_pose, "plus")
+        self._add_plain("copy_pose", tr("Copy the poses to here"), self.copy, "copy-plus")
+        self._add_plain("delete_pose", tr("Delete the poses"), self.delete, "trash-2")
+        add("all_poses", tr("Choose all poses"), self.choose_all, keys=keys.SelectAll)
+
+    def _add_play(self) -> None:
+        begin = tr("To the beginning")
+        self._add_plain("first_pose", begin, lambda: self.desk.show(0.0), "rotate-ccw")
+        self._add_plain("play_motion", tr("Play"), self.player.toggle, "play")
+        self._add_plain("loop_motion", tr("Again and again"), lambda: None, "repeat")
+        loop = self.window.actions_by_name["loop_motion"]
+        loop.setCheckable(True)
+        loop.toggled.connect(self._on_loop_toggled)
+        self.player.changed.connect(self._on_playing_changed)
+        add = self.window.actions_by_name.add
+        words = tr("The curve of one joint")
+        curve = add("show_curve", words, lambda: None, icon_name="chart-line")
+        curve.setCheckable(True)
+        curve.toggled.connect(self.window.show_curve)
+
+    def _add_plain(self, name: str, words: str, do: Callable[[], object], icon_name: str) -> None:
+        """Add an action whose key is pressed without Ctrl."""
+        key = next(key for key, one in PLAIN_KEYS.items() if one == name)
+        keys = QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
+        tip = f"{words} ({keys})"
+        self.window.actions_by_name.add(name, words, do, icon_name=icon_name, tip=tip)
+
+    def _add_changes(self) -> None:
+        add = self.window.actions_by_name.add
+        mirror, backwards = tr("Mirror: left is right"), tr("Backwards")
+        add("mirror", mirror, lambda: self._do(mirror, editing.mirrored))
+        add("backwards", backwards, lambda: self._do(backwards, editing.backwards))
+        add("stretch", tr("Slower or faster…"), self.ask_stretch, icon_name="gauge")
+        look = add("look_from", tr("Look from"), lambda: None, icon_name="eye")
+        menu = QMenu(self.window)
+        for preset, words in (
+            ("front", tr("the front")),
+            ("side", tr("the side")),
+            ("back", tr("behind")),
+            ("top", tr("above")),
+        ):
+            menu.addAction(words, partial(self._look_from, preset))
+        look.setMenu(menu)
+        words = tr("Give it the time it needs")
+        add("give_time", words, self.give_time, icon_name="hourglass")
+
+    # What they do
+
+    def add_pose(self) -> None:
+        """Keep the pose that is shown."""
+        self.player.pause()
+        self.desk.add_key(tr("add a key pose"))
+
+    def copy(self) -> None:
+        """Copy the chosen poses to the moment that is shown, or behind the last one."""
+        desk = self.desk
+        if not desk.chosen:
+            return
+        first = desk.chosen[0]
+        is_away = all(abs(desk.cursor_s - time) > editing.SAME_S for time in desk.chosen)
+        end_s = desk.motion.duration_s + COPY_GAP_S
+        target = desk.cursor_s if is_away and desk.cursor_s > 0 else end_s
+        desk.copy_chosen(target - first, tr("copy key poses"))
+        desk.show(desk.chosen[0])
+
+    def delete(self) -> None:
+        """Take the chosen poses away."""
+        self.desk.delete_chosen(tr("delete key poses"))
+
+    def choose_all(self) -> None:
+        """Choose every pose."""
+        self.desk.choose(editing.key_times(self.desk.motion))
+
+    def give_time(self) -> None:
+        """Make it as slow as the robot needs, where it is too fast."""
+        self.player.pause()
+        self.desk.give_time(tr("give it the time it needs"))
+
+    def ask_stretch(self) -> None:
+        """Ask how many percent of its time the motion is to take."""
+        dialog = QInputDialog(self.window)
+        dialog.setWindowTitle(tr("Slower or faster"))
+        dialog.setLabelText(tr("How long it takes, in percent of now:"))
+        dialog.setInputMode(QInputDialog.InputMode.IntInput)
+        dialog.setIntRange(LEAST_STRETCH, MOST_STRETCH)
+        dialog.setIntValue(100)
+        dialog.intValueSelected.connect(self.stretch)
+        dialog.open()
+
+    def stretch(self, percent: int) -> None:
+        """Let it take so many percent of its time."""
+        motion = editing.stretched(self.desk.motion, percent / 100.0)
+        self.desk.choose(())
+        self.desk.do(tr("change how long it takes"), motion)
+
+    def show_menu(self, place: object) -> None:
+        """The menu of the timeline."""
+        assert isinstance(place, QPoint)
+        menu = QMenu(self.window)
+        actions = self.window.actions_by_name
+        menu.addActions([actions[name] for name in ("add_pose", "copy_pose", "delete_pose")])
+        menu.addSeparator()
+        menu.addActions([actions[name] for name in ("all_poses", "mirror", "backwards", "stretch")])
+        menu.aboutToHide.connect(menu.deleteLater)
+        menu.popup(place)
+
+    def _do(self, label: str, change: Callable[[OwnAnimation], OwnAnimation]) -> None:
+        self.player.pause()
+        self.desk.choose(())
+        self.desk.do(label, change(self.desk.motion))
+
+    def _look_from(self, preset: str) -> None:
+        self.window.view.look_from(preset)
+
+    def _on_loop_toggled(self, is_on: bool) -> None:
+        self.player.is_looping = is_on
+
+    def _on_playing_changed(self, is_playing: bool) -> None:
+        action = self.window.actions_by_name["play_motion"]
+        action.setText(tr("Pause") if is_playing else tr("Play"))
+        theme = self.window.look.theme
+        action.setIcon(icon("pause" if is_playing else "play", theme))
+
+
+# Titles inside menus: those that Qt has of its own are not painted in our style.
+
+
+def add_title(menu: QMenu, words: str) -> None:
+    """Begin a part of a menu with words that cannot be chosen."""
+    if not menu.isEmpty():
+        menu.addSeparator()
+    menu.addAction(words.replace("&", "&&")).setEnabled(False)
+
+
+# Opens motions, keeps them in the project, deletes them there, reads and writes them as text.
+
+
+class ProjectCommands:
+    """The actions that reach beyond the window."""
+
+    def __init__(self, window: MotionWindow) -> None:
+        self.window, self.desk, self.kept = window, window.desk, window.kept
+        self._use: Use | None = None
+        add, keys = window.actions_by_name.add, QKeySequence.StandardKey
+        add("new_motion", tr("New"), self.new, icon_name="file-plus", keys=keys.New)
+        add(
+            "open_motion", tr("Open…"), self.show_open_menu, icon_name="folder-open", keys=keys.Open
+        )
+        words, tip = (
+            tr("Keep in the project"),
+            tr("Keep the motion in the project: blocks can play it"),
+        )
+        add("save_motion", words, self.save, icon_name="save", keys=keys.Save, tip=tip)
+        add("import_motion", tr("From Choregraphe…"), self.ask_text, icon_name="clipboard-paste")
+        add("export_motion", tr("Save as a file…"), self.export, icon_name="download")
+        add("delete_motion", tr("Delete from the project…"), self.ask_delete, icon_name="trash-2")
+        self._add_menus()
+
+    def update(self) -> None:
+        """Let those actions be used that have something to do."""
+        actions, is_there = self.window.actions_by_name, bool(self.desk.motion.joints)
+        is_kept = self.desk.name in self.kept.own()
+        can_save = self.kept.editor is not None and (self.desk.is_modified or not is_kept)
+        actions.enable(is_there and can_save, "save_motion")
+        actions.enable(is_there, "export_motion")
+        actions.enable(is_kept, "delete_motion")
+
+    def _add_menus(self) -> None:
+        actions, add = self.window.actions_by_name, self.window.actions_by_name.add
+        change = add("change_motion", tr("Change"), lambda: None, icon_name="sliders-horizontal")
+        menu = QMenu(self.window)
+        menu.addActions([actions[n] for n in ("mirror", "backwards", "stretch", "give_time")])
+        change.setMenu(menu)
+        robot = add("robot_pose", tr("From a robot"), lambda: None, icon_name="bot")
+        self.robot_menu = QMenu(self.window)
+        self.robot_menu.aboutToShow.connect(self._fill_robot_menu)
+        robot.setMenu(self.robot_menu)
+        more = add("more_motion", tr("More"), lambda: None, icon_name="ellipsis")
+        menu = QMenu(self.window)
+        menu.addActions([actions[n] for n in ("import_motion", "export_motion", "delete_motion")])
+        more.setMenu(menu)
+
+    def _fill_robot_menu(self) -> None:
+        self.window.player.pause()
+        self.window.robots.fill(self.robot_menu, self.window.main.studio.language)
+
+    # Opening
+
+    def new(self, use: Use | None = None) -> None:
+        """Begin a new motion; the block of ``use`` plays it once it is kept."""
+        from .window import new_motion
+
+        def begin() -> None:
+            self._show(new_motion(), "")
+            self._use = use
+
+        self.guard(begin)
+
+    def show_open_menu(self) -> None:
+        """Show the motions that there are."""
+        menu = self.open_menu()
+        bar_button = self.window.actions_by_name["open_motion"]
+        widgets = [w for w in bar_button.associatedObjects() if w.isWidgetType()]
+        holder = next((w for w in widgets if hasattr(w, "widgetForAction")), None)
+        button = holder.widgetForAction(bar_button) if holder is not None else None
+        place = button.mapToGlobal(button.rect().bottomLeft()) if button else QCursor.pos()
+        menu.popup(place)
+
+    def open_menu(self) -> QMenu:
+        """The motions of the project, then those that come with the robot."""
+        menu = QMenu(self.window)
+        menu.aboutToHide.connect(menu.deleteLater)
+        own = self.kept.own()
+        add_title(menu, tr("In this project"))
+        for name, motion in own.items():
+            menu.addAction(motion.title, self._opener(name))
+        if not own:
+            menu.addAction(tr("None yet")).setEnabled(False)
+        add_title(menu, tr("That come with the robot, as a start"))
+        for kind, use in kind_words().items():
+            inner = menu.addMenu(use)
+            inner.setStyleSheet("QMenu { menu-scrollable: 1; }")  # never as large as the screen
+            for name, words in self.kept.shipped(kind).items():
+                inner.addAction(words, self._opener(name))
+            inner.setEnabled(not inner.isEmpty())
+        return menu
+
+    def open(self, name: str) -> None:
+        """Open a motion of the project, or one that comes with the robot as a start."""
+        own = self.kept.own().get(name)
+        if own is not None:
+            self._show(own, name)
+            return
+        try:
+            self._show(self.kept.load(name), "")
+        except NepError as error:
+            self.tell_error(error)
+
+    def _opener(self, name: str) -> Callable[[], None]:
+        return lambda: self.guard(lambda: self.open(name))
+
+    def _show(self, motion: OwnAnimation, name: str) -> None:
+        self.window.player.pause()
+        self._use = None
+        self.desk.open(motion, name)
+        self.desk.moved.emit()
+        self.desk.chosen_changed.emit()
+
+    # Keeping
+
+    def save(self) -> bool:
+        """Keep the motion in the project; whether that went well."""
+        if self.kept.editor is None:
+            self._tell(tr("No project is open"), "", tr("Open a project, then keep the motion."))
+            return False
+        try:
+            name = self.kept.save(self.desk.motion, self.desk.name, self._use)
+        except EditRefused as refused:
+            step = tr("Give it a name and at least one pose, then keep it again.")
+            self._tell(tr("The motion could not be kept"), tr(str(refused)), step)
+            return False
+        self._use = None
+        self.desk.saved(name)
+        announce(self.window, tr("The motion is kept. Blocks can play it."))
+        return True
+
+    def guard(self, then: Callable[[], object]) -> None:
+        """Do something after asking what is to become of changes."""
+        if not self.desk.is_modified or not self.desk.motion.joints:
+            then()
+            return
+
+        def save_first() -> None:
+            if self.save():
+                then()
+
+        title = tr("Keep the changes of “{title}”?", title=self.desk.motion.title)
+        answers = (
+            Answer(tr("Keep in the project"), save_first, "primary"),
+            Answer(tr("Throw away"), then),
+            Answer(tr("Cancel"), lambda: None),
+        )
+        self.ask(Message("warning", title, answers=answers))
+
+    def ask_delete(self) -> None:
+        """Ask whether to take the motion out of the project; say what plays it."""
+        name = self.desk.name
+        uses = self.kept.uses(name)
+        told = count_words(uses, "1 block plays it", "{n} blocks play it")
+        words = tr("{uses}: choose another motion there.", uses=told) if uses else ""
+        title = tr("Delete “{title}” from the project?", title=self.desk.motion.title)
+        answers = (
+            Answer(tr("Delete"), lambda: self.delete(name)),
+            Answer(tr("Cancel"), lambda: None, "primary"),
+        )
+        self.ask(Message("warning", title, words, answers=answers))
+
+    def delete(self, name: str) -> None:
+        """Take a motion out of the project; it stays here, to be kept again."""
+        self.kept.delete(name)
+        self.desk.changed.emit()
+
+    # As text
+
+    def ask_text(self) -> None:
+        """Ask for what Choregraphe has exported."""
+        from .importing import ImportDialog
+
+        dialog = ImportDialog(self.desk.body, self.window)
+        dialog.read.connect(lambda joints: self.guard(lambda: self.bring_in(joints)))
+        dialog.open()
+
+    def bring_in(self, joints: OwnAnimation) -> None:
+        """Show a motion that was read; it is not kept yet."""
+        self.window.player.pause()
+        self.desk.open(joints, is_kept=False)
+        self.desk.moved.emit()
+
+    def export(self) -> None:
+        """Ask for a file, and write the motion into it."""
+        text = to_toml(self.desk.motion)
+        name = f"{free_name(self.desk.motion.title, ())}.toml"
+
+        def save(path: Path) -> None:
+            path.write_text(text, encoding="utf-8")
+
+        save_text(self.window, self.messages, name, save)
+
+    # Telling
+
+    @property
+    def messages(self) -> Messages:
+        """The door for messages; they are shown in the main window."""
+        return self.window.main.messages
+
+    def tell_error(self, error: NepError) -> None:
+        """Say what went wrong, over this window."""
+        problem = problem_of(error)
+        ok = Answer(tr("OK"), lambda: None, "primary")
+        checklist = tuple(map(tr, problem.checklist))
+        title, sentence = tr(problem.title), tr(problem.sentence)
+        message = Message("error", title, sentence, checklist, problem.details, (ok,))
+        self.ask(message)
+
+    def _tell(self, title: str, sentence: str, step: str) -> None:
+        ok = Answer(tr("OK"), lambda: None, "primary")
+        message = Message("warning", title, sentence, checklist=(step,), answers=(ok,))
+        self.ask(message)
+
+    def ask(self, message: Message) -> None:
+        """Ask, or tell what has to be read, over this window."""
+        QuestionDialog(message, self.window).open()

@@ -1,0 +1,165 @@
+"""A slider for each joint: the angles of the pose that is shown, and how far each can go."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDoubleSpinBox,
+    QFrame,
+    QGridLayout,
+    QLabel,
+    QScrollArea,
+    QSlider,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.language import Language
+from nep_studio.ui.words import tr
+from robots.body.body import Joint
+
+from .editing import pose_at
+from .joint_words import joint_words
+from .motion_controller import MotionDesk
+from .timeline_painter import limb_words
+
+STEPS = 10
+"""A slider has so many places for each degree, or each hundredth of a hand."""
+
+
+class JointRow(QWidget):
+    """One joint: ``turned`` gives its angle (rad, hands 0 to 1), ``released`` ends the turning."""
+
+    turned = Signal(str, float)
+    released = Signal()
+
+    def __init__(self, joint: Joint, words: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.joint, self.words = joint, words
+        self.is_hand = joint.name.endswith("Hand")
+        self.label = QLabel(words, self)
+        self.slider = QSlider(Qt.Orientation.Horizontal, self)
+        self.box = QDoubleSpinBox(self)
+        self._is_showing = False
+        self._lay_out()
+        self.slider.valueChanged.connect(lambda value: self._on_changed(value / STEPS))
+        self.slider.sliderReleased.connect(self.released)
+        self.box.valueChanged.connect(self._on_changed)
+        self.box.editingFinished.connect(self.released)
+
+    def _lay_out(self) -> None:
+        low, high = self._shown(self.joint.min_rad), self._shown(self.joint.max_rad)
+        self.slider.setRange(math.ceil(low * STEPS), math.floor(high * STEPS))
+        self.box.setRange(math.ceil(low * STEPS) / STEPS, math.floor(high * STEPS) / STEPS)
+        self.box.setDecimals(1)
+        self.box.setSuffix(" %" if self.is_hand else "°")
+        self.box.setKeyboardTracking(False)
+        for widget in (self.slider, self.box):
+            widget.setAccessibleName(self.words)
+        unit = "%" if self.is_hand else "°"
+        limits = tr("from {low} to {high}", low=f"{low:.0f}{unit}", high=f"{high:.0f}{unit}")
+        self.setToolTip(f"{self.joint.name}: {limits}")
+
+    def show_angle(self, angle: float, *, is_key: bool) -> None:
+        """Show an angle; a joint with a key at this moment stands out."""
+        value = self._shown(angle)
+        self._is_showing = True
+        self.slider.setValue(round(value * STEPS))
+        if not self.box.hasFocus() or abs(self.box.value() - value) > 0.06:
+            self.box.setValue(value)
+        self._is_showing = False
+        font = self.label.font()
+        if font.bold() != is_key:
+            font.setBold(is_key)
+            self.label.setFont(font)
+
+    def _shown(self, angle: float) -> float:
+        return angle * 100.0 if self.is_hand else math.degrees(angle)
+
+    def _on_changed(self, value: float) -> None:
+        if not self._is_showing:
+            angle = value / 100.0 if self.is_hand else math.radians(value)
+            self.turned.emit(self.joint.name, angle)
+
+
+class JointPanel(QScrollArea):
+    """The joints by limb."""
+
+    def __init__(self, desk: MotionDesk, language: Language, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.desk = desk
+        self.both = QCheckBox(tr("Both sides alike"))
+        self.both.setToolTip(tr("What one arm or leg does, the other does too, as in a mirror"))
+        self.both.toggled.connect(self._on_both_toggled)
+        self.rows = {
+            joint.name: JointRow(joint, joint_words(language, desk.body, joint.name))
+            for joint in desk.body.joints
+            if joint.name not in desk.body.same_motor
+        }
+        self._lay_out()
+        for row in self.rows.values():
+            row.turned.connect(self._on_turned)
+            row.released.connect(desk.seal)
+        desk.changed.connect(self.refresh)
+        desk.moved.connect(self.refresh)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the pose of the moment."""
+        pose, keys = self.desk.rehearsal.pose(self.desk.cursor_s), self._keys()
+        for name, row in self.rows.items():
+            row.show_angle(float(pose[self.desk.body.index[name]]), is_key=name in keys)
+
+    def _keys(self) -> frozenset[str]:
+        return frozenset(pose_at(self.desk.motion, self.desk.cursor_s))
+
+    def _lay_out(self) -> None:
+        inner = QWidget()
+        box = QVBoxLayout(inner)
+        box.addWidget(self.both)
+        grid = QGridLayout()
+        grid.setColumnStretch(1, 1)
+        body = self.desk.body
+        for limb, words in limb_words().items():
+            names = [n for n in self.rows if body.joints[body.index[n]].limb is limb]
+            if names:
+                grid.addWidget(self._heading(words), grid.rowCount(), 0, 1, 3)
+                self._add_rows(grid, names)
+        box.addLayout(grid)
+        box.addStretch(1)
+        self.setWidget(inner)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+
+    def minimumSizeHint(self) -> QSize:
+        """As wide as its rows: they are not scrolled sideways."""
+        line, inner = self.fontMetrics().height(), self.widget()
+        width = inner.minimumSizeHint().width() if inner is not None else 0
+        return QSize(width + line * 2, line * 8)
+
+    def _heading(self, words: str) -> QLabel:
+        heading = QLabel(words)
+        font = heading.font()
+        font.setBold(True)
+        heading.setFont(font)
+        return heading
+
+    def _add_rows(self, grid: QGridLayout, names: list[str]) -> None:
+        for name in names:
+            row, number = self.rows[name], grid.rowCount()
+            row.slider.setMinimumWidth(self.fontMetrics().height() * 5)
+            for column, widget in enumerate((row.label, row.slider, row.box)):
+                widget.setToolTip(row.toolTip())
+                grid.addWidget(widget, number, column)
+            row.setParent(self)
+            row.hide()
+
+    def _on_turned(self, name: str, angle: float) -> None:
+        self.desk.set_joints({name: angle}, tr("turn a joint"), merge=f"joint {name}")
+
+    def _on_both_toggled(self, is_on: bool) -> None:
+        self.desk.is_mirrored = is_on

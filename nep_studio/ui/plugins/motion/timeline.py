@@ -1,0 +1,291 @@
+"""The timeline of a motion: its key poses, to be chosen, moved, copied, and the moment shown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QContextMenuEvent,
+    QHelpEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QToolTip, QWidget
+
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import count_words, tr
+
+from .editing import SAME_S, key_times
+from .motion_controller import MotionDesk
+from .timeline_painter import LIMBS, Fault, Scale, TimelinePainter, limb_words, snapped
+
+# What keys and clicks on the timeline mean, apart from the widget.
+
+
+def times_with(chosen: Sequence[float], time: float, *, is_more: bool) -> list[float]:
+    """The chosen keys after a click on one; with ``is_more`` it joins or leaves the others."""
+    others = [t for t in chosen if abs(t - time) >= SAME_S]
+    was_chosen = len(others) < len(chosen)
+    if is_more:
+        return others if was_chosen else [*others, time]
+    return list(chosen) if was_chosen else [time]
+
+
+def shift_of(key: int, step_s: float) -> float | None:
+    """How far an arrow key goes in time, or None when it is another key."""
+    return {int(Qt.Key.Key_Left): -step_s, int(Qt.Key.Key_Right): step_s}.get(int(key))
+
+
+SHORTEST_SHOWN_S = 4.0
+MORE_SHOWN = 1.2
+"""So many times its own length a motion has room for on its timeline."""
+MOST_PER_S = 60.0
+"""In heights of a line."""
+
+
+class Timeline(QWidget):
+    """One row for the poses, and one for each limb.
+
+    ``key_asked``: a key pose is wanted at the moment shown; ``menu_asked`` gives a place.
+    """
+
+    key_asked = Signal()
+    menu_asked = Signal(object)  # QPoint, global
+
+    def __init__(self, desk: MotionDesk, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.desk, self.look = desk, look
+        self.snap_s = 0.05
+        self.zoom = 1.0
+        self.faults: list[Fault] = []
+        self._drag: _Drag | None = None
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMouseTracking(True)
+        self.setAccessibleName(tr("Timeline"))
+        for signal in (desk.changed, desk.moved, desk.chosen_changed):
+            signal.connect(self._on_changed)
+
+    # What is shown
+
+    @property
+    def line(self) -> int:
+        """The height of a line of text, by which everything is measured."""
+        return self.fontMetrics().height()
+
+    @property
+    def shown_s(self) -> float:
+        """How long the time is that the timeline shows."""
+        return max(SHORTEST_SHOWN_S, self.desk.motion.duration_s * MORE_SHOWN, self.desk.cursor_s)
+
+    @property
+    def scale(self) -> Scale:
+        """Where moments are."""
+        left = self.names_width + self.line * 0.8
+        room = max(self._room() - left - self.line, self.line * 4)
+        return Scale(left, min(room / self.shown_s * self.zoom, self.line * MOST_PER_S))
+
+    @property
+    def names_width(self) -> float:
+        """How much room the names of the rows take."""
+        words = (tr("Poses"), *limb_words().values())
+        return max(map(self.fontMetrics().horizontalAdvance, words)) + self.line
+
+    def row(self, number: int) -> QRectF:
+        """Where a row is: 0 the ruler, 1 the poses, from 2 on the limbs."""
+        heights = [1.5, 1.6, *(1.05 for _ in LIMBS)]
+        top = sum(heights[:number]) * self.line
+        return QRectF(0.0, top, self.width(), heights[number] * self.line)
+
+    def place_of(self, time: float) -> QPointF:
+        """Where the key pose of a moment is."""
+        return QPointF(self.scale.x(time), self.row(1).center().y())
+
+    def show_faults(self, faults: list[Fault]) -> None:
+        """Mark where the robot would be too slow, or fall."""
+        self.faults = faults
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """As wide as what it shows at this zoom."""
+        height = int(self.row(len(LIMBS) + 1).bottom()) + 2
+        wide = self.scale.x(self.shown_s) + self.line if self.zoom > 1.0 else self.line * 20
+        return QSize(int(wide), height)
+
+    def minimumSizeHint(self) -> QSize:
+        """Without zoom it takes what room there is."""
+        size = self.sizeHint()
+        return size if self.zoom > 1.0 else QSize(self.line * 20, size.height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint it."""
+        painter = QPainter(self)
+        TimelinePainter(self, painter).paint()
+        painter.end()
+
+    def _room(self) -> float:
+        holder = self.parentWidget()
+        return float(holder.width() if holder is not None and self.zoom > 1.0 else self.width())
+
+    def _on_changed(self) -> None:
+        self.setAccessibleDescription(self._told())
+        if self._drag is None:
+            self.updateGeometry()
+        self.update()
+
+    def _told(self) -> str:
+        count = len(key_times(self.desk.motion))
+        poses = count_words(count, "1 key pose", "{n} key poses")
+        return tr("{poses}; {time} s is shown", poses=poses, time=f"{self.desk.cursor_s:.2f}")
+
+    # The mouse
+
+    def key_at(self, place: QPointF) -> float | None:
+        """The time of the key under a place."""
+        scale, near = self.scale, self.line * 0.5
+        if place.y() < self.row(1).top():
+            return None
+        found = [t for t in key_times(self.desk.motion) if abs(scale.x(t) - place.x()) <= near]
+        return min(found, key=lambda t: abs(scale.x(t) - place.x())) if found else None
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Choose a key, or show a moment."""
+        if event.button() != Qt.MouseButton.LeftButton:
+            return
+        place = event.position()
+        key = self.key_at(place)
+        if key is None:
+            self._drag = _Drag(place, self.scale.time(place.x()), "scrub")
+            if place.y() >= self.row(1).top():
+                self.desk.choose(())
+            self._scrub(place)
+            return
+        is_more = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        is_after = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        self.desk.choose(times_with(self.desk.chosen, key, is_more=is_more))
+        self.desk.show(key)
+        self._drag = _Drag(place, key, "after" if is_after else "move")
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Drag keys, or the moment."""
+        if self._drag is None:
+            key = self.key_at(event.position())
+            shape = Qt.CursorShape.ArrowCursor if key is None else Qt.CursorShape.SizeHorCursor
+            self.setCursor(shape)
+            return
+        if self._drag.kind == "scrub":
+            self._scrub(event.position())
+        elif self._drag.has_begun(event.position(), self.line):
+            is_free = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
+            self._move_to(event.position(), 0.0 if is_free else self.snap_s)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """A drag ends."""
+        if self._drag is not None:
+            self._drag = None
+            self.desk.seal()
+            self.updateGeometry()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Keep a key pose at that moment."""
+        if event.position().y() >= self.row(1).top() and self.key_at(event.position()) is None:
+            self._scrub(event.position())
+            self.key_asked.emit()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """What can be done with the key, or at the moment."""
+        if event.reason() == QContextMenuEvent.Reason.Mouse:
+            key = self.key_at(QPointF(event.pos()))
+            if key is not None and key not in self.desk.chosen:
+                self.desk.choose([key])
+                self.desk.show(key)
+        self.menu_asked.emit(event.globalPos())
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Ctrl and the wheel zoom."""
+        if not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            event.ignore()
+            return
+        self.zoom_by(1.25 ** (event.angleDelta().y() / 120.0))
+
+    def zoom_by(self, factor: float) -> None:
+        """Show time larger or smaller; never smaller than all of it."""
+        self.zoom = min(max(self.zoom * factor, 1.0), 40.0)
+        self.setMinimumWidth(self.minimumSizeHint().width())
+        self.updateGeometry()
+        self.update()
+
+    def _scrub(self, place: QPointF) -> None:
+        self.desk.show(snapped(self.scale.time(place.x()), self.snap_s))
+
+    def _move_to(self, place: QPointF, snap_s: float) -> None:
+        drag = self._drag
+        assert drag is not None
+        wanted = snapped(drag.time + (place.x() - drag.place.x()) / self.scale.per_s, snap_s)
+        if drag.kind == "after":
+            self.desk.shift_after(drag.at, wanted - drag.at, tr("make room"), merge="move keys")
+        else:
+            self.desk.move_chosen(wanted - drag.at, tr("move key poses"), merge="move keys")
+        drag.at = max(wanted, 0.01) if drag.kind == "move" else wanted
+        self.desk.show(drag.at)
+
+    def event(self, event: QEvent) -> bool:
+        """Say what is wrong where something is."""
+        if isinstance(event, QHelpEvent):
+            time = self.scale.time(event.x())
+            found = [one.words for one in self.faults if one.from_s <= time <= one.to_s]
+            QToolTip.showText(event.globalPos(), "\n".join(found), self)
+            return True
+        return super().event(event)
+
+    # The keyboard
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Arrows go through time, with Alt they move the chosen keys."""
+        is_moving = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
+        step_s = shift_of(event.key(), self.snap_s or 0.01)
+        if step_s is not None and is_moving:
+            self.desk.move_chosen(step_s, tr("move key poses"))
+            if self.desk.chosen:
+                self.desk.show(self.desk.chosen[0])
+        elif step_s is not None:
+            self.desk.show(snapped(self.desk.cursor_s + step_s, self.snap_s))
+        elif not self._go(event.key()):
+            super().keyPressEvent(event)
+
+    def _go(self, key: int) -> bool:
+        times, now = key_times(self.desk.motion), self.desk.cursor_s
+        match key:
+            case Qt.Key.Key_Home:
+                self.desk.show(0.0)
+            case Qt.Key.Key_End:
+                self.desk.show(times[-1] if times else 0.0)
+            case Qt.Key.Key_PageUp:
+                self._choose(max((t for t in times if t < now - SAME_S), default=None))
+            case Qt.Key.Key_PageDown:
+                self._choose(min((t for t in times if t > now + SAME_S), default=None))
+            case _:
+                return False
+        return True
+
+    def _choose(self, time: float | None) -> None:
+        if time is not None:
+            self.desk.choose([time])
+            self.desk.show(time)
+
+
+class _Drag:
+    """What the mouse does: where and when it began, and where the keys are by now."""
+
+    def __init__(self, place: QPointF, time: float, kind: str) -> None:
+        self.place, self.time, self.kind = place, time, kind
+        self.at = time
+        self._has_begun = False
+
+    def has_begun(self, place: QPointF, line: float) -> bool:
+        """Whether it is more than a click with an unsteady hand."""
+        self._has_begun = self._has_begun or abs(place.x() - self.place.x()) > line * 0.25
+        return self._has_begun

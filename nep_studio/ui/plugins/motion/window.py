@@ -1,0 +1,194 @@
+"""The window in which a motion is made: the robot, its joints, and the timeline."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent
+from PySide6.QtWidgets import (
+    QDialog,
+    QFrame,
+    QScrollArea,
+    QSplitter,
+    QStackedWidget,
+    QToolBar,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.own_animations import OwnAnimation
+from nep_studio.ui.robot_view.view import RobotView
+from nep_studio.ui.shell.menus import Actions
+from nep_studio.ui.theme.icons import fit_icons, icon_room
+from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.words import tr
+from robots.body.body import NAO, load_body, robot_folder
+
+from . import MOTION_WINDOW
+from .bars import Header, NotesBar, Transport
+from .commands import Commands, ProjectCommands
+from .curve import CurvePanel
+from .joint_panel import JointPanel
+from .motion_controller import Faults, KeptMotions, MotionDesk, Player
+from .stage import PosingStage, RobotPoses
+from .timeline import Timeline
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+class MotionWindow(QDialog):
+    """Makes one motion at a time, for a robot of a ``model``: "" is a NAO."""
+
+    def __init__(self, main: MainWindow, model: str = "") -> None:
+        super().__init__(main)
+        self.main, self.look = main, main.look
+        self.setObjectName(MOTION_WINDOW)
+        self.setWindowFlag(Qt.WindowType.WindowMaximizeButtonHint)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        language = main.studio.language
+        self.model, folder = model, robot_folder(model or NAO)
+        body = load_body(folder)
+        self.desk = MotionDesk(body, self)
+        self.player = Player(self.desk, self)
+        self.kept = KeptMotions(main.files, folder, body)
+        self.actions_by_name = Actions(self, self.look)
+        self.commands = Commands(self)
+        self.project = ProjectCommands(self)
+        self.view = RobotView(self.look)
+        self.stage = PosingStage(self.view, self.desk, model)
+        self.joints = JointPanel(self.desk, language)
+        self.header = Header(self.desk, language)
+        self.timeline = Timeline(self.desk, self.look)
+        self.curve = CurvePanel(self.desk, self.timeline, language, self.look)
+        self.transport = Transport(self.desk, self.player, self.timeline, self.actions_by_name)
+        self.notes = NotesBar(self.desk, self.look)
+        self.faults = Faults(self.desk, self.stage.skeleton, language)
+        self.robots = RobotPoses(main.running.runner, self.desk, self)
+        self._may_close = False
+        self._lay_out()
+        self._connect()
+        self.desk.open(new_motion())
+        self.timeline.setFocus()
+
+    def _connect(self) -> None:
+        self.faults.found.connect(self.timeline.show_faults)
+        self.faults.found.connect(self.notes.show_faults)
+        self.notes.time_asked.connect(self.commands.give_time)
+        self.notes.open_asked.connect(self.project.show_open_menu)
+        self.timeline.key_asked.connect(self.commands.add_pose)
+        self.timeline.menu_asked.connect(self.commands.show_menu)
+        self.main.files.document_changed.connect(self._on_document_changed)
+        self.view.limb_pressed.connect(lambda *_: self.player.pause())
+        for signal in (self.desk.changed, self.desk.chosen_changed):
+            signal.connect(self._on_changed)
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        body = QSplitter(Qt.Orientation.Horizontal)
+        body.addWidget(self.view)
+        body.addWidget(self.joints)
+        body.setStretchFactor(0, 1)
+        body.setChildrenCollapsible(False)
+        self.view.setMinimumSize(line * 12, line * 8)
+        self.time_pages = QStackedWidget()
+        holder = QScrollArea()
+        holder.setWidget(self.timeline)
+        holder.setWidgetResizable(True)
+        holder.setFrameShape(QFrame.Shape.StyledPanel)
+        holder.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        frame = 2 * holder.frameWidth()
+        self.time_pages.addWidget(holder)
+        self.time_pages.addWidget(self.curve)
+        self.time_pages.setFixedHeight(self.timeline.sizeHint().height() + frame)
+        box = QVBoxLayout(self)
+        box.setSpacing(line // 2)
+        box.addWidget(self._toolbar())
+        box.addWidget(self.header)
+        box.addWidget(body, 1)
+        box.addWidget(self.notes)
+        box.addWidget(self.transport)
+        box.addWidget(self.time_pages)
+        fit_icons(self)
+        room = room_around(self).size()
+        self.resize(min(line * 62, room.width()), min(line * 50, room.height()))
+
+    def show_curve(self, is_shown: bool) -> None:
+        """Show the curve of one joint in place of the timeline."""
+        moving = [name for name in self.desk.motion.joints if name in self.joints.rows]
+        if is_shown and self.curve.curve.joint not in moving and moving:
+            self.curve.show_joint(moving[0])
+        self.time_pages.setCurrentIndex(int(is_shown))
+        line = self.timeline.line
+        height = self.timeline.sizeHint().height() + 2
+        self.time_pages.setFixedHeight(height + line * 5 if is_shown else height)
+
+    def _toolbar(self) -> QWidget:
+        bar = QToolBar()
+        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        bar.setIconSize(icon_room(self.fontMetrics().height()))
+        actions = self.actions_by_name
+        for name in ("new_motion", "open_motion", "save_motion"):
+            bar.addAction(actions[name])
+        bar.addSeparator()
+        for name in ("undo_motion", "redo_motion"):
+            bar.addAction(actions[name])
+            _button_of(bar, actions[name]).setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
+        bar.addSeparator()
+        for name in ("change_motion", "robot_pose", "look_from", "more_motion"):
+            bar.addAction(actions[name])
+            mode = QToolButton.ToolButtonPopupMode.InstantPopup
+            _button_of(bar, actions[name]).setPopupMode(mode)
+        return bar
+
+    def _on_changed(self) -> None:
+        self.commands.update()
+        self.project.update()
+        title = self.desk.motion.title or tr("Motion")
+        self.setWindowTitle(tr("Make a motion: {title}", title=title) + "[*]")
+        self.setWindowModified(self.desk.is_modified)
+
+    def _on_document_changed(self) -> None:
+        """Another project keeps no motion of the last one: what is here is new to it."""
+        self.desk.name = ""
+        self._on_changed()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Keys that no field wanted for itself; Esc does not throw a motion away."""
+        is_plain = not event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
+        if is_plain and self.commands.press(event.key()):
+            return
+        if event.key() != Qt.Key.Key_Escape:
+            event.ignore()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask what is to become of a motion that is not kept."""
+        self.player.pause()
+        if self.has_changes and not self._may_close:
+            event.ignore()
+            self.project.guard(self.close_now)
+            return
+        super().closeEvent(event)
+
+    @property
+    def has_changes(self) -> bool:
+        """Whether something would be lost."""
+        return self.desk.is_modified and bool(self.desk.motion.joints)
+
+    def close_now(self) -> None:
+        """Close without asking."""
+        self._may_close = True
+        self.close()
+
+
+def new_motion() -> OwnAnimation:
+    """A motion in which nothing moves yet."""
+    return OwnAnimation(tr("My motion"), {})
+
+
+def _button_of(bar: QToolBar, action: QAction) -> QToolButton:
+    button = bar.widgetForAction(action)
+    assert isinstance(button, QToolButton)
+    return button

@@ -1,0 +1,240 @@
+"""The network panel: the graph or the list of what talks, and the messages of one topic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSplitter,
+    QStackedWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.run.node_board import NodeStatus
+from nep_studio.ui.network_feed import NetworkFeed, Seen
+from nep_studio.ui.plugins.sharing import SharingTold
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import count_words, tr
+
+from .graph import graph_of
+from .graph_view import ZOOM_STEP, GraphView
+from .list import NetworkList
+from .topics import Talks, TopicPane
+
+Statuses = Callable[[], Mapping[str, NodeStatus]]
+
+
+class NetworkPanel(QWidget):
+    """Looks at the network while it is visible.
+
+    ``run_asked`` asks to run the project, the first step where nothing is there to see;
+    ``sharing_asked`` to show which other computers come in; ``node_chosen`` gives the name of a
+    node, ``plot_requested`` a topic and a field.
+    """
+
+    run_asked = Signal()
+    sharing_asked = Signal()
+    node_chosen = Signal(str)
+    plot_requested = Signal(str, str)
+    saving_failed = Signal(str, str)
+
+    def __init__(
+        self,
+        feed: NetworkFeed,
+        statuses: Statuses,
+        talks: Talks,
+        look: Look,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._feed, self._statuses, self._look = feed, statuses, look
+        self.graph = GraphView(look)
+        self.list = NetworkList()
+        self.pane = TopicPane(talks, look)
+        self.pane.hide()
+        self.empty = _Empty()
+        self.summary = QLabel()
+        self.summary.setProperty("role", "hint")
+        self.sharing_button = _tool("")
+        self.sharing_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.sharing_button.hide()
+        self._sharing_icon = ""
+        self.list_button = _tool(tr("As a list"), is_checkable=True)
+        self.whole_button = _tool(tr("Show everything"), is_checkable=True)
+        self.whole_button.setToolTip(tr("Show the studio itself and /node_state too"))
+        self.larger_button, self.smaller_button = _tool(tr("Zoom in")), _tool(tr("Zoom out"))
+        self.fit_button = _tool(tr("Show all"))
+        self._lay_out()
+        self._connect()
+        self._on_theme_changed()
+        self._on_changed(feed.seen)
+
+    def _lay_out(self) -> None:
+        bar = QHBoxLayout()
+        bar.addWidget(self.summary, 1)
+        bar.addWidget(self.sharing_button)
+        tools = (self.whole_button, self.list_button, self.smaller_button, self.larger_button)
+        for button in (*tools, self.fit_button):
+            bar.addWidget(button)
+        self.views = QStackedWidget()
+        for widget in (self.empty, self.graph, self.list):
+            self.views.addWidget(widget)
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(bar)
+        column.addWidget(self.views, 1)
+        split = QSplitter(Qt.Orientation.Horizontal)
+        split.addWidget(left)
+        split.addWidget(self.pane)
+        split.setStretchFactor(0, 3)
+        split.setStretchFactor(1, 2)
+        split.setChildrenCollapsible(False)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addWidget(split)
+
+    def _connect(self) -> None:
+        self._feed.changed.connect(self._on_changed)
+        self.empty.run_button.clicked.connect(self.run_asked)
+        self.sharing_button.clicked.connect(self.sharing_asked)
+        for view in (self.graph, self.list):
+            view.topic_chosen.connect(self.open_topic)
+            view.node_chosen.connect(self.node_chosen)
+        self.list_button.toggled.connect(self._on_list_toggled)
+        self.whole_button.toggled.connect(lambda: self._on_changed(self._feed.seen))
+        self.larger_button.clicked.connect(lambda: self.graph.zoom(ZOOM_STEP))
+        self.smaller_button.clicked.connect(lambda: self.graph.zoom(1 / ZOOM_STEP))
+        self.fit_button.clicked.connect(self.graph.fit)
+        self.pane.bar.close_button.clicked.connect(self._on_pane_closed)
+        self.pane.plot_requested.connect(self.plot_requested)
+        self.pane.saving_failed.connect(self.saving_failed)
+        self._look.theme_changed.connect(self._on_theme_changed)
+
+    def set_folder(self, folder: Path) -> None:
+        """Save messages there at first."""
+        self.pane.folder = folder
+
+    def show_sharing(self, told: SharingTold) -> None:
+        """Say that the network is open to other computers; nothing when it is not."""
+        self.sharing_button.setVisible(bool(told.words))
+        self.sharing_button.setText(told.words)
+        self.sharing_button.setToolTip(told.more or told.words)
+        self.sharing_button.setAccessibleName(told.words)
+        self.sharing_button.setAccessibleDescription(told.more)
+        self._sharing_icon = told.icon_name
+        self._on_theme_changed()
+
+    def open_topic(self, topic: str) -> None:
+        """Show the messages of a topic."""
+        self.pane.show_topic(topic, self._feed.seen.topics.get(topic))
+        self.pane.show()
+
+    def sizeHint(self) -> QSize:
+        """Room for a small graph."""
+        line = self.fontMetrics().height()
+        return QSize(line * 40, line * 18)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Look at the network."""
+        super().showEvent(event)
+        self._feed.watch(self)
+        self._on_changed(self._feed.seen)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Look at nothing."""
+        super().hideEvent(event)
+        self._feed.unwatch(self)
+
+    def _on_changed(self, seen: Seen) -> None:
+        if not self.isVisible():
+            return
+        statuses = self._statuses()
+        types = {name: status.type for name, status in statuses.items()}
+        graph = graph_of(seen, types, is_whole=self.whole_button.isChecked())
+        is_empty = not graph.nodes
+        chosen = self.list if self.list_button.isChecked() else self.graph
+        self.views.setCurrentWidget(self.empty if is_empty else chosen)
+        self.empty.tell(is_up=seen.is_up)
+        if not is_empty:
+            chosen.show_graph(graph, seen, statuses)
+        nodes = count_words(len(graph.nodes), "1 node", "{n} nodes")
+        topics = count_words(len(graph.topics), "1 topic", "{n} topics")
+        self.summary.setText("" if is_empty else f"{nodes} · {topics}")
+        topic = seen.topics.get(self.pane.topic)
+        if topic is not None and self.pane.isVisible():
+            self.pane.tell(topic)
+
+    def _on_list_toggled(self, is_list: bool) -> None:
+        for button in (self.larger_button, self.smaller_button, self.fit_button):
+            button.setEnabled(not is_list)
+        self._on_changed(self._feed.seen)
+
+    def _on_pane_closed(self) -> None:
+        self.pane.hide()
+        self.graph.setFocus()
+
+    def _on_theme_changed(self) -> None:
+        icons = {
+            self.list_button: "list",
+            self.whole_button: "eye",
+            self.larger_button: "zoom-in",
+            self.smaller_button: "zoom-out",
+            self.fit_button: "maximize",
+        }
+        if self._sharing_icon:
+            icons[self.sharing_button] = self._sharing_icon
+        for button, name in icons.items():
+            button.setIcon(icon(name, self._look.theme))
+
+
+class _Empty(QWidget):
+    """What stands here while nothing talks."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.words.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.words.setProperty("role", "hint")
+        self.run_button = QPushButton(tr("Run"))
+        self.run_button.setProperty("kind", "run")
+        row = QHBoxLayout()
+        row.addStretch(1)
+        row.addWidget(self.run_button)
+        row.addStretch(1)
+        box = QVBoxLayout(self)
+        box.addStretch(1)
+        box.addWidget(self.words)
+        box.addLayout(row)
+        box.addStretch(2)
+        self.tell(is_up=False)
+
+    def tell(self, *, is_up: bool) -> None:
+        """Say what belongs here and how one begins."""
+        belongs = tr("Here you see which nodes run and what they tell each other.")
+        step = (
+            tr("No node has joined the network yet.")
+            if is_up
+            else tr("Press Run: the nodes of your project start.")
+        )
+        self.words.setText(f"{belongs}\n{step}")
+        self.run_button.setVisible(not is_up)
+
+
+def _tool(words: str, *, is_checkable: bool = False) -> QToolButton:
+    button = QToolButton()
+    button.setText(words)
+    button.setToolTip(words)
+    button.setAccessibleName(words)
+    button.setCheckable(is_checkable)
+    return button

@@ -1,0 +1,390 @@
+"""The messages of one topic: the last ones, one of them in full, and one to send by hand."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from typing import Any, Protocol
+
+import msgspec
+from PySide6.QtCore import (
+    QAbstractListModel,
+    QItemSelectionModel,
+    QModelIndex,
+    QObject,
+    Qt,
+    QTimer,
+    Signal,
+)
+from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QListView,
+    QMenu,
+    QPlainTextEdit,
+    QSplitter,
+    QTabWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_core.wire.messages import BY_TOPIC
+from nep_studio.ui.network_feed import TopicSeen
+from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.words import count_words, tr
+
+from .graph_words import as_json, names, one_line, pretty, rate_words
+from .saving import number_fields, save
+from .sending import SendBox
+
+# The head of a topic's pane: its name, a filter, and what can be done with its messages.
+
+
+class TopicBar(QWidget):
+    """Has no behaviour of its own; the pane connects its buttons."""
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self.title = ElidedLabel()
+        self.title.setProperty("role", "heading")
+        self.pause_button = _button(tr("Pause"), tr("Stop the list, to read it"))
+        self.pause_button.setCheckable(True)
+        self.copy_button = _button(tr("Copy"), tr("Copy the chosen message, or all of them"))
+        self.save_button = _button(tr("Save as…"), tr("Save the messages as a table or JSON lines"))
+        self.plot_button = _button(tr("Plot"), tr("Show a number of these messages as a curve"))
+        self.plot_menu = QMenu(self.plot_button)
+        self.plot_button.setMenu(self.plot_menu)
+        self.plot_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.close_button = QToolButton()
+        self.close_button.setToolTip(tr("Close"))
+        self.close_button.setAccessibleName(tr("Close these messages"))
+        self.filter = QLineEdit()
+        self.filter.setPlaceholderText(tr("Show only messages with…"))
+        self.filter.setAccessibleName(tr("Show only messages with…"))
+        self.filter.setClearButtonEnabled(True)
+        self._lay_out()
+        look.theme_changed.connect(self._on_theme_changed)
+        self._on_theme_changed()
+
+    def _lay_out(self) -> None:
+        first, second = QHBoxLayout(), QHBoxLayout()
+        first.addWidget(self.title, 1)
+        first.addWidget(self.close_button)
+        for button in (self.pause_button, self.copy_button, self.save_button, self.plot_button):
+            second.addWidget(button)
+        second.addWidget(self.filter, 1)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addLayout(first)
+        box.addLayout(second)
+
+    def show_topic(self, topic: str) -> None:
+        """Say whose messages these are."""
+        self.title.set_words(topic)
+
+    def _on_theme_changed(self) -> None:
+        theme = self._look.theme
+        icons = {
+            self.pause_button: "pause",
+            self.copy_button: "copy",
+            self.save_button: "download",
+            self.plot_button: "chart-line",
+            self.close_button: "x",
+        }
+        for button, name in icons.items():
+            button.setIcon(icon(name, theme))
+
+
+def _button(words: str, tip: str) -> QToolButton:
+    button = QToolButton()
+    button.setText(words)
+    button.setToolTip(tip)
+    button.setAccessibleName(words)
+    button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
+    return button
+
+
+# The last messages of a topic as a list; however fast they come, only some are drawn.
+
+KEPT = 500
+"""So many messages of a topic are kept to look at."""
+
+Index = QModelIndex
+
+
+class HeardList(QAbstractListModel):
+    """What is shown is what was there at the last ``refresh``, the newest first."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._kept: deque[Heard] = deque(maxlen=KEPT)
+        self._shown: list[Heard] = []
+        self.filter = ""
+        self.count = 0
+
+    @property
+    def shown(self) -> Sequence[Heard]:
+        """What is in the list, the newest first."""
+        return self._shown
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._kept.clear()
+        self.count = 0
+        self.refresh()
+
+    def add(self, batch: Sequence[Heard]) -> None:
+        """Keep the newest of these; they are not shown yet."""
+        self.count += len(batch)
+        self._kept.extend(batch[-KEPT:])
+
+    def refresh(self) -> None:
+        """Show what has come."""
+        wanted = self.filter.casefold()
+        shown = [
+            one
+            for one in reversed(self._kept)
+            if not wanted or wanted in f"{one.sender} {as_json(one.message)}".casefold()
+        ]
+        self.beginResetModel()
+        self._shown = shown
+        self.endResetModel()
+
+    def rowCount(self, parent: Index | Any = QModelIndex()) -> int:  # noqa: B008  Qt's default
+        """How many are shown."""
+        return 0 if parent.isValid() else len(self._shown)
+
+    def data(self, index: Index | Any, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """The line of a message, or all of it."""
+        if not index.isValid() or index.row() >= len(self._shown):
+            return None
+        heard = self._shown[index.row()]
+        if role == Qt.ItemDataRole.DisplayRole:
+            return f"{clock(heard.time_s)}  {heard.sender}  {one_line(heard.message)}"
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return pretty(heard.message)[:4000]
+        return heard if role == Qt.ItemDataRole.UserRole else None
+
+
+def clock(time_s: float) -> str:
+    """The time of day to the millisecond."""
+    return datetime.fromtimestamp(time_s).strftime("%H:%M:%S.%f")[:-3]
+
+
+SHOW_MS = 50
+"""Twenty times a second is as fast as anybody can see."""
+
+
+class Talks(Protocol):
+    """Brings messages and sends them: a runner."""
+
+    def tap(
+        self, topic: str, *, kind: type[Any] | None = None, most: int = 2000, parent: Any
+    ) -> Tap:
+        """Hear a topic."""
+
+    def send(self, topic: str, message: msgspec.Struct | dict[str, Any]) -> bool:
+        """Send a message."""
+
+
+class TopicPane(QWidget):
+    """Hears its topic while it is visible. ``plot_requested`` gives the topic and a field."""
+
+    plot_requested = Signal(str, str)
+    saving_failed = Signal(str, str)
+
+    def __init__(self, talks: Talks, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._talks = talks
+        self._tap: Tap | None = None
+        self._is_paused = False
+        self.topic = ""
+        self.folder = Path.home()
+        self.heard = HeardList(self)
+        self.bar = TopicBar(look)
+        self.about = QLabel()
+        self.about.setWordWrap(True)
+        self.about.setProperty("role", "hint")
+        self.list = QListView()
+        self.list.setModel(self.heard)
+        self.list.setUniformItemSizes(True)
+        self.list.setAccessibleName(tr("Messages, the newest first"))
+        self.list.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.full = QPlainTextEdit()
+        self.full.setReadOnly(True)
+        self.full.setAccessibleName(tr("The message in full"))
+        self.full.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        self.send_box = SendBox(talks.send, look)
+        self._later = QTimer(self, singleShot=True, interval=SHOW_MS)
+        self._later.timeout.connect(self._on_later)
+        self._lay_out()
+        self._connect()
+
+    def _lay_out(self) -> None:
+        split = QSplitter(Qt.Orientation.Vertical)
+        split.addWidget(self.list)
+        split.addWidget(self.full)
+        split.setChildrenCollapsible(False)
+        self.tabs = QTabWidget()
+        self.tabs.setDocumentMode(True)
+        self.tabs.addTab(split, tr("Messages"))
+        self.tabs.addTab(self.send_box, tr("Send by hand"))
+        box = QVBoxLayout(self)
+        for widget in (self.bar, self.about):
+            box.addWidget(widget)
+        box.addWidget(self.tabs, 1)
+
+    def _connect(self) -> None:
+        bar = self.bar
+        bar.pause_button.toggled.connect(self._on_pause_toggled)
+        bar.filter.textChanged.connect(self._on_filter_changed)
+        bar.copy_button.clicked.connect(self.copy)
+        bar.save_button.clicked.connect(self._on_save_clicked)
+        bar.plot_menu.aboutToShow.connect(self._on_plot_menu)
+        self.list.clicked.connect(self._on_chosen)
+        self.list.activated.connect(self._on_chosen)
+        self.list.selectionModel().currentChanged.connect(self._on_current_changed)
+
+    @property
+    def is_hearing(self) -> bool:
+        """Whether messages are being heard: only while it is visible."""
+        return self._tap is not None
+
+    def show_topic(self, topic: str, seen: TopicSeen | None = None) -> None:
+        """Show the messages of a topic, which is heard from now on."""
+        if topic != self.topic:
+            self._stop()
+            self.topic = topic
+            self.bar.show_topic(topic)
+            self.heard.clear()
+            self.full.clear()
+            self.bar.pause_button.setChecked(False)
+            self.send_box.show_topic(topic, seen.last if seen else None)
+            if self.isVisible():
+                self._start()
+        if seen is not None:
+            self.tell(seen)
+
+    def tell(self, seen: TopicSeen) -> None:
+        """Say how the topic is doing."""
+        words = [
+            rate_words(seen.rate_hz),
+            count_words(seen.count, "1 message", "{n} messages"),
+            tr("from {names}", names=names(seen.publishers)),
+            tr("to {names}", names=names(seen.subscribers)),
+        ]
+        if seen.lost:
+            words.append(count_words(seen.lost, "1 message was lost", "{n} messages were lost"))
+        self.about.setText(" · ".join(words))
+
+    def copy(self) -> None:
+        """Copy the message that is shown in full, else all in the list."""
+        index = self.list.currentIndex()
+        heard: Heard | None = index.data(Qt.ItemDataRole.UserRole) if index.isValid() else None
+        if heard is not None:
+            text = pretty(heard.message)
+        else:
+            text = "\n".join(as_json(one.message) for one in reversed(self.heard.shown))
+        QGuiApplication.clipboard().setText(text)
+
+    def save_to(self, path: Path) -> None:
+        """Save what is in the list, oldest first, as CSV or JSON lines."""
+        try:
+            save(list(reversed(self.heard.shown)), path)
+        except OSError as error:
+            self.saving_failed.emit(str(path), error.strerror or str(error))
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Hear the topic."""
+        super().showEvent(event)
+        self._start()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Hear nothing while nobody looks."""
+        super().hideEvent(event)
+        self._stop()
+
+    def _start(self) -> None:
+        if self.topic and self._tap is None:
+            kind = BY_TOPIC.get(self.topic)
+            self._tap = self._talks.tap(self.topic, kind=kind, parent=self)
+            self._tap.arrived.connect(self._on_arrived)
+
+    def _stop(self) -> None:
+        if self._tap is not None:
+            self._tap.close()
+            self._tap = None
+        self._later.stop()
+
+    def _on_arrived(self, batch: list[Heard]) -> None:
+        if self._is_paused:
+            return
+        self.heard.add(batch)
+        if not self._later.isActive():
+            self._later.start()
+
+    def _on_later(self) -> None:
+        self.heard.refresh()
+        if self.heard.shown:
+            self._show(self.heard.shown[0])
+        else:
+            self.full.clear()
+
+    def _show(self, heard: Heard) -> None:
+        self.full.setPlainText(pretty(heard.message))
+
+    def _on_chosen(self, index: QModelIndex) -> None:
+        """Reading one message stops the stream, or it would be gone."""
+        if index.isValid():
+            self.bar.pause_button.setChecked(True)
+            self._show(index.data(Qt.ItemDataRole.UserRole))
+
+    def _on_current_changed(self, index: QModelIndex) -> None:
+        if index.isValid() and self.list.hasFocus():
+            self._on_chosen(index)
+
+    def _on_pause_toggled(self, is_on: bool) -> None:
+        self._is_paused = is_on
+        if not is_on:
+            self.list.selectionModel().setCurrentIndex(
+                QModelIndex(), QItemSelectionModel.SelectionFlag.Clear
+            )
+
+    def _on_filter_changed(self, words: str) -> None:
+        self.heard.filter = words.strip()
+        self._on_later()
+
+    def _on_save_clicked(self) -> None:
+        name = self.topic.strip("/").replace("/", "_") or "messages"
+        dialog = QFileDialog(self, tr("Save messages"), str(self.folder / f"{name}.csv"))
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setNameFilters([tr("Table (*.csv)"), tr("JSON lines (*.jsonl)")])
+        dialog.filterSelected.connect(
+            lambda chosen: dialog.setDefaultSuffix("jsonl" if "jsonl" in chosen else "csv")
+        )
+        dialog.setDefaultSuffix("csv")
+        dialog.selectFile(f"{name}.csv")
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(lambda path: self.save_to(Path(path)))
+        dialog.open()
+
+    def _on_plot_menu(self) -> None:
+        menu: QMenu = self.bar.plot_menu
+        menu.clear()
+        last = self.heard.shown[0].message if self.heard.shown else None
+        for field in number_fields(last):
+            menu.addAction(field, partial(self.plot_requested.emit, self.topic, field))
+        if menu.isEmpty():
+            menu.addAction(tr("There are no numbers in these messages")).setEnabled(False)

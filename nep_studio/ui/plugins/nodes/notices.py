@@ -1,0 +1,335 @@
+"""What a change of a node's state means for the person: a problem, and fixes by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from nep_core.processes.process import STEP
+from nep_studio.blocks.deployment import ROBOT_BLOCK
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.problems import Problem
+from nep_studio.run.local_network import MASTER
+from nep_studio.run.node_board import NodeStatus
+from nep_studio.run.plan import PlannedNode
+from nep_studio.run.session import PROGRAM
+from nep_studio.ui.messages import Answer, Kind
+from nep_studio.ui.plugins.connecting import open_connecting
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+Fix = Literal[
+    "start",
+    "restart",
+    "show_log",
+    "show_settings",
+    "use_virtual",
+    "test_connection",
+    "change_address",
+    "run",
+    "stop",
+]
+
+STARTED_AGAIN = "; it is started again"
+"""How the studio's own words for a crashed node end when it has another try (see herald.py)."""
+
+BAD = frozenset({"warning", "frozen", "crashed"})
+WELL = frozenset({"ready", "busy"})
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """What is known beside the states themselves.
+
+    ``was_asked``: somebody just stopped it here. ``is_ending``: the whole program is being
+    stopped. ``was_ready``: it has been ready since it was started by a person.
+    """
+
+    is_ours: bool = False
+    is_program: bool = False
+    was_asked: bool = False
+    is_ending: bool = False
+    was_ready: bool = False
+    has_block: bool = False
+    address: str = ""
+
+
+@dataclass(frozen=True)
+class Notice:
+    """What to tell of a node. One with a ``key`` that was told last is not told again."""
+
+    node: str
+    key: str
+    kind: Kind
+    problem: Problem
+    fixes: tuple[Fix, ...] = ()
+    passes: bool = False
+
+
+def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -> Notice | None:
+    """What has to be told; None when nothing has."""
+    if before is not None and _same(before, after):
+        return None
+    if after.health == "frozen":
+        return _frozen(after, at)
+    if after.event == "connection_failed":
+        return _no_connection(after, at)
+    if after.health == "warning":
+        return _warning(after, at)
+    if after.health == "crashed":
+        if at.is_program:
+            return None if at.is_ending else _program_ended(after)
+        return None if at.is_ending else _ended(after, at)
+    if after.health == "stopped" and before is not None:
+        return _stopped(after, at)
+    return None
+
+
+def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
+    """Whether what was told of a node is over: it is well again, or was started anew."""
+    is_back = after.health in WELL and (before is None or before.health not in WELL)
+    return is_back or (after.health == "stopped" and before is not None and before.is_there)
+
+
+def _same(before: NodeStatus, after: NodeStatus) -> bool:
+    mine = (before.health, before.event, before.description)
+    return mine == (after.health, after.event, after.description)
+
+
+def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
+    name = status.name
+    steps: tuple[str, ...]
+    if at.is_program:
+        steps = (tr("Stop the program and run it again."), tr("Does a rule wait for something?"))
+        problem = Problem(tr("The program does not answer"), _silent(name), steps)
+        return Notice(name, "frozen", "warning", problem, ("run", "show_log"))
+    steps = (
+        (tr("Wait a moment: is the computer busy?"), tr("Restart it."), tr("Look into its log."))
+        if at.is_ours
+        else (tr("Restart it where it was started."), tr("Is its computer still on the network?"))
+    )
+    problem = Problem(tr("“{name}” does not answer", name=name), _silent(name), steps)
+    fixes: tuple[Fix, ...] = ("restart", "show_log") if at.is_ours else ()
+    return Notice(name, "frozen", "warning", problem, fixes)
+
+
+def _silent(name: str) -> str:
+    return tr("“{name}” has said nothing for three seconds.", name=name)
+
+
+def _steps(lines: Sequence[str]) -> tuple[str, ...]:
+    """The checklist that a node tells below its sentence."""
+    return tuple(tr(line.removeprefix(STEP.lstrip())) for line in lines if line.strip())
+
+
+def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
+    """The node's own words are a sentence and a checklist."""
+    first, *rest = status.description.splitlines() or [""]
+    steps = _steps(rest)
+    where = tr(
+        "The program could not reach {name} at {address}.", name=status.name, address=at.address
+    )
+    sentence = tr(first) if first else where
+    problem = Problem(tr("{name} does not answer", name=status.name), sentence, steps)
+    fixes: tuple[Fix, ...] = (
+        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
+    )
+    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
+
+
+def _warning(status: NodeStatus, at: Circumstances) -> Notice:
+    name = status.name
+    described, *rest = status.description.splitlines() or [""]
+    steps: tuple[str, ...]
+    if status.event == "disconnected":
+        title = tr("“{name}” has lost its connection", name=name)
+        steps = (tr("It goes on trying by itself."), tr("Is the device switched on and near?"))
+    else:
+        title = tr("“{name}” needs attention", name=name)
+        steps = (tr("Look into its log."), tr("Look at its settings."))
+    steps = _steps(rest) or steps
+    problem = Problem(title, tr(described), steps)
+    fixes: list[Fix] = ["show_log"] if at.is_ours or at.is_program else []
+    if at.has_block:
+        fixes.append("show_settings")
+    return Notice(name, f"warning {described}", "warning", problem, tuple(fixes))
+
+
+def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
+    name = status.name
+    steps: tuple[str, ...]
+    described = tr(status.description.partition(STARTED_AGAIN)[0])
+    if not at.is_ours:
+        title = tr("“{name}” has ended unexpectedly", name=name)
+        steps = (tr("Start it again where it was started."),)
+        return Notice(name, "ended", "warning", Problem(title, described, steps))
+    if status.description.endswith(STARTED_AGAIN):
+        title = tr("“{name}” ended unexpectedly and is started again", name=name)
+        steps = (tr("Wait a moment: it comes back by itself."), tr("Look into its log."))
+        return Notice(
+            name, "restarting", "warning", Problem(title, described, steps), ("show_log",)
+        )
+    if not status.description.startswith(f"{name} "):
+        return None  # its own last words; what became of its process follows at once
+    if not at.was_ready:
+        return None  # who started it is told why it could not start
+    title = tr("“{name}” ended unexpectedly", name=name)
+    steps = (tr("Start it again."), tr("Look into its log: why did it end?"))
+    return Notice(name, "ended", "error", Problem(title, described, steps), ("start", "show_log"))
+
+
+def _program_ended(status: NodeStatus) -> Notice | None:
+    """Only when it was killed: what else may end it, Run tells of."""
+    described, words, _ = status.description.partition(STARTED_AGAIN)
+    if not words:
+        return None
+    title = tr("The program ended unexpectedly and begins again")
+    steps = (
+        tr("Stop it, if it should not begin again."),
+        tr("Does it use more and more memory? Its log may say so."),
+    )
+    problem = Problem(title, tr(described), steps)
+    return Notice(status.name, "restarting", "warning", problem, ("stop", "show_log"))
+
+
+def started_again(name: str, problem: Problem) -> Notice:
+    """What stands there for a while when a node is well again: it was too quick to be read."""
+    titles = {
+        PROGRAM: tr("The program has begun again"),
+        MASTER: tr("The network is open again"),
+    }
+    title = titles.get(name) or tr("“{name}” was started again", name=name)
+    again = Problem(title, problem.sentence)
+    return Notice(name, "started again", "info", again, ("show_log",), passes=True)
+
+
+def master_notice(event: str, sentence: str) -> Notice:
+    """What to tell of a master that ended unexpectedly."""
+    if event == "restarting":
+        title = tr("The network ended unexpectedly and is opened again")
+        steps = (tr("Wait a moment: what runs goes on."), tr("Look into its log."))
+        problem = Problem(title, tr(sentence), steps)
+        return Notice(MASTER, "restarting", "warning", problem, ("show_log",))
+    steps = (tr("Start it again: what runs goes on."), tr("Look into its log: why did it end?"))
+    problem = Problem(tr("The network ended unexpectedly"), tr(sentence), steps)
+    return Notice(MASTER, "gone", "error", problem, ("start", "show_log"))
+
+
+def _stopped(status: NodeStatus, at: Circumstances) -> Notice | None:
+    name = status.name
+    if at.is_ending or at.is_program or not at.is_ours:
+        return None
+    if at.was_asked:
+        title = tr("“{name}” was stopped", name=name)
+        return Notice(name, "stopped", "info", Problem(title), ("start",), passes=True)
+    title = tr("“{name}” has ended by itself", name=name)
+    steps = (tr("Start it again, if the program needs it."),)
+    return Notice(name, "stopped", "info", Problem(title, "", steps), ("start", "show_log"))
+
+
+def could_not_start(name: str, problem: Problem, at: Circumstances) -> Notice:
+    """What to tell when a node that a person started did not come up."""
+    fixes: list[Fix] = ["start", "show_log"]
+    if at.has_block:
+        fixes.insert(0, "show_settings")
+    return Notice(name, "could not start", "error", problem, tuple(fixes))
+
+
+# Does what the buttons of the messages about nodes say.
+
+
+class NodeFixes:
+    """Fixes of one window; ``open_log`` shows the log of a node."""
+
+    def __init__(self, window: MainWindow, open_log: Callable[[str], None]) -> None:
+        self._window, self._open_log = window, open_log
+
+    def plan_of(self, name: str) -> PlannedNode | None:
+        """How a node is wanted now: as the project says, else as it was started."""
+        runner = self._window.running.runner
+        found = {one.name: one for one in runner.planned()}
+        return found.get(name) or runner.local.planned.get(name)
+
+    def block_of(self, name: str) -> str:
+        """The block that a node comes from; "" when it has none on a page."""
+        plan = self.plan_of(name)
+        blocks = self._window.workbench.canvas.editor.project.blocks
+        return plan.block_id if plan is not None and plan.block_id in blocks else ""
+
+    def answer(self, fix: Fix, name: str) -> Answer:
+        """The button of a fix."""
+        words: Mapping[Fix, str] = {
+            "start": tr("Start it again"),
+            "restart": tr("Restart it"),
+            "show_log": tr("Show its log"),
+            "show_settings": tr("Show its settings"),
+            "use_virtual": tr("Use the robot on the screen"),
+            "test_connection": tr("Find it and test the connection"),
+            "change_address": tr("Change the address"),
+            "run": tr("Run again"),
+            "stop": tr("Stop"),
+        }
+        look = "primary" if fix in ("start", "restart", "use_virtual", "run") else "quiet"
+        return Answer(words[fix], lambda: self.do(fix, name), look)  # type: ignore[arg-type]
+
+    def do(self, fix: Fix, name: str) -> None:
+        """Do what a fix says."""
+        match fix:
+            case "start":
+                self.start(name)
+            case "restart":
+                self._window.running.runner.restart_node(name)
+            case "show_log":
+                self._open_log(name)
+            case "show_settings":
+                self._window.workbench.show_block(self.block_of(name))
+            case "use_virtual":
+                self._use_virtual(name)
+            case "test_connection":
+                open_connecting(self._window, name)
+            case "change_address":
+                self._change_address(name)
+            case "run":
+                self._window.running.runner.run()
+            case "stop":
+                self._window.running.stop()
+
+    def start(self, name: str) -> None:
+        """Start a node as it is wanted now; or the network, when its master is gone."""
+        if name == MASTER:
+            self._window.running.runner.open_network()
+            return
+        plan = self.plan_of(name)
+        if plan is not None:
+            self._window.running.runner.start_node(plan)
+
+    def _use_virtual(self, name: str) -> None:
+        """Let the robot be the one on the screen: in the project, where it can be undone."""
+        block, workbench = self._robot_block(name), self._window.workbench
+        if not block:
+            return
+        editor = workbench.canvas.editor
+        try:
+            with editor.transaction(tr("use the robot on the screen")):
+                editor.apply(SetField(block, "driver", "virtual"))
+        except EditRefused as refusal:
+            self._window.messages.refuse(refusal.sentence, refusal.checklist)
+            return
+        self.start(name)  # the running one is as it was before, so it is started anew
+
+    def _change_address(self, name: str) -> None:
+        """Show the robot's block with its address open to be written."""
+        block, workbench = self._robot_block(name), self._window.workbench
+        if block:
+            workbench.show_block(block)
+            workbench.canvas.fields.open(block, "address")
+
+    def _robot_block(self, name: str) -> str:
+        block = self.block_of(name)
+        project = self._window.workbench.canvas.editor.project
+        return block if block and project.blocks[block].type == ROBOT_BLOCK else ""

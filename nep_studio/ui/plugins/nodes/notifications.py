@@ -1,0 +1,214 @@
+"""Tells of nodes that come to grief, each thing once, and takes it back when all is well."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer
+
+from nep_core.errors import NepError
+from nep_studio.problems import Problem, problem_of
+from nep_studio.run.local_network import MASTER
+from nep_studio.run.node_board import NodeStatus
+from nep_studio.run.session import PROGRAM
+from nep_studio.ui.messages import Message
+from nep_studio.ui.node_style import is_running
+from nep_studio.ui.words import count_words, tr
+
+from .notices import (
+    WELL,
+    Circumstances,
+    NodeFixes,
+    Notice,
+    could_not_start,
+    is_recovered,
+    master_notice,
+    notice_of,
+    started_again,
+)
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+GATHER_MS = 400
+"""Nodes that become ready within this time are told of together."""
+ENDING_S = 3.0
+"""What is heard so soon after the end of a run belongs to that end."""
+
+
+class NodeTelling(QObject):
+    """Listens to the runner of a window as long as ``parent`` lives."""
+
+    def __init__(
+        self, window: MainWindow, open_log: Callable[[str], None], parent: QObject
+    ) -> None:
+        super().__init__(parent)
+        self._window = window
+        self._runner = window.running.runner
+        self.fixes = NodeFixes(window, open_log)
+        self._before: dict[str, NodeStatus] = dict(self._runner.board.nodes)
+        self._told: dict[str, tuple[str, Message]] = {}
+        self._asked: set[str] = set()
+        self._restarted: set[str] = set()
+        self._was_ready = {name for name, one in self._before.items() if one.is_there}
+        self._by_hand: set[str] = set()
+        self._ready: list[str] = []
+        self._ended_s = -ENDING_S
+        self._has_begun = self._runner.state in ("running", "paused")
+        self._is_begin_untold = False
+        self._gathering = QTimer(self, singleShot=True, interval=GATHER_MS)
+        self._gathering.timeout.connect(self._on_gathered)
+        self._runner.nodes_changed.connect(self._on_nodes_changed)
+        self._runner.state_changed.connect(self._on_state_changed)
+        self._runner.node_failed.connect(self._on_node_failed)
+        self._runner.master_changed.connect(self._on_master_changed)
+
+    def expect_start(self, name: str) -> None:
+        """A person starts a node: that it is ready will be told."""
+        self._by_hand.add(name)
+        self._was_ready.discard(name)
+
+    def expect_stop(self, name: str) -> None:
+        """A person stops a node: its end is no surprise."""
+        self._asked.add(name)
+
+    def expect_restart(self, name: str) -> None:
+        """A person restarts a node: only that it is ready again will be told."""
+        self._restarted.add(name)
+        self.expect_start(name)
+
+    def _on_nodes_changed(self, names: list[str]) -> None:
+        for name in names:
+            before, after = self._before.get(name), self._runner.board.nodes.get(name)
+            if after is None:
+                self._before.pop(name, None)
+                continue
+            self._before[name] = after
+            if is_recovered(before, after):
+                self._recover(name)
+            notice = notice_of(before, after, self._circumstances(after))
+            if notice is not None:
+                self.tell(notice)
+            self._note(after)
+
+    def _note(self, after: NodeStatus) -> None:
+        """Remember what the next change is judged by."""
+        if after.health in WELL:
+            if after.name in self._by_hand:
+                self._by_hand.discard(after.name)
+                self._ready.append(after.name)
+                self._gathering.start()
+            self._was_ready.add(after.name)
+            self._restarted.discard(after.name)
+        if not is_running(after):
+            self._asked.discard(after.name)
+
+    def _circumstances(self, status: NodeStatus) -> Circumstances:
+        runner, name = self._runner, status.name
+        plan = self.fixes.plan_of(name)
+        return Circumstances(
+            is_ours=runner.is_ours(name),
+            is_program=name == PROGRAM,
+            was_asked=name in self._asked,
+            is_ending=self._is_ending or name in self._restarted or self._is_news_of_a_stop(status),
+            was_ready=name in self._was_ready,
+            has_block=bool(self.fixes.block_of(name)),
+            address=str(plan.parameters.get("address", "")) if plan is not None else "",
+        )
+
+    def _is_news_of_a_stop(self, status: NodeStatus) -> bool:
+        """Whether the studio stopped it, with a run that is over, or to start it anew."""
+        launched = self._runner.local.launcher.nodes.get(status.name)
+        if status.health != "stopped" or status.name in self._asked or launched is None:
+            return False
+        ran_s = time.monotonic() - launched.started_s
+        return launched.stopping or status.since_s < time.time() - ran_s
+
+    @property
+    def _is_ending(self) -> bool:
+        is_over = time.monotonic() - self._ended_s < ENDING_S
+        return is_over or self._runner.state == "stopping"
+
+    def tell(self, notice: Notice) -> None:
+        """Tell it, unless it was told and is there still, or somebody else tells it."""
+        if notice.node in self._runner.told_elsewhere:
+            return
+        told = self._told.get(notice.node)
+        if told is not None and told[0] == notice.key:
+            return
+        self._take_back(notice.node)
+        problem = notice.problem
+        answers = tuple(self.fixes.answer(fix, notice.node) for fix in notice.fixes)
+        message = Message(
+            notice.kind,
+            tr(problem.title),
+            tr(problem.sentence),
+            tuple(map(tr, problem.checklist)),
+            problem.details,
+            answers,
+            passes=notice.passes,
+        )
+        if not notice.passes:
+            self._told[notice.node] = (notice.key, message)
+        self._window.messages.tell(message)
+
+    def _take_back(self, name: str) -> None:
+        told = self._told.pop(name, None)
+        if told is not None:
+            self._window.messages.withdraw(told[1])
+
+    def _recover(self, name: str) -> None:
+        """It is well again: take back what was told, but let what passed quickly be read."""
+        key, message = self._told.get(name, ("", None))
+        self._take_back(name)
+        if key == "restarting" and message is not None and not self._is_ending:
+            self.tell(started_again(name, Problem(message.title, message.sentence)))
+
+    def _on_master_changed(self, event: str, sentence: str) -> None:
+        if event == "back":
+            self._recover(MASTER)
+        else:
+            self.tell(master_notice(event, sentence))
+
+    def _on_state_changed(self, state: str) -> None:
+        if state == "idle":
+            self._ended_s = time.monotonic()
+        elif state == "starting":
+            self._ended_s = -ENDING_S
+            for name in list(self._told):
+                self._take_back(name)
+        elif state == "running" and not self._has_begun:
+            self._is_begin_untold = True
+            self._gathering.start()  # the last node's "ready" may still be on its way
+        self._has_begun = state in ("running", "paused")
+
+    def _tell_start(self) -> None:
+        """One message for all nodes of a run."""
+        names = [one.name for one in self._runner.board.nodes.values() if one.health in WELL]
+        count = len([name for name in names if name != PROGRAM])
+        words = count_words(count, "It runs: 1 node is ready", "It runs: {n} nodes are ready")
+        self._window.messages.confirm(words)
+        self._ready.clear()
+
+    def _on_gathered(self) -> None:
+        if self._is_begin_untold:
+            self._is_begin_untold = False
+            if self._runner.state in ("running", "paused"):
+                self._tell_start()
+                return
+        ready, self._ready = self._ready, []
+        if len(ready) == 1:
+            self._window.messages.confirm(tr("“{name}” is ready", name=ready[0]))
+        elif ready:
+            self._window.messages.confirm(
+                count_words(len(ready), "1 node is ready", "{n} nodes are ready")
+            )
+
+    def _on_node_failed(self, name: str, error: NepError) -> None:
+        """The plain message of the runner gets the buttons that help with a node."""
+        self._by_hand.discard(name)
+        status = self._runner.board.nodes.get(name) or NodeStatus(name, "sensory")
+        at = self._circumstances(status)
+        self.tell(could_not_start(name, problem_of(error), at))

@@ -1,0 +1,341 @@
+"""The simulated human panel: whatever a program waits for is done here with mouse and keyboard."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_core.program.human import plain
+from nep_core.wire import messages as m
+from nep_studio.blocks.own_gestures import own_gestures
+from nep_studio.blocks.slots import why_not_line
+from nep_studio.project.triggers import Happening, happenings_of
+from nep_studio.ui.messages import announce
+from nep_studio.ui.plugins.cues.project import ProjectEar
+from nep_studio.ui.plugins.robots.floor import Floor, floor_of
+from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import Columns, FlowLayout
+from nep_studio.ui.words import tr
+from nep_studio.ui.workbench.side_panels import Panel
+
+from .buttons import HappeningButton, Section, WordsButton
+from .person_box import PersonBox
+from .senses import BodyBox, GestureBox, SensorBox, ThingsBox, TouchBox
+from .stimuli import KINDS, Hands, Visitors
+from .words import words_of
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+# What the open program waits for: a button for each.
+
+
+class WaitingBoard(QWidget):
+    """Buttons in rows; what needs no hand is said in words below them."""
+
+    def __init__(
+        self,
+        look: Look,
+        begin: Callable[[Happening], bool],
+        end: Callable[[Happening], None],
+        nothing: str,
+    ) -> None:
+        super().__init__()
+        self._look, self._begin, self._end, self._nothing = look, begin, end, nothing
+        self._shown: list[Happening] | None = None
+        self.buttons: list[HappeningButton] = []
+        self._rows = QWidget()
+        self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.words.setProperty("role", "hint")
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addWidget(self._rows)
+        box.addWidget(self.words)
+
+    def show_happenings(self, happenings: list[Happening], here: dict[str, str]) -> None:
+        """Show these; ``here`` are the visitors that are there now, with their names."""
+        if happenings != self._shown:
+            self._shown = happenings
+            self._make_buttons([one for one in happenings if one.kind != "idle"])
+            idle = [words_of(one) for one in happenings if one.kind == "idle"]
+            nothing = "" if happenings else self._nothing
+            self.words.setText("\n".join([*idle, *filter(None, [nothing])]))
+            self.words.setVisible(bool(self.words.text()))
+        for button in self.buttons:
+            if button.isCheckable():
+                button.setChecked(_is_here(button.happening, here))
+
+    def _make_buttons(self, happenings: list[Happening]) -> None:
+        for button in self.buttons:
+            button.let_go()
+            self._flow.removeWidget(button)
+            button.hide()
+            button.deleteLater()
+        self.buttons = [
+            HappeningButton(one, self._look, self._begin, self._end) for one in happenings
+        ]
+        for button in self.buttons:
+            self._flow.addWidget(button)
+            button.show()  # now: Qt would show it later, and not make room for it then
+        self._rows.setVisible(bool(self.buttons))
+
+
+def _is_here(happening: Happening, here: dict[str, str]) -> bool:
+    if happening.kind not in here:
+        return False
+    return not happening.value or plain(happening.value) == plain(here[happening.kind])
+
+
+SHARE = 0.4
+"""When it is opened, it gets at least this much of the window's height."""
+
+
+class HumanPanel(QScrollArea):
+    """What the program waits for comes first; below it, all that can be done by hand.
+
+    It is empty until it is shown for the first time.
+    """
+
+    def __init__(self, window: MainWindow, floor: Floor) -> None:
+        super().__init__()
+        self._window, self._look = window, window.look
+        self._runner, self._language = window.running.runner, window.studio.language
+        self._tap: Tap | None = None
+        self._ear = ProjectEar(window.files, self)
+        self.visitors = Visitors(floor, self)
+        self.hands = Hands(self._runner, self.visitors, self.watch_gestures, self)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setAccessibleName(tr("Simulated human"))
+
+    def _make(self) -> None:
+        self.robot = QComboBox()
+        self.state, self.run_button = QLabel(), QPushButton(tr("Run"))
+        self.told = QLabel()
+        self.words, self.say_button = QLineEdit(), QPushButton(tr("Say"))
+        self.reset_button = WordsButton(tr("Everything as at the start"), self._look, "rotate-ccw")
+        self._make_boxes()
+        self._lay_out()
+        self._connect()
+        self._dress()
+
+    def _make_boxes(self) -> None:
+        language, look, hands = self._language, self._look, self.hands
+        nothing = tr("This program waits for nothing.")
+        self.waiting = WaitingBoard(look, hands.begin, hands.end, nothing)
+        self.listening = WaitingBoard(look, hands.begin, hands.end, "")
+        self.person = PersonBox(hands, language, look)
+        self.touch = TouchBox(hands, language, look)
+        self.gestures = GestureBox(hands, language, look)
+        self.things = ThingsBox(hands, look)
+        self.sensors = SensorBox(hands, language, look)
+        self.body = BodyBox(hands, language, look)
+        titles: list[tuple[str, QWidget, bool]] = [
+            (tr("Your program waits for"), self.waiting, True),
+            (tr("Say words"), self._say_row(), True),
+            (tr("A person"), self.person, True),
+            (tr("Touch"), self.touch, True),
+            (tr("Make a gesture"), self.gestures, True),
+            (tr("Things and sounds"), self.things, False),
+            (tr("Sensors"), self.sensors, False),
+            (tr("The body"), self.body, False),
+        ]
+        self.sections = []
+        for title, box, is_open in titles:
+            section = Section(title, look, is_open=is_open)
+            section.box.addWidget(box)
+            self.sections.append(section)
+
+    def _say_row(self) -> QWidget:
+        self.words.setPlaceholderText(tr("Somebody says…"))
+        self.words.setAccessibleName(tr("Words that somebody says"))
+        said = QWidget()
+        row = QHBoxLayout()
+        row.addWidget(self.words, 1)
+        row.addWidget(self.say_button)
+        box = QVBoxLayout(said)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addLayout(row)
+        box.addWidget(self.listening)
+        return said
+
+    def _lay_out(self) -> None:
+        self.robot.setAccessibleName(tr("Which robot notices it"))
+        self.robot.setMinimumContentsLength(8)
+        self.run_button.setProperty("kind", "run")
+        for label in (self.state, self.told):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+        self.told.setProperty("role", "hint")
+        self.told.hide()
+        top = QHBoxLayout()
+        top.addWidget(self.state, 1)
+        top.addWidget(self.run_button)
+        self._which = QWidget()
+        which = QHBoxLayout(self._which)
+        which.setContentsMargins(0, 0, 0, 0)
+        which.addWidget(QLabel(tr("Before")))
+        which.addWidget(self.robot, 1)
+        inner, line = QWidget(self.viewport()), self.fontMetrics().height()
+        box = QVBoxLayout(inner)
+        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
+        box.addLayout(top)
+        box.addWidget(self.told)
+        box.addWidget(self._which)
+        box.addWidget(Columns(self.sections, inner))
+        box.addWidget(self.reset_button, 0, Qt.AlignmentFlag.AlignLeading)
+        box.addStretch(1)
+        self.setWidget(inner)
+
+    def _connect(self) -> None:
+        self._ear.changed.connect(self.refresh)
+        self.hands.changed.connect(self._show_state)
+        self.hands.told.connect(self._on_told)
+        self.hands.refused.connect(self._on_refused)
+        self.visitors.changed.connect(self._show_waiting)
+        self.robot.currentTextChanged.connect(self._on_robot_chosen)
+        self.run_button.clicked.connect(self._runner.run)
+        self.say_button.clicked.connect(self._on_said)
+        self.words.returnPressed.connect(self._on_said)
+        self.reset_button.clicked.connect(self.reset)
+        self._look.theme_changed.connect(self._dress)
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Show what the program waits for now, if somebody looks."""
+        if not self.isVisible():
+            return
+        self._show_robots()
+        self._show_waiting()
+        self._show_state()
+
+    def happenings(self) -> list[Happening]:
+        """What the open program waits for."""
+        editor = self._ear.editor
+        return [] if editor is None else happenings_of(editor.project, editor.language)
+
+    def watch_gestures(self) -> dict[str, str]:
+        """What the watch on the screen can make: gestures that the project has takes of, and five.
+
+        Names to titles.
+        """
+        editor = self._ear.editor
+        own = {} if editor is None else own_gestures(editor.project)
+        recorded = {name: one.title for name, one in own.items() if one.takes}
+        return {**recorded, **self._language.choices.get("gestures", {})}
+
+    def reset(self) -> None:
+        """Let all visitors go, and all sensors measure what they usually do."""
+        self.visitors.go_all()
+        self.sensors.rest()
+
+    def _show_robots(self) -> None:
+        robots = self.hands.robots
+        if robots != [self.robot.itemText(row) for row in range(self.robot.count())]:
+            before = self.hands.robot
+            self.robot.clear()
+            self.robot.addItems(robots)
+            self.robot.setCurrentText(before)
+        self.hands.robot = self.robot.currentText()
+        self._which.setVisible(len(robots) > 1)
+
+    def _show_waiting(self) -> None:
+        if not self.isVisible():
+            return
+        waited_for = self.happenings()
+        found = {what: self.visitors.find(what) for what in KINDS}
+        here = {what: thing.name for what, thing in found.items() if thing is not None}
+        self.waiting.show_happenings(waited_for, here)
+        self.gestures.show_gestures(waited_for, self.watch_gestures())
+        self.person.set_names([one.value for one in waited_for if one.kind == "face" and one.value])
+
+    def _show_state(self) -> None:
+        if not self.isVisible():
+            return
+        reason = self.hands.why_not
+        self.state.setText(reason or tr("What you do here is noticed."))
+        is_idle = self._runner.state == "idle" and self._ear.editor is not None
+        self.run_button.setVisible(is_idle)
+        self.gestures.refresh()
+
+    # What happens
+
+    def _on_states(self, batch: list[Heard]) -> None:
+        self.visitors.states |= {heard.message.robot: heard.message for heard in batch}
+        robots = [state for state in self.visitors.states.values() if state.listening]
+        words = dict.fromkeys(word for state in robots for word in state.listening)
+        self.listening.show_happenings([Happening("word", word, word) for word in words], {})
+
+    def _on_robot_chosen(self, robot: str) -> None:
+        self.hands.robot = robot
+        self.person.refresh()
+
+    def _on_said(self) -> None:
+        text = self.words.text().strip()
+        if why_not_line(text) is not None or not plain(text):
+            self.words.setFocus()
+        elif self.hands.begin(Happening("word", text, text)):
+            self.words.clear()
+
+    def _on_told(self, words: str) -> None:
+        self.told.setText(words)
+        self.told.show()
+        announce(self, words)
+
+    def _on_refused(self, reason: str) -> None:
+        self.told.setText(reason)
+        self.told.show()
+        announce(self, reason)
+        if self.run_button.isVisible():
+            self.run_button.setFocus()
+
+    def _dress(self) -> None:
+        theme = self._look.theme
+        self.run_button.setIcon(icon("play", theme.colour("run_text")))
+        self.say_button.setIcon(icon("message-square", theme))
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Make what is in it, and follow where the robots are."""
+        super().showEvent(event)
+        if self.widget() is None:
+            self._make()
+        if self._tap is None:
+            self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
+            self._tap.arrived.connect(self._on_states)
+        self.refresh()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Follow nothing."""
+        super().hideEvent(event)
+        if self._tap is not None:
+            self._tap.close()
+            self._tap = None
+
+
+def add_human_panel(window: MainWindow) -> Panel:
+    """Put the simulated human beside the canvas; hidden until somebody wants it."""
+    panel = HumanPanel(window, floor_of(window))
+    added = window.add_side_panel(panel, tr("Person"), "user", "bottom", is_shown=False)
+    window.workbench.panels.give_room(added, SHARE)
+    return added

@@ -1,0 +1,388 @@
+"""The robots panel: one scene with all robots of the project, and a card for each."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import msgspec
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
+from PySide6.QtGui import QCloseEvent, QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from faults import Tr
+from nep_core.wire import messages as m
+from nep_studio.blocks.language import Language
+from nep_studio.run.timeline import action_words
+from nep_studio.ui.node_style import state_look
+from nep_studio.ui.plugins.speech import Sound, sound_of
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.words import tr
+from nep_studio.ui.workbench.side_panels import Panel
+
+from .card import Asking, RobotCard
+from .floor import (
+    ORIGIN,
+    Base,
+    Floor,
+    RobotPlan,
+    Starts,
+    floor_of,
+    look_of,
+    robots_of,
+    start_places,
+    starts_of,
+)
+from .stage import RobotStage
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+# A window of its own for the scene of the robots, for a room full of people.
+
+SHARE = 0.8
+
+
+class LargeWindow(QWidget):
+    """Holds a widget until it is closed; F11 fills the screen. ``closed`` tells of the end."""
+
+    closed = Signal()
+
+    def __init__(self, held: QWidget, parent: QWidget) -> None:
+        super().__init__(parent, Qt.WindowType.Window)
+        self.setWindowTitle(tr("Robots"))
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        line = self.fontMetrics().height()
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
+        box.addWidget(held)
+        held.show()
+        self.resize(room_around(parent).size() * SHARE)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Fill the screen, or leave it."""
+        if event.key() == Qt.Key.Key_F11:
+            self.setWindowState(self.windowState() ^ Qt.WindowState.WindowFullScreen)
+        elif event.key() == Qt.Key.Key_Escape and self.isFullScreen():
+            self.showNormal()
+        elif event.key() == Qt.Key.Key_Escape:
+            self.close()
+        else:
+            super().keyPressEvent(event)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Give the widget back."""
+        super().closeEvent(event)
+        self.closed.emit()
+
+
+# What each robot is doing now, from what it was asked and what it answered.
+
+MOST_REQUESTS = 200
+"""So many are remembered, of which the oldest are forgotten."""
+
+
+class Doings:
+    """The actions that go on, by robot."""
+
+    def __init__(self, language: Language, tr: Tr) -> None:
+        self._language = language
+        self.tr = tr
+        self._requests: dict[str, m.ActionRequest] = {}
+        self._going_on: dict[str, dict[str, None]] = {}
+
+    def hear(self, message: msgspec.Struct) -> bool:
+        """Take in a message; whether it says what a robot does."""
+        if isinstance(message, m.ActionRequest):
+            self._requests[message.id] = message
+            if len(self._requests) > MOST_REQUESTS:
+                del self._requests[next(iter(self._requests))]
+        elif isinstance(message, m.ActionResult):
+            actions = self._going_on.setdefault(message.robot, {})
+            if message.state == "started":
+                actions[message.id] = None
+            elif message.state in ("done", "failed", "cancelled"):
+                actions.pop(message.id, None)
+        return isinstance(message, m.ActionRequest | m.ActionResult)
+
+    def words(self, robot: str) -> list[str]:
+        """What it does, each as the predicate of a sentence."""
+        requests = [self._requests.get(action) for action in self._going_on.get(robot, {})]
+        found = [action_words(one, self._language, self.tr) for one in requests if one is not None]
+        return list(dict.fromkeys(found))
+
+    def clear(self) -> None:
+        """Nothing goes on any more."""
+        self._requests.clear()
+        self._going_on.clear()
+
+
+MOST_FOR_CARDS = 0.45
+"""Never is more of the panel's height given to the cards by itself."""
+
+
+class RobotsPanel(QWidget):
+    """Shows the robots; it listens to them only while it, or its large window, is seen."""
+
+    def __init__(
+        self,
+        runner: Runner,
+        language: Language,
+        look: Look,
+        floor: Floor,
+        sound: Sound,
+        starts: Starts,
+    ) -> None:
+        super().__init__()
+        self._runner, self._language, self._look = runner, language, look
+        self._asking, self._starts = Asking(runner), starts
+        self._doings = Doings(language, tr)
+        self._tap: Tap | None = None
+        self._is_arranged = False
+        self._heard: dict[str, m.RobotState] = {}
+        self._begin_at: dict[str, Base] = {}
+        self.cards: dict[str, RobotCard] = {}
+        self.large: LargeWindow | None = None
+        self.stage = RobotStage(look, floor, sound, language.choices.get("touch_parts", {}))
+        self.hint, self.elsewhere = QLabel(), QPushButton(tr("Back into the panel"))
+        self._lay_out()
+        self.stage.touched.connect(self._asking.touch)
+        self.stage.chosen.connect(self._on_chosen)
+        self.stage.large_switched.connect(self.show_large)
+        self.elsewhere.clicked.connect(lambda: self.show_large(False))
+        runner.arrived.connect(self._on_arrived)
+        runner.nodes_changed.connect(self._on_nodes_changed)
+        runner.state_changed.connect(self._on_state_changed)
+        runner.disconnected.connect(self._on_disconnected)
+
+    def _lay_out(self) -> None:
+        self.setAccessibleName(tr("Robots"))
+        self.hint.setText(
+            tr("No robot takes part yet. Add one on the Robots page: it may be one on this screen.")
+        )
+        self.hint.setWordWrap(True)
+        self.hint.setProperty("role", "hint")
+        self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.elsewhere.hide()
+        inner, line = QWidget(), self.fontMetrics().height()
+        self._cards_box = QVBoxLayout(inner)
+        self._cards_box.setContentsMargins(0, 0, 0, 0)
+        self._cards_box.addWidget(self.hint)
+        self._cards_box.addStretch(1)
+        self.area = QScrollArea()
+        self.area.setWidgetResizable(True)
+        self.area.setFrameShape(QFrame.Shape.NoFrame)
+        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.area.setWidget(inner)
+        self.split = QSplitter(Qt.Orientation.Vertical)
+        self.split.setChildrenCollapsible(False)
+        for widget in (self.stage, self.area):
+            self.split.addWidget(widget)
+        self.split.setStretchFactor(0, 1)
+        self.split.splitterMoved.connect(self._on_split_moved)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line // 3, line // 3, line // 3, line // 3)
+        box.addWidget(self.elsewhere)
+        box.addWidget(self.split)
+
+    def sizeHint(self) -> QSize:
+        """Room for the scene and one card."""
+        line = self.fontMetrics().height()
+        return QSize(line * 18, line * 26)
+
+    # What is shown
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether somebody can look at robots here, or in the large window."""
+        return self.isVisible() or (self.large is not None and self.large.isVisible())
+
+    def refresh(self) -> None:
+        """Take the robots of the project as it is now; does nothing while it is hidden."""
+        if not self.is_seen:
+            return
+        planned = self._runner.planned()
+        plans = {plan.name: plan for plan in robots_of(planned)}
+        self._begin_at = start_places(planned)
+        for name in [*self._heard, *self._nodes_there()]:
+            plans.setdefault(name, RobotPlan(name))
+        for name in self.cards.keys() - plans.keys():
+            card = self.cards.pop(name)
+            card.hide()
+            card.deleteLater()
+        for place, plan in enumerate(plans.values()):
+            card = self.cards.get(plan.name) or self._add_card(plan)
+            card.show_plan(plan)
+            self._cards_box.insertWidget(place, card)
+            self._show_robot(plan.name)
+        self.stage.keep_robots(list(plans))
+        self._give_room()
+        self.hint.setVisible(not self.cards)
+
+    def _give_room(self) -> None:
+        """Let the cards have the room that they need, unless somebody has chosen it."""
+        total = sum(self.split.sizes())
+        wanted = min(self._cards_box.sizeHint().height(), round(total * MOST_FOR_CARDS))
+        if total and not self._is_arranged and self.large is None:
+            self.split.setSizes([total - wanted, wanted])
+
+    def _on_split_moved(self) -> None:
+        self._is_arranged = True
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the height anew."""
+        super().resizeEvent(event)
+        self._give_room()
+
+    def show_large(self, is_large: bool) -> None:
+        """Show the scene in a window of its own, or in the panel again."""
+        if is_large and self.large is None:
+            self.large = LargeWindow(self.stage, self)
+            self.large.closed.connect(self._on_large_closed)
+            self.large.installEventFilter(self)
+            self.large.show()
+        elif not is_large and self.large is not None:
+            self.large.close()
+        self.elsewhere.setVisible(self.large is not None)
+        self.stage.tools.show_large(self.large is not None)
+
+    def _nodes_there(self) -> list[str]:
+        nodes = self._runner.board.nodes.values()
+        return [node.name for node in nodes if node.type == "action" and node.is_there]
+
+    def _add_card(self, plan: RobotPlan) -> RobotCard:
+        card = self.cards[plan.name] = RobotCard(plan, self._language, self._look)
+        card.touched.connect(partial(self._asking.touch, plan.name))
+        card.help_asked.connect(partial(self._asking.help_up, plan.name))
+        card.start_asked.connect(partial(self._on_start_asked, plan.name))
+        return card
+
+    def _show_robot(self, name: str) -> None:
+        card, status = self.cards[name], self._runner.board.nodes.get(name)
+        state = self._heard.get(name)
+        if status is not None:
+            look, is_there = state_look(status), status.is_there
+        else:
+            look, is_there = look_of(state), state is not None
+        card.show_health(look, is_there=is_there)
+        shown = state if is_there else None
+        self.stage.show_robot(card.plan, shown, self._begin_at.get(name, ORIGIN))
+        if shown is not None:
+            card.show_state(shown)
+            card.show_doings(self._doings.words(name))
+
+    # What happens
+
+    def _on_states(self, batch: list[Heard]) -> None:
+        """Only the last state of each robot counts."""
+        latest = {heard.message.robot: heard.message for heard in batch}
+        is_new = not latest.keys() <= self.cards.keys()
+        self._heard |= latest
+        if is_new:
+            self.refresh()
+            return
+        for name in latest:
+            self._show_robot(name)
+
+    def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
+        if not self.is_seen:
+            return
+        told = [message for _, message in batch if self._doings.hear(message)]
+        names = {one.robot for one in told if isinstance(one, m.ActionResult)}
+        for name in names & self.cards.keys():
+            self._show_robot(name)
+
+    def _on_nodes_changed(self, names: list[str]) -> None:
+        nodes = self._runner.board.nodes
+        changed = [nodes[name] for name in names if name in nodes]
+        robots = [node for node in changed if node.type == "action"]
+        for node in robots:
+            if not node.is_there:
+                self._heard.pop(node.name, None)
+        if robots:
+            self.refresh()
+
+    def _on_state_changed(self, state: str) -> None:
+        if state in ("starting", "idle"):
+            self._doings.clear()
+            self.refresh()
+
+    def _on_disconnected(self) -> None:
+        self._heard.clear()
+        self._doings.clear()
+        self.refresh()
+
+    def _on_chosen(self, robot: str) -> None:
+        if card := self.cards.get(robot):
+            self.area.ensureWidgetVisible(card)
+
+    def _on_start_asked(self, robot: str) -> None:
+        self._starts.put_back(robot)
+        self.stage.view.clear_paths()
+
+    def _on_large_closed(self) -> None:
+        self.large = None
+        self.split.insertWidget(0, self.stage)
+        self._give_room()
+        self.elsewhere.hide()
+        self.stage.tools.show_large(False)
+        self._listen()
+
+    # Listening
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow whether the large window is seen."""
+        if event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
+            self._listen()
+        return super().eventFilter(watched, event)
+
+    def _listen(self) -> None:
+        """Hear where robots are while somebody looks; what they did meanwhile is not known."""
+        if self.is_seen and self._tap is None:
+            self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
+            self._tap.arrived.connect(self._on_states)
+            self.refresh()
+        elif not self.is_seen and self._tap is not None:
+            self._tap.close()
+            self._tap = None
+            self._doings.clear()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Begin to listen."""
+        super().showEvent(event)
+        self.stage.view.show()
+        self._listen()
+        self.refresh()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Listen no more, unless the large window is seen."""
+        super().hideEvent(event)
+        self._listen()
+
+
+def add_robots_panel(window: MainWindow) -> Panel:
+    """Put the robots beside the canvas; they follow the Robots page."""
+    panel = RobotsPanel(
+        window.running.runner,
+        window.studio.language,
+        window.studio.look,
+        floor_of(window),
+        sound_of(window),
+        starts_of(window),
+    )
+    window.workbench.problems_found.connect(lambda _problems: panel.refresh())
+    asked = panel.stage.tools.connecting_asked
+    asked.connect(lambda: window.actions_by_name["connect_robot"].trigger())
+    return window.add_side_panel(panel, tr("Robots"), "bot", "right", is_shown=False)

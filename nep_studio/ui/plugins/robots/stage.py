@@ -1,0 +1,342 @@
+"""The scene of the robots: all of them in one room, with tools, and things that can be moved."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QVBoxLayout, QWidget
+
+from nep_core.wire.messages import RobotState, Thing, ThingKind
+from nep_studio.project.surroundings import moved, named, new_thing, turned
+from nep_studio.ui.plugins.speech import Sound
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import tr
+
+from .floor import ORIGIN, Base, Floor, RobotPlan
+from .stage_tools import StageTools, ThingBar, thing_words
+
+if TYPE_CHECKING:
+    from nep_studio.ui.robot_view.view import RobotView
+
+
+# Moves the chosen thing with keys, and notices when one that was dragged is put down.
+
+STEP_M, SMALL_STEP_M = 0.1, 0.02
+STEP_RAD = math.radians(15)
+ARROWS = {
+    Qt.Key.Key_Left: math.pi / 2,
+    Qt.Key.Key_Right: -math.pi / 2,
+    Qt.Key.Key_Up: 0.0,
+    Qt.Key.Key_Down: math.pi,
+}
+"""Where keys move a thing, from the direction in which one looks."""
+REMOVING = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
+
+
+TURNING = {Qt.Key.Key_Comma: STEP_RAD, Qt.Key.Key_Period: -STEP_RAD}
+MEANT = (*ARROWS, *REMOVING, *TURNING, Qt.Key.Key_Escape)
+"""The keys that are for the chosen thing."""
+
+
+class StageKeys(QObject):
+    """Watches a view: ``changed`` gives a thing as it is after a key, ``removed``, ``left``.
+
+    ``put_down`` tells that a mouse button was let go.
+    """
+
+    changed = Signal(object)
+    removed = Signal()
+    left = Signal()
+    put_down = Signal()
+
+    def __init__(self, view: RobotView) -> None:
+        super().__init__(view)
+        self._view = view
+        self.chosen: Thing | None = None
+        view.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Take keys that are meant for the chosen thing."""
+        if event.type() == QEvent.Type.MouseButtonRelease:
+            QTimer.singleShot(0, self, self.put_down.emit)  # after the view has seen it
+        if isinstance(event, QKeyEvent) and self.chosen is not None and self._take(event):
+            return True
+        return super().eventFilter(watched, event)
+
+    def _take(self, event: QKeyEvent) -> bool:
+        """Take a key for the chosen thing; whether it is meant for that."""
+        if self.chosen is None or event.key() not in MEANT or _is_command(event):
+            return False
+        if event.type() == QEvent.Type.ShortcutOverride:
+            event.accept()  # else Delete would delete blocks
+        elif event.type() == QEvent.Type.KeyPress:
+            self._press(self.chosen, event)
+        return True
+
+    def _press(self, thing: Thing, event: QKeyEvent) -> None:
+        key, is_small = Qt.Key(event.key()), event.modifiers() & Qt.KeyboardModifier.ShiftModifier
+        if key in ARROWS:
+            way_m = SMALL_STEP_M if is_small else STEP_M
+            angle = self._view.camera.yaw + math.pi + ARROWS[key]
+            x, y = (
+                thing.place[0] + way_m * math.cos(angle),
+                thing.place[1] + way_m * math.sin(angle),
+            )
+            self.changed.emit(moved(thing, x, y))
+        elif key in TURNING:
+            self.changed.emit(turned(thing, thing.heading + TURNING[key]))
+        elif key in REMOVING:
+            self.removed.emit()
+        else:
+            self.left.emit()
+
+
+def _is_command(event: QKeyEvent) -> bool:
+    """Whether a key is a shortcut of the window, such as Ctrl and a key."""
+    plain = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
+    return bool(event.modifiers() & ~plain)
+
+
+# Keeps robots in sight that fall or are put elsewhere, as long as nobody looks closer.
+
+LOOK_MS = 600
+Looking = tuple[float, float, float]
+
+
+class Sight(QObject):
+    """Looks now and then whether all that was seen is seen still; if not, all is seen again.
+
+    What a person has zoomed into, or turned away from, stays as it is.
+    """
+
+    def __init__(self, view: RobotView) -> None:
+        super().__init__(view)
+        self._view = view
+        self._seen_by: Looking | None = None
+        self._timer = QTimer(self, singleShot=True, interval=LOOK_MS)
+        self._timer.timeout.connect(self.look)
+
+    def look_soon(self) -> None:
+        """Something may have moved."""
+        if not self._timer.isActive():
+            self._timer.start()
+
+    def look(self) -> None:
+        """See all again if a robot has left the picture by itself."""
+        view = self._view
+        if self._is_all_seen():
+            self._seen_by = self._looking()
+        elif view.follows and self._seen_by == self._looking():
+            view.fit()
+            self._seen_by = self._looking()
+
+    def _looking(self) -> Looking:
+        camera = self._view.camera
+        return camera.yaw, camera.pitch, camera.distance
+
+    def _is_all_seen(self) -> bool:
+        view = self._view
+        for robot in view.room.scene().robots:
+            pixels = view.lens.project(robot.placed.corners())
+            low, high = pixels.min(axis=0), pixels.max(axis=0)
+            if min(low) < 0 or high[0] > view.width() or high[1] > view.height():
+                return False
+        return True
+
+
+ASIDE_RAD = math.radians(65)
+
+
+class RobotStage(QWidget):
+    """Shows robots and what stands around them; the view is made when it is first looked at.
+
+    ``touched`` gives a robot, its sensor, and whether it is pressed or let go; ``chosen`` a robot.
+    """
+
+    touched = Signal(str, str, bool)
+    chosen = Signal(str)
+    large_switched = Signal(bool)
+
+    def __init__(
+        self, look: Look, floor: Floor, sound: Sound, touch_names: Mapping[str, str]
+    ) -> None:
+        super().__init__()
+        self._look, self.floor, self._sound = look, floor, sound
+        self._touch_names = touch_names
+        self._view: RobotView | None = None
+        self._keys: StageKeys | None = None
+        self._chosen_id = ""
+        self._held: Thing | None = None
+        self._sight: Sight | None = None
+        self._shown: dict[str, tuple[RobotState | None, Base]] = {}
+        self.tools = StageTools(look)
+        self.thing_bar = ThingBar(look)
+        self.invitation = QPushButton(tr("Place a person before the robots"))
+        self._lay_out()
+        self._connect()
+        self._on_floor_changed()
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        self.invitation.setProperty("kind", "quiet")
+        self.invitation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self._box = QVBoxLayout(self)
+        self._box.setContentsMargins(0, 0, 0, 0)
+        self._box.setSpacing(line // 5)
+        self._box.addWidget(self.tools)
+        self._box.addWidget(self.invitation)
+        self._box.addWidget(self.thing_bar)
+
+    def _connect(self) -> None:
+        tools, bar = self.tools, self.thing_bar
+        tools.view_asked.connect(lambda preset: self.view.look_from(preset))
+        tools.fit_asked.connect(lambda: self.view.fit())
+        tools.follow_switched.connect(self._on_follow_switched)
+        tools.place_asked.connect(self.place)
+        tools.thing_asked.connect(self._on_thing_asked)
+        tools.clear_asked.connect(lambda: self.view.clear_paths())
+        tools.sound_switched.connect(self._sound.switch)
+        tools.large_switched.connect(self.large_switched)
+        self._sound.switched.connect(tools.show_sound)
+        tools.show_sound(self._sound.is_on)
+        self.invitation.clicked.connect(lambda: self.place("person"))
+        bar.named.connect(lambda name: self._change(lambda thing: named(thing, name)))
+        bar.turned.connect(self._on_turned)
+        bar.removed.connect(self.remove)
+        bar.closed.connect(lambda: self.choose(""))
+        self.floor.changed.connect(self._on_floor_changed)
+
+    @property
+    def view(self) -> RobotView:
+        """The view; numpy is loaded with it."""
+        if self._view is None:
+            from nep_studio.ui.robot_view.view import RobotView
+
+            view = self._view = RobotView(self._look, self._touch_names)
+            view.setMinimumHeight(self.fontMetrics().height() * 8)
+            self._box.insertWidget(1, view, 1)
+            self._sight, keys = Sight(view), StageKeys(view)
+            self._keys = keys
+            view.touched.connect(self.touched)
+            view.robot_chosen.connect(self.chosen)
+            view.thing_chosen.connect(self.choose)
+            view.thing_moved.connect(self._on_thing_moved)
+            view.camera_changed.connect(self._on_camera_changed)
+            keys.changed.connect(self.floor.change)
+            keys.removed.connect(self.remove)
+            keys.left.connect(lambda: self.choose(""))
+            keys.put_down.connect(self._on_put_down)
+            self._on_floor_changed()
+        return self._view
+
+    def sizeHint(self) -> QSize:
+        """Room for a robot that stands."""
+        line = self.fontMetrics().height()
+        return QSize(line * 16, line * 18)
+
+    # Robots
+
+    def show_robot(self, plan: RobotPlan, state: RobotState | None, start: Base) -> None:
+        """Show a robot as it is; None: it is not there, and will begin at ``start``."""
+        shown = (state, start)
+        if self._shown.get(plan.name) != shown:
+            self._shown[plan.name] = shown
+            is_ours = not plan.is_real
+            self.view.show_robot(plan.name, state, plan.folder, can_touch=is_ours, start=start)
+            if self._sight is not None:
+                self._sight.look_soon()
+
+    def keep_robots(self, names: list[str]) -> None:
+        """Show only these robots."""
+        for name in self._shown.keys() - set(names):
+            del self._shown[name]
+            self.view.remove_robot(name)
+
+    # Things
+
+    def place(self, kind: str | ThingKind) -> None:
+        """Put a new thing before the first robot, and choose it."""
+        if not self.floor.has_room:
+            return
+        base = next(iter(self._bases()), ORIGIN)
+        thing = new_thing(kind, base, self.floor.things)  # type: ignore[arg-type]
+        self.floor.add(thing)
+        self.choose(thing.id)
+        self.view.setFocus()
+
+    def _look_past(self, view: RobotView) -> None:
+        """Look from aside, where what stands before a robot does not hide it."""
+        bases = self._bases()
+        heading = bases[0][2] if bases else 0.0
+        if abs(math.remainder(view.camera.yaw - heading, math.tau)) < ASIDE_RAD:
+            view.look_through(replace(view.camera, yaw=heading + ASIDE_RAD))
+            view.fit()
+
+    def _bases(self) -> list[Base]:
+        """Where the robots are, or will begin."""
+        return [state.base if state else start for state, start in self._shown.values()]
+
+    def choose(self, thing_id: str) -> None:
+        """Let a thing be the one that keys move and the bar tells of; "" is none."""
+        self._chosen_id = thing_id
+        self._on_floor_changed()
+
+    def remove(self) -> None:
+        """Take the chosen thing away."""
+        thing_id, self._chosen_id = self._chosen_id, ""
+        if thing_id:
+            self.floor.remove(thing_id)
+        self._on_floor_changed()
+
+    def _change(self, how: object) -> None:
+        thing = self.floor.find(self._chosen_id)
+        if thing is not None and callable(how):
+            self.floor.change(how(thing))
+
+    def _on_turned(self, degrees: int) -> None:
+        self._change(lambda thing: turned(thing, thing.heading + math.radians(degrees)))
+
+    def _on_thing_asked(self, thing_id: str) -> None:
+        self.choose(thing_id)
+        self.view.setFocus()
+
+    def _on_thing_moved(self, thing_id: str, x: float, y: float) -> None:
+        thing = self.floor.find(thing_id)
+        if thing is not None:
+            self._held = moved(thing, x, y)
+            self.floor.hold(self._held)
+
+    def _on_put_down(self) -> None:
+        held, self._held = self._held, None
+        if held is not None:
+            self.floor.change(held, tr("move {thing}", thing=thing_words(held)))
+
+    def _on_floor_changed(self) -> None:
+        things = self.floor.things
+        chosen = self.floor.find(self._chosen_id)
+        if chosen is None:
+            self._chosen_id = ""
+        if self._keys is not None:
+            self._keys.chosen = chosen
+        self.thing_bar.show_thing(chosen)
+        self.tools.show_things(things)
+        self.tools.allow_placing(self.floor.has_room)
+        self.invitation.setVisible(not things and self.floor.has_room)
+        if self._view is not None:
+            is_first = bool(things) and not self._view.room.things
+            self._view.show_things(things)
+            if is_first:
+                self._look_past(self._view)
+
+    def _on_camera_changed(self) -> None:
+        self.tools.show_follow(self.view.follows)
+
+    def _on_follow_switched(self, is_on: bool) -> None:
+        self.view.follows = is_on
+        if is_on:
+            self.view.fit()

@@ -1,0 +1,304 @@
+"""Draws the curves of one plot, with its grid, the marks of gestures and the two cursors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import pyqtgraph
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QPixmap, QPolygonF
+from PySide6.QtWidgets import QWidget
+
+from nep_studio.ui.theme.colours import Theme, load_theme
+
+from .curves import ValueRange, mixed
+from .feed import Mark
+from .streams import Floats, Ring, Samples, Stream
+
+# Samples brought down to what a screen can show: the least and the greatest of each column.
+
+
+@dataclass(frozen=True)
+class Columns:
+    """n columns that have samples in them.
+
+    ``number`` (n,) counts columns of ``width_s`` from 1970, rising; ``low`` and ``high``
+    (channels, n) are NaN in a gap.
+    """
+
+    width_s: float
+    number: Floats
+    low: Floats
+    high: Floats
+
+    @property
+    def middle_s(self) -> Floats:
+        """When the middles of the columns are."""
+        middle: Floats = (self.number + 0.5) * self.width_s
+        return middle
+
+    def between(self, start_s: float, end_s: float) -> Columns:
+        """The columns from a time to another, and one more on each side."""
+        first = int(np.searchsorted(self.number, start_s / self.width_s)) - 2
+        last = int(np.searchsorted(self.number, end_s / self.width_s)) + 1
+        part = slice(max(0, first), last)
+        return Columns(self.width_s, self.number[part], self.low[:, part], self.high[:, part])
+
+
+def columns_of(samples: Samples, width_s: float) -> Columns:
+    """Bring samples down to columns; costs some time for each sample."""
+    if not len(samples.t):
+        nothing = np.empty((len(samples.values), 0))
+        return Columns(width_s, np.empty(0), nothing, nothing)
+    number = np.floor(samples.t / width_s)
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(number)) + 1])
+    low = np.fmin.reduceat(samples.values, starts, axis=1)
+    high = np.fmax.reduceat(samples.values, starts, axis=1)
+    return Columns(width_s, number[starts], low, high)
+
+
+class LiveColumns:
+    """The columns of a stream that goes on: only samples that are new are looked at."""
+
+    def __init__(self, stream: Stream, width_s: float, most: int) -> None:
+        self.width_s = width_s
+        self._stream = stream
+        self._channels = len(stream.channels)
+        self._ring = Ring(1 + 2 * self._channels, most)
+        self._seen = 0
+
+    def is_of(self, stream: Stream) -> bool:
+        """Whether it follows this stream."""
+        return stream is self._stream
+
+    def refresh(self) -> None:
+        """Take what the stream has heard since the last time."""
+        new = self._stream.total - self._seen
+        self._seen = self._stream.total
+        if new <= 0:
+            return
+        columns = columns_of(self._stream.samples(new), self.width_s)
+        table = np.vstack([columns.number, columns.low, columns.high])
+        if len(self._ring) and self._ring.newest(1)[0, 0] == table[0, 0]:
+            self._ring.replace_last(self._joined(table[:, 0]))
+            table = table[:, 1:]
+        self._ring.append(table)
+
+    def columns(self) -> Columns:
+        """All columns that are kept; a view that lives until the next refresh."""
+        table = self._ring.newest()
+        return Columns(
+            self.width_s, table[0], table[1 : 1 + self._channels], table[1 + self._channels :]
+        )
+
+    def _joined(self, column: Floats) -> NDArray[np.float64]:
+        """The newest column and more samples of it."""
+        last = self._ring.newest(1)[:, 0]
+        low, high = slice(1, 1 + self._channels), slice(1 + self._channels, None)
+        joined = column.copy()
+        joined[low] = np.fmin(last[low], column[low])
+        joined[high] = np.fmax(last[high], column[high])
+        return joined
+
+
+# Columns of a curve as lines on the screen, made by numpy without a loop over points.
+
+_FAR = 4.0
+"""How many heights of the plot a line may go beyond it: further makes drawing slow."""
+_DOT = np.array([[-1.0, 0.0], [1.0, 0.0]])
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What part of time and values is where: ``width`` by ``height`` logical pixels."""
+
+    start_s: float
+    length_s: float
+    values: ValueRange
+    width: float
+    height: float
+
+    def x(self, time_s: float) -> float:
+        """Where a time is."""
+        return (time_s - self.start_s) / self.length_s * self.width
+
+    def time(self, x: float) -> float:
+        """Which time is there."""
+        return self.start_s + x / self.width * self.length_s
+
+    def y(self, value: float) -> float:
+        """Where a value is."""
+        return (self.values.high - value) / self.values.height * self.height
+
+
+def polygons(columns: Columns, channel: int, frame: Frame) -> list[QPolygonF]:
+    """The lines of one channel: one from gap to gap."""
+    return [polygon(points) for points in lines(columns, channel, frame)]
+
+
+def lines(columns: Columns, channel: int, frame: Frame) -> list[Floats]:
+    """The points (n, 2) of the lines of one channel: one line from gap to gap.
+
+    A line goes through the least and the greatest of each column, up in one and down in the next:
+    what is between two columns is then as short as it can be.
+    """
+    if not len(columns.number):
+        return []
+    x = (columns.middle_s - frame.start_s) * (frame.width / frame.length_s)
+    is_falling = (columns.number % 2).astype(bool)
+    low, high = columns.low[channel], columns.high[channel]
+    scale = frame.height / frame.values.height
+    points = np.empty((2 * len(x), 2))
+    points[0::2, 0] = points[1::2, 0] = x
+    points[0::2, 1] = np.where(is_falling, high, low)
+    points[1::2, 1] = np.where(is_falling, low, high)
+    points[:, 1] = (frame.values.high - points[:, 1]) * scale
+    np.clip(points[:, 1], -_FAR * frame.height, (1 + _FAR) * frame.height, out=points[:, 1])
+    return _between_gaps(points)
+
+
+def polygon(points: Floats) -> QPolygonF:
+    """Points (n, 2) as Qt takes them."""
+    if len(points) == 1:
+        points = points[[0, 0]]
+    if len(points) == 2 and (points[0] == points[1]).all():
+        points = points + _DOT  # one sample between two gaps: a short line, so that it is seen
+    made: QPolygonF = pyqtgraph.functions.create_qpolygonf(len(points))
+    pyqtgraph.functions.ndarray_from_qpolygonf(made)[:] = points
+    return made
+
+
+def _between_gaps(points: Floats) -> list[Floats]:
+    is_gap = np.isnan(points[:, 1])
+    if not is_gap.any():
+        return [points]
+    edges = np.flatnonzero(np.diff(is_gap)) + 1
+    return [part for part in np.split(points, edges) if not np.isnan(part[0, 1])]
+
+
+_MOST_LINES_OF_MARKS = 3
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What one plot shows: lines with their pens, marks, cursors, and where values have lines.
+
+    ``layer`` is a picture behind the lines, and where it begins.
+    """
+
+    frame: Frame
+    curves: Sequence[tuple[QPen, list[QPolygonF]]] = ()
+    layer: tuple[QPixmap, float] | None = None
+    marks: Sequence[Mark] = ()
+    cursors: tuple[float, ...] = ()
+    grid_s: Sequence[float] = ()
+    grid_values: Sequence[float] = ()
+    has_words: bool = True
+    title: str = field(default="")
+
+
+class CurvesView(QWidget):
+    """Shows a picture before the middle of a plot of pyqtgraph.
+
+    It is a widget of its own, which hides what is behind it: to draw curves 60 times a second
+    then does not draw the axes again.
+    """
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.picture: Picture | None = None
+        self.set_look(load_theme("light"), self.font())
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.show()
+
+    def set_look(self, theme: Theme, font: QFont) -> None:
+        """Take the theme's colours and a font for words."""
+        self._ground, self._label = theme.colour("field"), theme.colour("info_panel")
+        self._grid = mixed(theme.colour("line"), self._ground)
+        self._text, self._cursor = theme.colour("text"), theme.colour("focus")
+        self._mark = QPen(theme.colour("accent"), 1)
+        self._mark.setCosmetic(True)
+        self._mark.setStyle(Qt.PenStyle.DashLine)
+        self._metrics = QFontMetricsF(font)
+        self.setFont(font)
+        self.update()
+
+    def show_picture(self, picture: Picture) -> None:
+        """Show another picture."""
+        self.picture = picture
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw what is behind the curves, the curves, and what is before them."""
+        painter = QPainter(self)
+        painter.setLayoutDirection(Qt.LayoutDirection.LayoutDirectionAuto)
+        painter.fillRect(self.rect(), self._ground)
+        picture = self.picture
+        if picture is not None:
+            self._draw_grid(painter, picture)
+            if picture.layer is not None:
+                painter.drawPixmap(QPointF(picture.layer[1], 0), picture.layer[0])
+            for pen, polygons in picture.curves:
+                painter.setPen(pen)
+                for polygon in polygons:
+                    painter.drawPolyline(polygon)
+            self._draw_marks(painter, picture)
+            self._draw_cursors(painter, picture)
+            if picture.title:
+                self._draw_words(painter, 0, 0, picture.title, is_marked=False)
+        painter.end()
+
+    def _draw_grid(self, painter: QPainter, picture: Picture) -> None:
+        """Lines one pixel wide, which are quicker to fill than to draw."""
+        frame = picture.frame
+        for time_s in picture.grid_s:
+            painter.fillRect(QRectF(round(frame.x(time_s)), 0, 1, frame.height), self._grid)
+        for value in picture.grid_values:
+            painter.fillRect(QRectF(0, round(frame.y(value)), frame.width, 1), self._grid)
+
+    def _draw_marks(self, painter: QPainter, picture: Picture) -> None:
+        frame = picture.frame
+        ends = [-1.0] * _MOST_LINES_OF_MARKS
+        for mark in picture.marks:
+            x = frame.x(mark.time_s)
+            painter.setPen(self._mark)
+            painter.drawLine(QPointF(x, 0), QPointF(x, frame.height))
+            line = next((at for at, end in enumerate(ends) if x >= end), None)
+            if picture.has_words and line is not None:
+                ends[line] = self._draw_words(painter, x, line + 1, mark.words, is_marked=True)
+
+    def _draw_cursors(self, painter: QPainter, picture: Picture) -> None:
+        frame = picture.frame
+        for name, time_s in zip("AB", picture.cursors, strict=False):
+            x = frame.x(time_s)
+            pen = QPen(self._cursor, 2)
+            pen.setStyle(Qt.PenStyle.SolidLine if name == "A" else Qt.PenStyle.DashLine)
+            painter.setPen(pen)
+            painter.drawLine(QPointF(x, 0), QPointF(x, frame.height))
+            if picture.has_words:
+                self._draw_words(painter, x, 0, name, is_marked=True)
+
+    def _draw_words(
+        self, painter: QPainter, x: float, line: int, words: str, *, is_marked: bool
+    ) -> float:
+        """Write words beside a place in one of the upper lines; where they end."""
+        metrics = self._metrics
+        room = metrics.height() * 0.3
+        width = metrics.horizontalAdvance(words) + 2 * room
+        if is_marked and x + width > self.width():
+            x = max(0.0, x - width)
+        rect = QRectF(x, line * metrics.height() * 1.15, width, metrics.height() * 1.1)
+        painter.fillRect(rect, self._label if is_marked else self._ground)
+        painter.setPen(self._text)
+        painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, words)
+        return rect.right() + room
+
+
+def marks_between(marks: Iterable[Mark], start_s: float, end_s: float) -> list[Mark]:
+    """The marks that are shown, the oldest first."""
+    return sorted(
+        (mark for mark in marks if start_s <= mark.time_s <= end_s), key=lambda one: one.time_s
+    )

@@ -1,0 +1,314 @@
+"""The panel once it is open: tools, plots, the list of curves, and what is recorded or played."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtGui import QDesktopServices, QHideEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_core.errors import NepError, RecordingError
+from nep_core.wire.messages import IMU
+from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
+from nep_studio.ui.messages import Answer, Messages
+from nep_studio.ui.network_feed import NetworkFeed
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import count_words, tr
+
+from .chooser import FieldChooser
+from .curve_list import CurveList
+from .exporting import SensorFiles, export_csv, export_picture
+from .feed import Field, SensorFeed
+from .plots import Plots
+from .pointing import Hand
+from .recorder import RecordBar, Recorder
+from .replay_bar import RECORDING, ReplayBar
+from .tools import Tools
+
+# What the panel says while nothing is measured: what belongs there, and the first steps.
+
+_WIDEST_LINES = 30
+
+
+class EmptyPage(QScrollArea):
+    """Offers a watch, a recording, or any number of the network."""
+
+    watch_asked = Signal()
+    replay_asked = Signal()
+    choose_asked = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWidgetResizable(True)
+        inside = QWidget()
+        box = QVBoxLayout(inside)
+        box.addStretch(1)
+        title = QLabel(tr("What sensors measure is drawn here as curves."))
+        title.setProperty("role", "heading")
+        hint = QLabel(
+            tr(
+                "Start a simulated watch, play a recording, or connect a watch or phone: "
+                "its curves appear by themselves. You can also choose any number that a node sends."
+            )
+        )
+        hint.setProperty("role", "hint")
+        for label in (title, hint):
+            label.setWordWrap(True)
+            label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+            box.addWidget(label)
+        self.watch_button = QPushButton(tr("Start the virtual watch"))
+        self.watch_button.setProperty("kind", "primary")
+        self.replay_button = QPushButton(tr("Replay a recording…"))
+        self.choose_button = QPushButton(tr("Choose numbers…"))
+        box.addLayout(self._buttons())
+        box.addStretch(1)
+        self.setWidget(inside)
+        self.watch_button.clicked.connect(self.watch_asked)
+        self.replay_button.clicked.connect(self.replay_asked)
+        self.choose_button.clicked.connect(self.choose_asked)
+
+    def show_starting(self, is_starting: bool) -> None:
+        """Say that the watch is on its way."""
+        words = tr("The virtual watch starts…") if is_starting else tr("Start the virtual watch")
+        self.watch_button.setText(words)
+        self.watch_button.setEnabled(not is_starting)
+
+    def _buttons(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.addStretch(1)
+        for button in (self.watch_button, self.replay_button, self.choose_button):
+            row.addWidget(button)
+        row.addStretch(1)
+        return row
+
+
+WATCH = "virtual_watch"
+"""The name of the watch that is started here."""
+
+
+class Workspace(QWidget):
+    """Shows a feed; ``folder`` says where recordings are to be kept."""
+
+    def __init__(
+        self,
+        feed: SensorFeed,
+        recorder: Recorder,
+        network: NetworkFeed,
+        runner: Runner,
+        messages: Messages,
+        look: Look,
+        folder: Callable[[], Path],
+        files: SensorFiles | None = None,
+    ) -> None:
+        super().__init__()
+        self.feed, self.recorder = feed, recorder
+        self._runner, self._messages, self._network = runner, messages, network
+        self._folder, self._files = folder, files or SensorFiles()
+        self.plots = Plots(feed, look)
+        self.hand = Hand(self.plots)
+        self.tools = Tools(self.plots, self.hand, recorder, look)
+        self.list = CurveList(self.plots, look)
+        self.record_bar = RecordBar(recorder, look)
+        self.replay_bar = ReplayBar(look)
+        self.empty = EmptyPage()
+        self.measured = QLabel()
+        self.measured.hide()
+        self.chooser: FieldChooser | None = None
+        self._lay_out()
+        self._connect()
+        self._on_rows_changed()
+
+    def _lay_out(self) -> None:
+        side = QWidget()
+        column = QVBoxLayout(side)
+        column.setContentsMargins(0, 0, 0, 0)
+        line = self.fontMetrics().height()
+        self.measured.setContentsMargins(line // 2, line // 4, line // 2, line // 4)
+        self.measured.setWordWrap(True)
+        column.addWidget(self.measured)
+        column.addWidget(self.list, 1)
+        self.split = QSplitter(Qt.Orientation.Horizontal)
+        self.split.addWidget(self.plots)
+        self.split.addWidget(side)
+        self.split.setStretchFactor(0, 1)
+        self.split.setChildrenCollapsible(False)
+        self.pages = QStackedWidget()
+        self.pages.addWidget(self.empty)
+        self.pages.addWidget(self.split)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(0)
+        for widget in (self.tools, self.record_bar, self.replay_bar):
+            box.addWidget(widget)
+        box.addWidget(self.pages, 1)
+
+    def _connect(self) -> None:
+        self.plots.rows_changed.connect(self._on_rows_changed)
+        self.plots.cursors_changed.connect(self._on_cursors_changed)
+        self.list.measured.connect(self._on_measured)
+        self.list.header().sectionCountChanged.connect(lambda *_: self._share_room())
+        self.empty.watch_asked.connect(self.start_watch)
+        self.empty.replay_asked.connect(self.choose_recording)
+        self.empty.choose_asked.connect(self.choose_fields)
+        actions = self.tools.by_name
+        actions["choose"].triggered.connect(lambda: self.choose_fields())
+        actions["record"].triggered.connect(lambda: self.record())
+        actions["replay"].triggered.connect(lambda: self.choose_recording())
+        actions["csv"].triggered.connect(lambda: self._export("csv"))
+        actions["png"].triggered.connect(lambda: self._export("png"))
+        self.replay_bar.start_asked.connect(self._runner.start_node)
+        self.replay_bar.stop_asked.connect(lambda: self._runner.stop_node(RECORDING))
+        self._runner.nodes_changed.connect(self._on_nodes_changed)
+        self._runner.node_failed.connect(self._on_node_failed)
+        self.recorder.failed.connect(self._on_recording_failed)
+        self.recorder.stopped.connect(self._on_recording_stopped)
+
+    # What a person asks for
+
+    def start_watch(self) -> None:
+        """Let a simulated person wear a watch."""
+        self.empty.show_starting(True)
+        self._runner.start_node(PlannedNode(VIRTUAL_WATCH, WATCH, {}, tr("it was asked for")))
+
+    def show_field(self, topic: str, path: str) -> None:
+        """Plot a number of a topic; without a path, let a person choose one."""
+        if topic == IMU:
+            return  # its curves are there by themselves
+        if path:
+            self.feed.plot(Field(topic, path))
+        else:
+            self.choose_fields(topic)
+
+    def choose_fields(self, topic: str = "") -> None:
+        """Let a person choose what is plotted."""
+        if self.chooser is None:
+            self.chooser = FieldChooser(self.feed, self._network, self)
+        self.chooser.show_topic(topic)
+        self.chooser.show()
+        self.chooser.raise_()
+
+    def record(self, folder: Path | None = None) -> None:
+        """Record what sensors measure, from now on."""
+        try:
+            self.recorder.start(folder or self._folder())
+        except RecordingError as error:
+            self._on_recording_failed(error)
+
+    def choose_recording(self) -> None:
+        """Ask for a recording, and play it."""
+        self._files.choose_recording(self, self._folder(), self.replay_bar.choose)
+
+    def _export(self, kind: str) -> None:
+        name = time.strftime(f"sensors_%Y-%m-%d_%H-%M-%S.{kind}")
+        words = tr("Numbers") if kind == "csv" else tr("Picture")
+        keep = self.export_numbers if kind == "csv" else self.export_picture
+        self._files.choose_place(self, self._folder() / name, words, keep)
+
+    def export_numbers(self, path: Path) -> None:
+        """Keep the numbers of the time that is shown."""
+        try:
+            paths = export_csv(path, self.plots)
+        except RecordingError as error:
+            self._messages.tell_error(error)
+            return
+        self._messages.confirm(_kept(paths), self._show_folder(path.parent))
+
+    def export_picture(self, path: Path) -> None:
+        """Keep a picture of the plots and of the list of curves."""
+        try:
+            export_picture(path, self.split)
+        except RecordingError as error:
+            self._messages.tell_error(error)
+            return
+        self._messages.confirm(_kept([path]), self._show_folder(path.parent))
+
+    # What happens
+
+    def _on_rows_changed(self) -> None:
+        has_rows = bool(self.plots.rows)
+        self.pages.setCurrentIndex(1 if has_rows else 0)
+        self.tools.refresh()
+        if has_rows:
+            self.empty.show_starting(False)
+            self._share_room()
+
+    def _on_cursors_changed(self) -> None:
+        self.tools.refresh()
+        self._share_room()
+
+    def _share_room(self) -> None:
+        """Give the list what it needs, as long as the plots keep the larger part."""
+        wanted = self.list.header().length() + 2 * self.fontMetrics().height()
+        width = max(self.split.width(), 1)
+        side = min(wanted, width // 2)
+        self.split.setSizes([width - side, side])
+
+    def _on_measured(self, words: str) -> None:
+        self.measured.setText(words)
+        self.measured.setVisible(bool(words))
+
+    def _on_nodes_changed(self, names: list[str]) -> None:
+        if RECORDING in names:
+            self.replay_bar.see(self._runner.board.nodes.get(RECORDING))
+
+    def _on_node_failed(self, name: str, _error: NepError) -> None:
+        if name == WATCH:
+            self.empty.show_starting(False)
+        elif name == RECORDING:
+            self.replay_bar.note_end()
+
+    def _on_recording_failed(self, error: RecordingError) -> None:
+        answer = Answer(tr("Choose a folder…"), self._choose_folder)
+        self._messages.tell_error(error, answer)
+
+    def _choose_folder(self) -> None:
+        self._files.choose_folder(self, self._folder(), self.record)
+
+    def _on_recording_stopped(self, paths: list[Path]) -> None:
+        if not paths:
+            self._messages.confirm(tr("Nothing was measured, so nothing was recorded"))
+            return
+        play = Answer(tr("Replay"), lambda: self.replay_bar.choose(paths[0]))
+        self._messages.confirm(_kept(paths), play, self._show_folder(paths[0].parent))
+
+    def _show_folder(self, folder: Path) -> Answer:
+        url = QUrl.fromLocalFile(str(folder))
+        return Answer(tr("Show the folder"), lambda: QDesktopServices.openUrl(url), "quiet")
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave the plots their part."""
+        super().resizeEvent(event)
+        self._share_room()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Hear what is plotted."""
+        super().showEvent(event)
+        self.feed.watch(self)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Hear nothing while nobody looks."""
+        super().hideEvent(event)
+        self.feed.unwatch(self)
+
+
+def _kept(paths: list[Path]) -> str:
+    """What to say of files that were written."""
+    return count_words(
+        len(paths),
+        "“{name}” is kept",
+        "{n} files are kept, the first is “{name}”",
+        name=paths[0].name,
+    )

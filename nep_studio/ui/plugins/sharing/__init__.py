@@ -1,0 +1,192 @@
+"""Lets other computers take part in the network of this one, or this one in theirs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_core.errors import NepError
+from nep_core.networks.security.keys import Keys
+from nep_studio.sharing import Refusal, Sharing
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.words import count_words, tr
+
+from .refusal_words import refusal_sentence
+
+if TYPE_CHECKING:
+    from nep_studio.ui.plugins.network.panel import NetworkPanel
+    from nep_studio.ui.shell.main_window import MainWindow
+
+    from .dialog import SharingDialog
+
+
+# Who takes part in the network, in a few words for a panel.
+
+
+@dataclass(frozen=True)
+class SharingTold:
+    """Nothing in ``words`` while only this computer takes part."""
+
+    words: str = ""
+    more: str = ""
+    icon_name: str = ""
+
+
+def told_of(sharing: Sharing) -> SharingTold:
+    """How the network is now."""
+    if sharing.joined is not None:
+        return SharingTold(joined_words(sharing.joined), "", "monitor")
+    if sharing.opening is None:
+        return SharingTold()
+    words = tr("The network is open")
+    if refusals := sharing.refusals.newest_first:
+        return SharingTold(words, refusal_sentence(refusals[0]), "triangle-alert")
+    count = len(sharing.computers)
+    more = count_words(count, "1 computer may come in.", "{n} computers may come in.")
+    return SharingTold(words, more if count else "", "monitor")
+
+
+def joined_words(keys: Keys) -> str:
+    """In whose network this studio is."""
+    computer = keys.computers[0].name if keys.computers else keys.title
+    return tr("In the network of “{computer}”", computer=computer)
+
+
+# Puts “Open to other computers” into the window: its action, and what is told of it there.
+
+
+def add_sharing(window: MainWindow, panel: NetworkPanel) -> SharingKit:
+    """Add the action "open_network", in the Robots menu; ``panel`` shows that the network is open.
+
+    The command palette has it too.
+    """
+    kit = SharingKit(window)
+    panel.sharing_asked.connect(kit.open)
+    kit.told.connect(panel.show_sharing)
+    kit.tell()
+    return kit
+
+
+class SharingKit(QObject):
+    """What the action does, and what the window tells; the dialog is loaded when it is opened.
+
+    ``told`` gives a SharingTold whenever something has changed.
+    """
+
+    told = Signal(object)
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window.actions_by_name)
+        self._window = window
+        self._runner = window.running.runner
+        self._waiting: Callable[[], None] | None = None
+        self._is_to_offer_run = False
+        self._refused: Message | None = None
+        self.dialog: SharingDialog | None = None
+        self.sharing = sharing_of(window)
+        tip = tr("Let other computers take part: their nodes and robots talk with yours.")
+        action = window.actions_by_name.add(
+            "open_network",
+            tr("Open to other computers…"),
+            self.open,
+            icon_name="monitor",
+            tip=tip,
+        )
+        window.menus["robots"].addAction(action)
+        self.sharing.changed.connect(self.tell)
+        self.sharing.settled.connect(self._on_settled)
+        self.sharing.refused.connect(self._on_refused)
+        self.sharing.failed.connect(self._on_failed)
+        self._runner.state_changed.connect(self._on_run_changed)
+
+    def tell(self) -> None:
+        """Tell how it is now."""
+        self.told.emit(told_of(self.sharing))
+
+    def open(self) -> None:
+        """Show the dialog."""
+        from .dialog import SharingDialog
+
+        if self.dialog is not None:
+            self.dialog.raise_()
+            self.dialog.activateWindow()
+            return
+        window, sharing = self._window, self.sharing
+        dialog = SharingDialog(sharing, self._runner, window.settings, window.look, window)
+        self.dialog = dialog
+        dialog.open_asked.connect(lambda at: self._after_the_run(lambda: sharing.open(at)))
+        dialog.join_asked.connect(
+            lambda at, code: self._after_the_run(lambda: sharing.join(at, code))
+        )
+        dialog.close_asked.connect(lambda: self._after_the_run(sharing.close))
+        dialog.begin_anew_asked.connect(lambda: self._after_the_run(sharing.begin_anew))
+        dialog.finished.connect(self._on_finished)
+        self.destroyed.connect(dialog.reject)  # the window is made anew, in another language
+        dialog.begin()
+
+    def _after_the_run(self, do: Callable[[], None]) -> None:
+        """Stop the program first; it would lose its nodes while it runs."""
+        self._is_to_offer_run = self._runner.state != "idle"
+        if self._is_to_offer_run:
+            self._waiting = do
+            self._runner.stop()
+        else:
+            do()
+
+    def _on_run_changed(self, state: str) -> None:
+        if state == "idle" and self._waiting is not None:
+            do, self._waiting = self._waiting, None
+            do()
+
+    def _on_settled(self, state: str) -> None:
+        joined = self.sharing.joined
+        if self._refused is not None and state != "open":
+            self._window.messages.withdraw(self._refused)
+            self._refused = None
+        if state == "open":
+            self._confirm(tr("The network is open to other computers"))
+        elif state == "joined" and joined is not None:
+            self._confirm(joined_words(joined))
+        elif state == "closed":
+            self._window.settings.kept_open_at = ""
+            self._confirm(tr("Only this computer takes part now"))
+
+    def _confirm(self, title: str) -> None:
+        run = Answer(tr("Run again"), self._runner.run)
+        self._window.messages.confirm(title, *([run] if self._is_to_offer_run else []))
+        self._is_to_offer_run = False
+
+    def _on_refused(self, refusal: Refusal) -> None:
+        from .refusal_words import refusal_message
+
+        messages = self._window.messages
+        if self._refused is not None:
+            messages.withdraw(self._refused)
+        self._refused = refusal_message(refusal, self.sharing.key_path, self.open)
+        messages.tell(self._refused)
+
+    def _on_failed(self, error: NepError) -> None:
+        if self.dialog is None:  # else the dialog tells it
+            show = Answer(tr("Open to other computers…"), self.open)
+            self._window.messages.tell_error(error, show)
+
+    def _on_finished(self) -> None:
+        self.dialog = None
+
+
+def sharing_of(window: MainWindow) -> Sharing:
+    """The one of the window; it stays when the window's contents are made anew."""
+    found = window.running.findChild(Sharing)
+    if found is not None:
+        return found
+    runner, settings = window.running.runner, window.settings
+    sharing = Sharing(runner.local, window.running)
+    sharing.went_down.connect(runner.disconnected)
+    runner.closing.connect(sharing.end)
+    runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
+    if address := settings.kept_open_at:
+        QTimer.singleShot(0, sharing, lambda: sharing.open(address))
+    return sharing

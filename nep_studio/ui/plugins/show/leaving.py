@@ -1,0 +1,277 @@
+"""How show mode is left: by holding Esc, or the title, and with the PIN if there is one."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import logging
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.messages import announce
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from PySide6.QtDBus import QDBusMessage, QDBusPendingCallWatcher
+
+log = logging.getLogger(__name__)
+
+
+HOLD_MS = 2000
+STEP_MS = 50
+PIN_STAYS_MS = 30_000
+"""After so long without a key the question for the PIN goes: a visitor may have found it."""
+
+
+class Holding(QObject):
+    """Watches whether Esc, or a widget, is held long enough; ``progress`` goes from 0 to 1."""
+
+    progress = Signal(float)
+    held = Signal()
+
+    def __init__(self, keys_of: QWidget, handle: QWidget) -> None:
+        super().__init__(keys_of)
+        self._keys_of, self._handle = keys_of, handle
+        self._elapsed_ms = 0
+        self._timer = QTimer(self, interval=STEP_MS)
+        self._timer.timeout.connect(self._on_step)
+        keys_of.installEventFilter(self)
+        handle.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Begin when it is pressed, end when it is let go."""
+        kind = event.type()
+        if isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+            if not event.isAutoRepeat():
+                self._hold(kind == QEvent.Type.KeyPress)
+            return True
+        if watched is self._handle and isinstance(event, QMouseEvent):
+            if kind in (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonRelease):
+                self._hold(kind == QEvent.Type.MouseButtonPress)
+                return True
+        elif kind in (QEvent.Type.WindowDeactivate, QEvent.Type.FocusOut):
+            self._hold(False)
+        return False
+
+    def _hold(self, is_down: bool) -> None:
+        self._elapsed_ms = 0
+        if is_down:
+            self._timer.start()
+        else:
+            self._timer.stop()
+        self.progress.emit(0.0)
+
+    def _on_step(self) -> None:
+        self._elapsed_ms += STEP_MS
+        self.progress.emit(min(1.0, self._elapsed_ms / HOLD_MS))
+        if self._elapsed_ms >= HOLD_MS:
+            self._timer.stop()
+            self.progress.emit(0.0)
+            self.held.emit()
+
+
+class HoldBar(QFrame):
+    """Says while somebody holds Esc what that will do."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._over = parent
+        self.setProperty("kind", "card")
+        self.bar = QProgressBar()
+        self.bar.setRange(0, 100)
+        self.bar.setTextVisible(False)
+        row = QHBoxLayout(self)
+        row.addWidget(QLabel(tr("Keep holding to leave the show")))
+        row.addWidget(self.bar, 1)
+        self.hide()
+
+    def show_progress(self, progress: float) -> None:
+        """Show how far it is; nothing for a short touch."""
+        self.bar.setValue(round(100 * progress))
+        self.setVisible(progress > 0.1)
+        if self.isVisible():
+            parent = self._over
+            self.setFixedWidth(min(parent.width(), self.fontMetrics().height() * 30))
+            self.adjustSize()
+            self.move((parent.width() - self.width()) // 2, self.fontMetrics().height())
+            self.raise_()
+
+
+class PinQuestion(QFrame):
+    """Asks for the PIN, also where there is no keyboard; goes by itself after a while."""
+
+    right = Signal()
+
+    def __init__(self, is_pin: Callable[[str], bool], parent: QWidget) -> None:
+        super().__init__(parent)
+        self._over = parent
+        self._is_pin = is_pin
+        self.setProperty("kind", "card")
+        self.line = QLineEdit()
+        self.line.setEchoMode(QLineEdit.EchoMode.Password)
+        self.line.setAccessibleName(tr("PIN"))
+        self.words = QLabel(tr("The PIN to leave the show"))
+        self.leave_button = QPushButton(tr("Leave"))
+        self.leave_button.setProperty("kind", "primary")
+        self.back_button = QPushButton(tr("Back to the show"))
+        self._going = QTimer(self, singleShot=True, interval=PIN_STAYS_MS)
+        self._going.timeout.connect(self.hide)
+        box = QVBoxLayout(self)
+        box.addWidget(self.words)
+        box.addWidget(self.line)
+        box.addWidget(self._digits())
+        row = QHBoxLayout()
+        row.addWidget(self.back_button)
+        row.addWidget(self.leave_button)
+        box.addLayout(row)
+        self.line.returnPressed.connect(self._on_given)
+        self.line.textEdited.connect(lambda: self._going.start())
+        self.leave_button.clicked.connect(self._on_given)
+        self.back_button.clicked.connect(self.hide)
+        self.hide()
+
+    def ask(self) -> None:
+        """Show it in the middle."""
+        self.line.clear()
+        self.words.setText(tr("The PIN to leave the show"))
+        parent = self._over
+        self.adjustSize()
+        self.move((parent.width() - self.width()) // 2, (parent.height() - self.height()) // 2)
+        self.show()
+        self.raise_()
+        self.line.setFocus()
+        self._going.start()
+
+    def _digits(self) -> QWidget:
+        digits = QWidget()
+        digits.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every telephone
+        grid = QGridLayout(digits)
+        grid.setContentsMargins(0, 0, 0, 0)
+        for number, digit in enumerate("123456789⌫0"):
+            button = QPushButton(digit)
+            button.setMinimumHeight(self.fontMetrics().height() * 3)
+            button.setAccessibleName(tr("Delete") if digit == "⌫" else digit)
+            button.clicked.connect(lambda _=False, digit=digit: self._on_digit(digit))
+            grid.addWidget(button, number // 3, number % 3)
+        return digits
+
+    def _on_digit(self, digit: str) -> None:
+        self._going.start()
+        if digit == "⌫":
+            self.line.backspace()
+        else:
+            self.line.insert(digit)
+
+    def _on_given(self) -> None:
+        if self._is_pin(self.line.text()):
+            self.hide()
+            self.right.emit()
+            return
+        self.line.clear()
+        self.words.setText(tr("This is not the PIN. Try again."))
+        announce(self, self.words.text())
+
+
+# Keeps the screen from going blank during a show, where the system lets a program do that.
+
+_SERVICE = "org.freedesktop.ScreenSaver"
+_PATH = "/org/freedesktop/ScreenSaver"
+_CONNECTION = "nep-studio-show"
+_CONTINUOUS, _SYSTEM, _DISPLAY = 0x80000000, 0x00000001, 0x00000002
+"""Flags of SetThreadExecutionState of Windows."""
+
+
+class StayingAwake:
+    """The screen stays on between ``begin`` and ``end``; nothing waits, nothing fails."""
+
+    def __init__(self, system: str = sys.platform) -> None:
+        self._system = system
+        self._is_on = False
+        self._process: subprocess.Popen[bytes] | None = None
+        self._is_asked = False
+        self._watcher: QDBusPendingCallWatcher | None = None
+
+    def begin(self) -> None:
+        """Keep the screen on."""
+        if self._is_on:
+            return
+        self._is_on = True
+        if self._system == "win32":
+            _tell_windows(_CONTINUOUS | _SYSTEM | _DISPLAY)
+        elif self._system == "darwin":
+            with contextlib.suppress(OSError):
+                self._process = subprocess.Popen(["caffeinate", "-d", "-w", str(os.getpid())])
+        else:
+            self._ask_the_desktop()
+
+    def end(self) -> None:
+        """Let the screen go blank as it usually does."""
+        if not self._is_on:
+            return
+        self._is_on = False
+        if self._system == "win32":
+            _tell_windows(_CONTINUOUS)
+        elif self._process is not None:
+            self._process.terminate()
+            self._process.wait()
+            self._process = None
+        elif self._is_asked:
+            from PySide6.QtDBus import QDBusConnection
+
+            QDBusConnection.disconnectFromBus(_CONNECTION)
+            self._is_asked = False
+
+    def _ask_the_desktop(self) -> None:
+        """Ask over a connection of its own: the desktop forgets what it was asked when it ends.
+
+        To take it back by its number would need an unsigned one, which Python cannot send.
+        """
+        from PySide6.QtDBus import QDBusConnection, QDBusPendingCallWatcher
+
+        bus = QDBusConnection.connectToBus(QDBusConnection.BusType.SessionBus, _CONNECTION)
+        if not bus.isConnected():
+            QDBusConnection.disconnectFromBus(_CONNECTION)
+            log.info("The desktop cannot be asked to keep the screen on.")
+            return
+        self._is_asked = True
+        call = _call("Inhibit", "NEP Studio", "A show is on")
+        self._watcher = QDBusPendingCallWatcher(bus.asyncCall(call))
+        self._watcher.finished.connect(self._on_answered)
+
+    def _on_answered(self, watcher: QDBusPendingCallWatcher) -> None:
+        from PySide6.QtDBus import QDBusMessage
+
+        answer = watcher.reply()
+        if answer.type() != QDBusMessage.MessageType.ReplyMessage:
+            log.info("The desktop does not keep the screen on: %s", answer.errorMessage())
+
+
+def _call(method: str, *arguments: object) -> QDBusMessage:
+    from PySide6.QtDBus import QDBusMessage
+
+    call = QDBusMessage.createMethodCall(_SERVICE, _PATH, _SERVICE, method)
+    call.setArguments(list(arguments))
+    return call
+
+
+def _tell_windows(flags: int) -> None:
+    kernel = getattr(ctypes, "windll", None)
+    if kernel is not None:
+        kernel.kernel32.SetThreadExecutionState(flags)

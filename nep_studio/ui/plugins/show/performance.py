@@ -1,0 +1,256 @@
+"""Plays a project for a public: begins it, tells how it goes, begins it again when it failed."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import msgspec
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from nep_core.errors import NepError
+from nep_core.wire import messages as m
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.problems import Problem, problem_of
+from nep_studio.run.session import Ending
+from nep_studio.run.timeline import Line, Timeline
+from nep_studio.settings import ShowOptions
+from nep_studio.ui.messages import Told
+from nep_studio.ui.running.runner import Request
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.ui.documents import Document
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+# Whether and when a show that has ended is begun again; no clock and no Qt in here.
+
+PAUSE_S = 5.0
+LONGEST_PAUSE_S = 60.0
+STEADY_S = 60.0
+"""A show that has gone on for so long was not broken from the beginning."""
+
+
+@dataclass
+class Restarts:
+    """Counts failures in a row; after ``most`` of them somebody must look.
+
+    ``again``: a show that ended well begins anew, too. ``total`` is how often it was begun again
+    since somebody pressed Run.
+    """
+
+    most: int = 5
+    again: bool = False
+    failures: int = 0
+    total: int = 0
+    _began_s: float = field(default=0.0, repr=False)
+
+    def pressed(self) -> None:
+        """Somebody has pressed Run: what was before does not count any more."""
+        self.failures = self.total = 0
+
+    def began(self, now_s: float) -> None:
+        """A show begins."""
+        self._began_s = now_s
+
+    def failed(self, now_s: float) -> float | None:
+        """How long to wait before it begins again, in s; None: somebody must look."""
+        if now_s - self._began_s >= STEADY_S:
+            self.failures = 0
+        self.failures += 1
+        if self.failures > self.most:
+            return None
+        self.total += 1
+        return min(PAUSE_S * 2.0 ** (self.failures - 1), LONGEST_PAUSE_S)
+
+    def ended(self) -> float | None:
+        """The same for a show that ended well; None: it waits for somebody to press Run."""
+        self.failures = 0
+        if not self.again:
+            return None
+        self.total += 1
+        return PAUSE_S
+
+
+State = Literal["ready", "opening", "starting", "playing", "stopping", "waiting", "attention"]
+MOST_LINES = 4
+TICK_MS = 1000
+_STATES: dict[str, State] = {
+    "starting": "starting",
+    "running": "playing",
+    "paused": "playing",
+    "stopping": "stopping",
+}
+
+
+class Performance(QObject):
+    """The show of one window. ``changed`` tells of its state, ``told`` of a new line.
+
+    A project that is named by ``path`` is opened when it is needed, and again when that failed:
+    the disk that it is on may come later than the show.
+    """
+
+    changed = Signal()
+    told = Signal()
+
+    def __init__(
+        self,
+        window: MainWindow,
+        options: ShowOptions,
+        path: Path | None = None,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        super().__init__(window)
+        self._window, self._options, self._path, self._now = window, options, path, now
+        self._runner = window.running.runner
+        self.state: State = "ready"
+        self.problem: Problem | None = None
+        self.restarts = Restarts(options.restarts, options.again)
+        self.lines: deque[Line] = deque(maxlen=MOST_LINES)
+        self.seconds_left = 0
+        self._was_stopped = False
+        self._timeline: Timeline | None = None
+        self._clock = QTimer(self, interval=TICK_MS)
+        self._clock.timeout.connect(self._on_tick)
+        self._runner.state_changed.connect(self._on_state_changed)
+        self._runner.arrived.connect(self._on_arrived)
+        self._runner.ended.connect(self._on_ended)
+        window.files.document_changed.connect(self._on_document_changed)
+        window.messages.told.connect(self._on_told)
+        if self._runner.state in _STATES:
+            self.state = _STATES[self._runner.state]
+
+    @property
+    def title(self) -> str:
+        """What is played."""
+        document = self._window.files.document
+        if document is not None:
+            return document.title
+        return self._path.stem if self._path is not None else ""
+
+    @property
+    def is_running(self) -> bool:
+        """Whether there is something to stop."""
+        return self.state in ("opening", "starting", "playing", "waiting")
+
+    def run(self) -> None:
+        """Somebody wants it to begin."""
+        if self.state in ("ready", "attention"):
+            self.restarts.pressed()
+            self._begin()
+
+    def stop(self) -> None:
+        """Somebody wants it to end: the robots first, and no other beginning."""
+        self._clock.stop()
+        self._was_stopped = True
+        if self._runner.state == "idle":
+            self._set_state("ready")
+        else:
+            self._runner.stop()
+
+    def retire(self) -> None:
+        """Follow the window no more; what runs goes on."""
+        self._clock.stop()
+        self._runner.state_changed.disconnect(self._on_state_changed)
+        self._runner.arrived.disconnect(self._on_arrived)
+        self._runner.ended.disconnect(self._on_ended)
+        self._window.files.document_changed.disconnect(self._on_document_changed)
+        self._window.messages.told.disconnect(self._on_told)
+        self.deleteLater()
+
+    # How it goes on
+
+    def _begin(self) -> None:
+        self._was_stopped = False
+        self.problem = None
+        self.restarts.began(self._now())
+        document = self._window.files.document
+        if document is not None:
+            self._play(document)
+        elif self._path is not None:
+            self._set_state("opening")
+            self._window.files.open(self._path)
+        else:
+            steps = (tr("Open a project in the studio first."),)
+            self._fail(Problem(tr("There is no project to play"), "", steps))
+
+    def _play(self, document: Document) -> None:
+        self.lines.clear()
+        self._timeline = Timeline(document.editor.language, tr)
+        try:
+            code = generate_program(document.project, document.editor.language)
+            nodes = self._window.running.planned()
+        except (BlocksError, NepError) as error:
+            self._fail(problem_of(error))
+            return
+        self._window.running.stage.begin(code)
+        self._runner.start(Request(code, tuple(nodes)))
+
+    def _fail(self, problem: Problem) -> None:
+        self.problem = problem
+        self._wait(self.restarts.failed(self._now()), "attention")
+
+    def _wait(self, pause_s: float | None, otherwise: State) -> None:
+        if pause_s is None:
+            self._set_state(otherwise)
+            return
+        self.seconds_left = round(pause_s)
+        self._clock.start()
+        self._set_state("waiting")
+
+    def _set_state(self, state: State) -> None:
+        self.state = state
+        self.changed.emit()
+
+    def _on_tick(self) -> None:
+        self.seconds_left -= 1
+        if self.seconds_left > 0:
+            self.changed.emit()
+            return
+        self._clock.stop()
+        self._begin()
+
+    def _on_document_changed(self, document: Document | None) -> None:
+        if self.state == "opening" and document is not None:
+            self._play(document)
+        self.changed.emit()
+
+    def _on_told(self, told: Told) -> None:
+        """A project that cannot be opened is told by a message only."""
+        message = told.message
+        if self.state == "opening" and message.kind == "error":
+            self._fail(Problem(message.title, message.sentence, message.checklist, message.details))
+
+    def _on_state_changed(self, state: str) -> None:
+        if state in _STATES:
+            self._set_state(_STATES[state])
+
+    def _on_ended(self, ending: Ending) -> None:
+        if self._was_stopped:
+            self._set_state("ready")
+        elif ending.problem is not None:
+            self._fail(ending.problem)
+        else:
+            self._wait(self.restarts.ended(), "ready")
+
+    def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
+        if self._timeline is None:
+            document = self._window.files.document
+            if document is None:
+                return
+            self._timeline = Timeline(document.editor.language, tr)
+        new = [
+            line
+            for _, message in batch
+            if not isinstance(message, m.NodeState)  # the public came for the robots
+            for line in self._timeline.lines(message)
+        ]
+        if new:
+            self.lines.extend(new)
+            self.told.emit()

@@ -1,0 +1,378 @@
+"""The full screen of a show: what is played, what happens now, Run and Stop, and nothing else."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QCloseEvent,
+    QFont,
+    QFontMetrics,
+    QGuiApplication,
+    QKeyEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QResizeEvent,
+    QScreen,
+)
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.problems import Problem
+from nep_studio.settings import ShowOptions
+from nep_studio.ui.messages import announce
+from nep_studio.ui.plugins.cues.panel import CuePanel
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import ElidedLabel, screen_around
+from nep_studio.ui.words import count_words, tr
+
+from .leaving import HoldBar, Holding, PinQuestion, StayingAwake
+from .performance import Performance
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+# Words that are as large as the room allows, for people who stand far away.
+
+_FLAGS = Qt.TextFlag.TextWordWrap.value | Qt.AlignmentFlag.AlignCenter.value
+
+
+class StageWords(QWidget):
+    """A text that fills its room, with the lines before it, smaller, above."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.lines: list[str] = []
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+
+    def show_lines(self, lines: list[str]) -> None:
+        """Show these, the last one large."""
+        self.lines = lines
+        self.setAccessibleName(lines[-1] if lines else "")
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """A few lines."""
+        line = self.fontMetrics().height()
+        return QSize(line * 20, line * 8)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the lines."""
+        if not self.lines:
+            return
+        *before, now = self.lines
+        with QPainter(self) as painter:
+            room = self.rect()
+            small = self._font(room.height() / 14)
+            height = QFontMetrics(small).lineSpacing()
+            painter.setFont(small)
+            painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
+            metrics = QFontMetrics(small)
+            for number, line in enumerate(before):
+                row = QRect(room.left(), room.top() + number * height, room.width(), height)
+                shown = metrics.elidedText(line, Qt.TextElideMode.ElideRight, row.width())
+                painter.drawText(row, Qt.AlignmentFlag.AlignCenter, shown)
+            large = room.adjusted(0, len(before) * height, 0, 0)
+            painter.setFont(self._fitting(now, large))
+            painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+            painter.drawText(large, _FLAGS, now)
+
+    def _fitting(self, text: str, room: QRect) -> QFont:
+        """The largest font in which the text fits."""
+        least, most = 8, max(9, room.height() // 3)
+        while least < most:
+            middle = (least + most + 1) // 2
+            metrics = QFontMetrics(self._font(middle))
+            needed = metrics.boundingRect(room, _FLAGS, text)
+            fits = needed.height() <= room.height() and needed.width() <= room.width()
+            least, most = (middle, most) if fits else (least, middle - 1)
+        return self._font(least)
+
+    def _font(self, pixels: float) -> QFont:
+        font = QFont(self.font())
+        font.setPixelSize(max(8, round(pixels)))
+        font.setWeight(QFont.Weight.DemiBold)
+        return font
+
+
+# The calm page of a show that somebody must look after: what happened, and what to try.
+
+
+class AttentionPage(QScrollArea):
+    """Large words for who passes, a checklist for who can help."""
+
+    def __init__(self, look: Look, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setStyleSheet("QScrollArea { background: transparent; }")
+        self._problem: Problem | None = None
+        self._look = look
+        self.headline, self.text = _words(), _words()
+        inside = QWidget()
+        inside.setObjectName("inside")
+        inside.setStyleSheet("#inside { background: transparent; }")
+        box = QVBoxLayout(inside)
+        box.addStretch(1)
+        box.addWidget(self.headline)
+        box.addWidget(self.text)
+        box.addStretch(1)
+        self.setWidget(inside)
+        self.viewport().setAutoFillBackground(False)
+
+    def show_problem(self, problem: Problem | None, times: int) -> None:
+        """Show a problem, and how often it was tried to go on."""
+        if problem is None:
+            self.text.clear()
+            return
+        tried = count_words(times, "It was begun again once.", "It was begun again {n} times.")
+        steps = [*map(tr, problem.checklist), tr("Then press Run.")]
+        lines = [
+            "",
+            f"{tr(problem.title)}: {tr(problem.sentence)}"
+            if problem.sentence
+            else tr(problem.title),
+            *([tried] if times else []),
+            "",
+            *(f"\N{WHITE SQUARE} {step}" for step in steps),
+        ]
+        self.text.setText("\n".join(lines))
+        self.headline.setText(tr("The show is having a rest."))
+        pixels = max(14, self.window().height() // 28)
+        self.headline.setStyleSheet(f"font-size: {2 * pixels}px; font-weight: 600;")
+        self.text.setStyleSheet(f"font-size: {pixels}px;")
+
+
+def _words() -> QLabel:
+    label = QLabel()
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    label.setWordWrap(True)
+    label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    return label
+
+
+BUTTON_PART, TITLE_PART, STATE_PART = 0.055, 0.05, 0.03
+"""How large words are, as parts of the height of the screen."""
+
+_SIGNS = {
+    "ready": ("circle", "muted"),
+    "opening": ("clock", "info"),
+    "starting": ("clock", "info"),
+    "playing": ("play", "success"),
+    "stopping": ("square", "warning"),
+    "waiting": ("refresh-cw", "info"),
+    "attention": ("triangle-alert", "warning"),
+}
+
+
+class ShowWindow(QWidget):
+    """Covers the screen until somebody leaves on purpose, which ``left`` tells."""
+
+    left = Signal()
+
+    def __init__(self, window: MainWindow, performance: Performance, options: ShowOptions) -> None:
+        super().__init__(None, Qt.WindowType.Window | Qt.WindowType.FramelessWindowHint)
+        self._window, self.performance = window, performance
+        self._may_close = False
+        self.setObjectName("show")
+        self.setAutoFillBackground(True)
+        self.title = ElidedLabel()
+        self.title.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.state_sign, self.state_words = QLabel(), QLabel()
+        self.state_words.setTextFormat(Qt.TextFormat.PlainText)
+        self.words = StageWords()
+        self.attention = AttentionPage(window.look, self)
+        self.middle = QStackedWidget()
+        self.middle.addWidget(self.words)
+        self.middle.addWidget(self.attention)
+        self.run_button = _large_button(tr("Run"), "run")
+        self.stop_button = _large_button(tr("Stop"), "stop")
+        self.cues = CuePanel(window, is_large=True, parent=self) if options.has_cues else None
+        self.awake = StayingAwake()
+        self.holding = Holding(self, self.title)
+        self.hold_bar = HoldBar(self)
+        self.pin = PinQuestion(window.settings.is_pin, self)
+        self._lay_out()
+        self._connect()
+        self._dress()
+        self.refresh()
+
+    def open(self) -> None:
+        """Cover the screen that the window is on."""
+        self.setGeometry(screen_around(self._window))
+        self.showFullScreen()
+        self.activateWindow()
+        self.run_button.setFocus()
+        self.awake.begin()
+
+    def leave(self) -> None:
+        """End the show; what runs goes on in the studio's window."""
+        self._may_close = True
+        self.awake.end()
+        self.close()
+        self.left.emit()
+
+    def refresh(self) -> None:
+        """Show how the performance goes."""
+        show = self.performance
+        self.title.set_words(show.title)
+        self.setWindowTitle(show.title or tr("Show"))
+        needs_somebody = show.state == "attention"
+        self.middle.setCurrentWidget(self.attention if needs_somebody else self.words)
+        self.attention.show_problem(show.problem if needs_somebody else None, show.restarts.total)
+        self.run_button.setVisible(not show.is_running)
+        self.run_button.setEnabled(show.state in ("ready", "attention"))
+        self.stop_button.setVisible(show.is_running)
+        words = self._state_text()
+        if words != self.state_words.text():
+            self.state_words.setText(words)
+            announce(self, words)
+        self._show_sign()
+        self._show_lines()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Keys that close windows do not close a show; the end of the session does."""
+        if self._may_close or _application().isSavingSession():
+            super().closeEvent(event)
+        else:
+            event.ignore()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """The keys of the cues work everywhere."""
+        if self.cues is None or not self.cues.board.press(event.text()):
+            super().keyPressEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """All is measured by the screen, which may be another one now."""
+        super().resizeEvent(event)
+        self._dress()
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.addStretch(1)
+        head.addWidget(self.state_sign)
+        head.addWidget(self.state_words)
+        head.addStretch(1)
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        buttons.addWidget(self.run_button, 2)
+        buttons.addWidget(self.stop_button, 2)
+        buttons.addStretch(1)
+        self._box = QVBoxLayout(self)
+        self._box.addWidget(self.title)
+        self._box.addLayout(head)
+        self._box.addWidget(self.middle, 3)
+        if self.cues is not None:
+            self._box.addWidget(self.cues, 5)
+        self._box.addLayout(buttons)
+
+    def _connect(self) -> None:
+        self.performance.changed.connect(self.refresh)
+        self.performance.told.connect(self._show_lines)
+        self.run_button.clicked.connect(self.performance.run)
+        self.stop_button.clicked.connect(self.performance.stop)
+        self.holding.progress.connect(self.hold_bar.show_progress)
+        self.holding.held.connect(self._on_held)
+        self.pin.right.connect(self.leave)
+        self._window.look.theme_changed.connect(self._dress)
+        application = _application()
+        application.screenRemoved.connect(self._on_screens_changed)
+        application.primaryScreenChanged.connect(self._on_screens_changed)
+
+    def _state_text(self) -> str:
+        show = self.performance
+        again = count_words(show.restarts.total, "begun again once", "begun again {n} times")
+        words = {
+            "ready": tr("Ready"),
+            "opening": tr("The project is being opened"),
+            "starting": tr("It begins in a moment"),
+            "playing": tr("On"),
+            "stopping": tr("Stopping"),
+            "waiting": tr("It begins again in {seconds} s", seconds=show.seconds_left),
+            "attention": tr("Needs attention"),
+        }[show.state]
+        return f"{words} · {again}" if show.restarts.total else words
+
+    def _show_sign(self) -> None:
+        name, colour = _SIGNS[self.performance.state]
+        side = self.state_words.fontMetrics().height()
+        picture = icon(name, self._window.look.theme.colour(colour))
+        self.state_sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
+
+    def _show_lines(self) -> None:
+        show = self.performance
+        lines = [f"{who} {what}" for who, what in show.lines]
+        if not lines:
+            lines = [tr("Press Run to begin.")] if show.state == "ready" else []
+        self.words.show_lines(lines)
+
+    def _on_held(self) -> None:
+        if self._window.settings.has_pin:
+            self.pin.ask()
+        else:
+            self.leave()
+
+    def _on_screens_changed(self, _screen: QScreen | None = None) -> None:
+        """Cover the screen that is left, once the system has moved the window there."""
+        if self.isVisible():
+            QTimer.singleShot(0, self, self._cover)
+
+    def _cover(self) -> None:
+        if self.isVisible():
+            self.setGeometry(screen_around(self))
+            self.showFullScreen()
+
+    def _dress(self) -> None:
+        theme, height = self._window.look.theme, max(self.height(), 200)
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.Window, theme.colour("canvas"))
+        palette.setColor(QPalette.ColorRole.WindowText, theme.colour("text"))
+        palette.setColor(QPalette.ColorRole.PlaceholderText, theme.colour("muted"))
+        self.setPalette(palette)
+        _size(self.title, height * TITLE_PART)
+        _size(self.state_words, height * STATE_PART)
+        gap = round(height * 0.02)
+        self._box.setContentsMargins(2 * gap, gap, 2 * gap, 2 * gap)
+        self._box.setSpacing(gap)
+        for button, name, ink in (
+            (self.run_button, "play", "run_text"),
+            (self.stop_button, "square", "stop_text"),
+        ):
+            _size(button, height * BUTTON_PART)
+            side = round(height * BUTTON_PART * 1.2)
+            button.setIcon(icon(name, theme.colour(ink)))
+            button.setIconSize(QSize(side, side))
+            button.setMinimumHeight(round(height * BUTTON_PART * 2.4))
+        self._show_sign()
+
+
+def _application() -> QGuiApplication:
+    application = QGuiApplication.instance()
+    assert isinstance(application, QGuiApplication)
+    return application
+
+
+def _large_button(words: str, kind: str) -> QPushButton:
+    button = QPushButton(f"\N{EN SPACE}{words}")  # Qt leaves too little beside so large an icon
+    button.setAccessibleName(words)
+    button.setProperty("kind", kind)
+    return button
+
+
+def _size(widget: QWidget, pixels: float) -> None:
+    """Give a widget words of this height; a style sheet of the window sets the font otherwise."""
+    widget.setStyleSheet(f"font-size: {max(9, round(pixels))}px; font-weight: 600;")

@@ -1,0 +1,242 @@
+"""The study kit in the window: the questionnaire, what is recorded, and the results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QPushButton, QWidget
+
+from nep_studio.study.records import Reply, Sitting, write_events, write_replies
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.plugins.help.help_controller import HelpDesk
+from nep_studio.ui.plugins.help.panel import HelpPanel
+from nep_studio.ui.theme.icons import icon, icon_pixmap
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.questions import save_text
+from nep_studio.ui.words import count_words, tr
+
+from .recorder import StudyRecorder
+
+if TYPE_CHECKING:
+    from nep_studio.ui.shell.main_window import MainWindow
+
+    from .results import ResultsDialog
+
+
+# The sign that is in the window as long as a study is recorded.
+
+
+class StudySign(QFrame):
+    """Says that a study is on and of whom, with buttons for the questionnaire and to stop."""
+
+    def __init__(self, recorder: StudyRecorder, look: Look) -> None:
+        super().__init__()
+        self._recorder, self._look = recorder, look
+        self.setProperty("kind", "warning")
+        self.dot, self.words = QLabel(), ElidedLabel()
+        self.form_button = QPushButton(tr("Fill in the questionnaire"))
+        self.stop_button = QPushButton(tr("Stop the study"))
+        row = QHBoxLayout(self)
+        row.addWidget(self.dot)
+        row.addWidget(self.words, 1)
+        row.addWidget(self.form_button)
+        row.addWidget(self.stop_button)
+        recorder.changed.connect(self.refresh)
+        look.theme_changed.connect(self.refresh)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Be there, or not."""
+        sitting = self._recorder.sitting
+        side, ratio = self.fontMetrics().height(), self.devicePixelRatioF()
+        self.dot.setPixmap(icon_pixmap("eye", self._look.theme.colour("warning"), side, ratio))
+        if sitting is None:
+            return
+        values = {"participant": sitting.participant, "condition": sitting.condition}
+        if sitting.condition:
+            words = tr("A study is recorded: {participant}, {condition}", **values)
+        else:
+            words = tr("A study is recorded: {participant}", participant=sitting.participant)
+        self.words.set_words(words)
+
+
+# Puts the study kit into the window: the Study menu, the recorder, and its sign.
+
+Record = TypeVar("Record")
+HELP_PAGES = "help"
+"""What the names of actions begin with that show a page of the help."""
+
+
+def add_study(window: MainWindow) -> StudyRecorder:
+    """Add Help > Study, when the rest of the Help menu is made.
+
+    The recorder stays when the window is made anew in another language.
+    """
+    recorder = window.findChild(StudyRecorder) or StudyRecorder(window)
+    kit = StudyKit(window, recorder)
+    kit.add_menu()
+    kit.add_sign()
+    return recorder
+
+
+class StudyKit(QObject):
+    """What the Study menu does."""
+
+    def __init__(self, window: MainWindow, recorder: StudyRecorder) -> None:
+        super().__init__(window.actions_by_name)
+        self._window, self._recorder = window, recorder
+        self._folder = recorder.folder
+        self._page = ""
+        recorder.changed.connect(self._update_actions)
+
+    def add_menu(self) -> None:
+        """Make the menu."""
+        add, theme = self._window.actions_by_name.add, self._window.look.theme
+        help_menu = self._window.menus["help"]
+        self._follow_help(help_menu)
+        menu = help_menu.addMenu(icon("graduation-cap", theme), tr("Study"))
+        form, results = tr("Fill in the questionnaire…"), tr("Results…")
+        menu.addAction(add("study_start", tr("Start a study…"), self.start, icon_name="play"))
+        stop = tr("Stop the study")
+        menu.addAction(add("study_stop", stop, self._recorder.stop, icon_name="square"))
+        recorded = tr("What is recorded")
+        menu.addAction(add("study_recorded", recorded, self.tell_what, icon_name="eye"))
+        menu.addSeparator()
+        menu.addAction(add("study_form", form, self.fill_in, icon_name="list"))
+        menu.addAction(add("study_results", results, self.show_results, icon_name="table"))
+        self._update_actions()
+
+    def add_sign(self) -> None:
+        """Put the sign at the lower edge of the window."""
+        bar = self._window.statusBar()
+        for old in bar.findChildren(StudySign):
+            bar.removeWidget(old)
+            old.setParent(None)  # at once: there is one sign only
+            old.deleteLater()
+        bar.setSizeGripEnabled(False)
+        sign = StudySign(self._recorder, self._window.look)
+        sign.form_button.clicked.connect(self.fill_in)
+        sign.stop_button.clicked.connect(self._recorder.stop)
+        bar.addWidget(sign, 1)
+        self._update_actions()
+
+    def start(self) -> None:
+        """Ask who takes part, and what is to be recorded."""
+        from .start import StartDialog  # dialogs are loaded when they are opened
+
+        dialog = StartDialog(self._folder, self._window)
+        dialog.started.connect(self._on_started)
+        dialog.open()
+
+    def tell_what(self) -> None:
+        """Say what a study keeps."""
+        from .start import what_is_recorded
+
+        title, *sentences = what_is_recorded(self._folder)
+        self._window.messages.tell(Message("info", title, "\n\n".join(sentences)))
+
+    def fill_in(self) -> None:
+        """Show the questionnaire."""
+        from .form import QuestionnaireDialog
+
+        dialog = QuestionnaireDialog(self._folder, self._window.look, self._window)
+        dialog.answered.connect(self._on_answered)
+        dialog.open()
+
+    def show_results(self) -> None:
+        """Show what was answered."""
+        from .results import ResultsDialog
+
+        dialog = ResultsDialog(self._folder, self._window)
+        dialog.answers_asked.connect(lambda: self._save_answers(dialog))
+        dialog.events_asked.connect(lambda: self._save_events(dialog))
+        dialog.deletion_asked.connect(lambda: self._ask_to_delete(dialog))
+        dialog.open()
+
+    def _on_started(self, sitting: Sitting) -> None:
+        self._recorder.start(sitting)
+
+    def _on_answered(self, reply: Reply) -> None:
+        try:
+            self._folder.add_reply(reply)
+        except OSError as error:
+            steps = (tr("Is there room on the disk?"),)
+            title = tr("The answers could not be kept")
+            again = Answer(tr("Try again"), lambda: self._on_answered(reply))
+            self._window.messages.tell(Message("error", title, "", steps, str(error), (again,)))
+            return
+        self._recorder.note("questionnaire_answered", number=round(reply.score, 2))
+        title = tr("The answers of {participant} are kept", participant=reply.participant)
+        self._window.messages.confirm(title, Answer(tr("Show the results"), self.show_results))
+
+    def _save_answers(self, dialog: ResultsDialog) -> None:
+        self._save(dialog, "answers.csv", self._folder.replies(), write_replies)
+
+    def _save_events(self, dialog: ResultsDialog) -> None:
+        self._save(dialog, "events.csv", self._folder.events(), write_events)
+
+    def _save(
+        self,
+        dialog: ResultsDialog,
+        name: str,
+        records: list[Record],
+        write: Callable[[Path, Iterable[Record]], object],
+    ) -> None:
+        def tell(path: Path) -> None:
+            rows = count_words(len(records), "1 row", "{n} rows")
+            words = tr("{name} is saved: {rows}", name=path.name, rows=rows)
+            self._window.messages.confirm(words)
+
+        messages = self._window.messages
+        save_text(dialog, messages, name, lambda path: write(path, records), tell)
+
+    def _ask_to_delete(self, dialog: ResultsDialog) -> None:
+        def delete() -> None:
+            self._delete()
+            dialog.refresh()
+
+        answers = (Answer(tr("Delete all"), delete), Answer(tr("Keep"), lambda: None, "primary"))
+        title = tr("Delete all answers and events?")
+        words = tr("This cannot be taken back. A study that is on ends. Saved files stay.")
+        self._window.messages.ask(Message("warning", title, words, answers=answers))
+
+    def _delete(self) -> None:
+        try:
+            self._recorder.delete_all()
+        except OSError as error:
+            title = tr("Not everything could be deleted")
+            words = tr("Delete the folder {folder} yourself.", folder=self._folder.folder)
+            self._window.messages.tell(Message("error", title, "", (words,), str(error)))
+            return
+        self._window.messages.confirm(tr("All answers and events are deleted"))
+
+    def _follow_help(self, menu: QMenu) -> None:
+        """Note which pages of the help are shown, and what else its menu opens."""
+        for desk in self._window.findChildren(HelpDesk):
+            desk.panel_made.connect(self._follow_panel)
+            self._follow_panel(desk.panel)
+        for action in menu.actions():
+            if action.iconText() and not action.objectName().startswith(HELP_PAGES):
+                action.triggered.connect(self._note_help(action.iconText()))
+
+    def _follow_panel(self, panel: HelpPanel) -> None:
+        panel.page_shown.connect(partial(self._on_page_shown, panel))
+
+    def _on_page_shown(self, panel: QWidget, page: str) -> None:
+        if panel.isVisible() and page != self._page:  # the same one is drawn again, as for a theme
+            self._page = page
+            self._recorder.note_help(page)
+
+    def _note_help(self, words: str) -> Callable[[], None]:
+        return lambda: self._recorder.note_help(words)
+
+    def _update_actions(self) -> None:
+        is_on, actions = self._recorder.is_on, self._window.actions_by_name
+        actions.enable(not is_on, "study_start")
+        actions.enable(is_on, "study_stop")
+        self._window.statusBar().setVisible(is_on)

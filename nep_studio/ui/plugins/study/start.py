@@ -1,0 +1,199 @@
+"""Begins a study: who takes part, under which condition, and what is recorded, in plain words."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+from PySide6.QtCore import QRegularExpression, Qt, Signal
+from PySide6.QtGui import QRegularExpressionValidator
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QFormLayout,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.study.records import Sitting, StudyFolder
+from nep_studio.study.sus import conditions_for, next_code, participant_number
+from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.words import tr
+
+# Who takes part in a study, and under which condition: a code, never a name.
+
+CODE = r"[\p{L}\p{N}_-]{1,20}"
+
+
+class Who(QWidget):
+    """The participant's code, the conditions, and the one that is next in their order."""
+
+    changed = Signal()
+
+    def __init__(self, folder: StudyFolder, *, may_change_conditions: bool) -> None:
+        super().__init__()
+        self._folder = folder
+        self._shown: list[str] = []
+        self.code = QLineEdit(next_code(folder.participants()))
+        self.code.setValidator(QRegularExpressionValidator(QRegularExpression(CODE)))
+        self.conditions = QLineEdit(", ".join(folder.conditions()))
+        self.conditions.setPlaceholderText(tr("Such as: blocks, text"))
+        self.condition = QComboBox()
+        self.order = QLabel()
+        self._lay_out(may_change_conditions)
+        self.code.textChanged.connect(self._on_changed)
+        self.conditions.textChanged.connect(self._on_changed)
+        self._on_changed()
+
+    def _lay_out(self, may_change_conditions: bool) -> None:
+        self._form = QFormLayout(self)
+        self._form.setContentsMargins(0, 0, 0, 0)
+        self._form.addRow(tr("Participant"), self.code)
+        self._form.addRow("", _hint(tr("A code, not a name. Its number decides the order.")))
+        if may_change_conditions:
+            self._form.addRow(tr("Conditions"), self.conditions)
+        self._form.addRow(tr("Condition now"), self.condition)
+        self.order.setProperty("role", "hint")
+        self.order.setWordWrap(True)
+        self._form.addRow("", self.order)
+
+    @property
+    def participant(self) -> str:
+        """The code; "" while it is none."""
+        return self.code.text() if self.code.hasAcceptableInput() else ""
+
+    @property
+    def chosen_condition(self) -> str:
+        """The condition; "" where there is only one."""
+        return str(self.condition.currentData() or "")
+
+    def all_conditions(self) -> list[str]:
+        """The conditions that are compared."""
+        named = [one.strip() for one in self.conditions.text().split(",")]
+        return list(dict.fromkeys(filter(None, named)))
+
+    def show_sitting(self, participant: str, condition: str) -> None:
+        """Show the participant and condition of a study that goes on."""
+        self.code.setText(participant)
+        if condition and self.condition.findData(condition) < 0:
+            self.condition.addItem(condition, condition)
+            self._form.setRowVisible(self.condition, True)
+        self.condition.setCurrentIndex(self.condition.findData(condition))
+
+    def _on_changed(self) -> None:
+        conditions = self.all_conditions()
+        number = participant_number(self.participant)
+        ordered = conditions_for(number or 1, conditions)
+        done = self._folder.conditions_done(self.participant) if self.participant else set()
+        self.condition.clear()
+        for place, condition in enumerate(ordered, 1):
+            words = tr("{place}. {condition}", place=place, condition=condition)
+            self.condition.addItem(words, condition)
+        left = [condition for condition in ordered if condition not in done]
+        self.condition.setCurrentIndex(self.condition.findData(left[0]) if left else 0)
+        self._form.setRowVisible(self.condition, bool(conditions))
+        self._form.setRowVisible(self.order, bool(conditions))
+        self.order.setText(self._order_words(number, ordered))
+        self.changed.emit()
+
+    def _order_words(self, number: int | None, ordered: list[str]) -> str:
+        if number is None:
+            return tr("The code has no number: the order is that of the first participant.")
+        order = ", ".join(ordered)
+        return tr("The order for {participant}: {order}", participant=self.participant, order=order)
+
+
+def _hint(words: str) -> QLabel:
+    label = QLabel(words)
+    label.setProperty("role", "hint")
+    label.setWordWrap(True)
+    return label
+
+
+class StartDialog(QDialog):
+    """Nothing is recorded before Start is pressed; ``started`` gives the Sitting."""
+
+    started = Signal(object)
+
+    def __init__(self, folder: StudyFolder, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._folder = folder
+        self.setWindowTitle(tr("Start a study"))
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.who = Who(folder, may_change_conditions=True)
+        self.start_button = QPushButton(tr("Start the study"))
+        self.cancel_button = QPushButton(tr("Cancel"))
+        self._lay_out()
+        self.who.changed.connect(self._show_whether_it_may_start)
+        self.start_button.clicked.connect(self._on_start_clicked)
+        self.cancel_button.clicked.connect(self.reject)
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        card = QFrame()
+        card.setProperty("kind", "info")
+        told = QVBoxLayout(card)
+        for number, words in enumerate(what_is_recorded(self._folder)):
+            label = QLabel(words)
+            label.setWordWrap(True)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            if not number:
+                label.setProperty("role", "heading")
+            told.addWidget(label)
+        self.start_button.setDefault(True)
+        self.start_button.setProperty("kind", "primary")
+        foot = QHBoxLayout()
+        foot.addStretch(1)
+        foot.addWidget(self.cancel_button)
+        foot.addWidget(self.start_button)
+        page = QWidget()
+        inner = QVBoxLayout(page)
+        inner.setContentsMargins(0, 0, 0, 0)
+        inner.setSpacing(line)
+        inner.addWidget(self.who)
+        inner.addWidget(card)
+        inner.addStretch(1)
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setWidget(page)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line)
+        box.addWidget(area, 1)
+        box.addLayout(foot)
+        room = room_around(self).size()
+        self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
+
+    def _show_whether_it_may_start(self) -> None:
+        self.start_button.setEnabled(bool(self.who.participant))
+
+    def _on_start_clicked(self) -> None:
+        with suppress(OSError):  # who begins the study tells that its folder cannot be written
+            self._folder.set_conditions(self.who.all_conditions())
+        self.started.emit(Sitting(self.who.participant, self.who.chosen_condition))
+        self.accept()
+
+
+def what_is_recorded(folder: StudyFolder) -> list[str]:
+    """What a study keeps and what it does not, in plain words."""
+    return [
+        tr("What is recorded while a study is on"),
+        tr(
+            "Kept, each with its time: the studio and projects being opened (how many blocks, not"
+            " which), how many changes are made, Run and Stop, how a run ends, the titles of"
+            " errors and warnings, and which help is opened."
+        ),
+        tr(
+            "Not kept: names of people, what the program says or does, what is typed, sound,"
+            " pictures, what sensors measure, and anything of other programs."
+        ),
+        tr("Everything stays on this computer, in {folder}.", folder=folder.folder),
+        tr("A sign in the window is there as long as something is recorded."),
+    ]

@@ -1,0 +1,402 @@
+"""The tour as it goes: one step after the other, back again, and out at any time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPainterPath, QPaintEvent, QPen
+from PySide6.QtWidgets import (
+    QApplication,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPlainTextEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.messages import announce
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import begin_where_reading_begins
+from nep_studio.ui.words import tr
+
+from .steps import FIRST_STEPS, PROJECT, Step, steps
+
+if TYPE_CHECKING:
+    from nep_studio.ui.documents import Document
+    from nep_studio.ui.shell.main_window import MainWindow
+
+
+# The bubble of the tour: what a step says, where one is, and the buttons to go on.
+
+WIDE_LINES = 19.0
+"""How wide it is, in lines of text, where the window has the room."""
+
+
+class Dots(QWidget):
+    """A dot for each step; the present one is filled."""
+
+    def __init__(self, look: Look, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._look = look
+        self._number = self._count = 0
+
+    def show_place(self, number: int, count: int) -> None:
+        """Say which step of how many this is, from 0."""
+        self._number, self._count = number, count
+        self.setAccessibleName(tr("Step {number} of {count}", number=number + 1, count=count))
+        self.updateGeometry()
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """All dots in a row."""
+        side = self.fontMetrics().height()
+        return QSize(round(side * 0.8 * self._count), side)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the dots, the first where reading begins."""
+        side = self.fontMetrics().height()
+        is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
+        colour = self._look.theme.colour("accent")
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(QPen(colour, max(1.0, side / 11)))
+            for number in range(self._count):
+                x = (number + 0.5) * side * 0.8
+                centre = QPoint(round(self.width() - x if is_mirrored else x), self.height() // 2)
+                is_filled = number == self._number
+                painter.setBrush(colour if is_filled else Qt.BrushStyle.NoBrush)
+                radius = round(side * (0.27 if is_filled else 0.2))
+                painter.drawEllipse(centre, radius, radius)
+
+
+class Bubble(QFrame):
+    """Says a step; ``forth``, ``back`` and ``left`` are its buttons and keys."""
+
+    forth = Signal()
+    back = Signal()
+    left = Signal()
+
+    def __init__(self, look: Look, window: QWidget) -> None:
+        super().__init__(window)
+        self.setProperty("kind", "card")
+        self.setAutoFillBackground(True)
+        self._title, self._text = QLabel(), QLabel()
+        self._dots = Dots(look, self)
+        self.next_button, self.back_button = QPushButton(), QPushButton()
+        self.leave_button = QPushButton()
+        self._arrange()
+        self.next_button.clicked.connect(self.forth)
+        self.back_button.clicked.connect(self.back)
+        self.leave_button.clicked.connect(self.left)
+        self.hide()
+
+    def _arrange(self) -> None:
+        line = self.fontMetrics().height()
+        self._title.setProperty("role", "title")
+        for label in (self._title, self._text):
+            label.setWordWrap(True)
+        self.next_button.setProperty("kind", "primary")
+        self.leave_button.setProperty("kind", "quiet")
+        row = QHBoxLayout()
+        row.setSpacing(line // 3)
+        row.addWidget(self.leave_button)
+        row.addStretch(1)
+        row.addWidget(self.back_button)
+        row.addWidget(self.next_button)
+        self._box = QVBoxLayout(self)
+        self._box.setSpacing(line // 2)
+        self._box.setContentsMargins(line, line * 3 // 4, line, line * 3 // 4)
+        self._box.addWidget(self._title)
+        self._box.addWidget(self._text)
+        self._box.addWidget(self._dots)
+        self._box.addLayout(row)
+
+    def say(self, step: Step, number: int, count: int) -> None:
+        """Show a step, ``number`` of ``count`` from 0."""
+        self._title.setText(step.title)
+        self._text.setText(step.text)
+        for label in (self._title, self._text):
+            begin_where_reading_begins(label)
+        self._dots.show_place(number, count)
+        self.leave_button.setText(tr("End the tour"))
+        self.back_button.setText(tr("Back"))
+        self.back_button.setEnabled(number > 0)
+        self.next_button.setText(tr("Done") if number == count - 1 else tr("Next"))
+        self.leave_button.setVisible(number < count - 1)
+        self.setAccessibleName(f"{self._dots.accessibleName()}. {step.title}. {step.text}")
+
+    def sit_beside(self, place: QRect, room: QRect) -> None:
+        """Take a place beside what is shown, wholly in the room; in its corner if need be."""
+        line = self.fontMetrics().height()
+        buttons = self._box.minimumSize().width()
+        width = min(max(round(line * WIDE_LINES), buttons), room.width() - line)
+        self.resize(width, self._box.totalHeightForWidth(width))
+        inner = room.adjusted(line // 2, line // 2, -line // 2, -line // 2)
+        self.move(self._best_place(place, inner, line).topLeft())
+
+    def _best_place(self, place: QRect, inner: QRect, gap: int) -> QRect:
+        size = self.size()
+        corner = QRect(inner.bottomRight() - QPoint(size.width(), size.height()), size)
+        if self.layoutDirection() == Qt.LayoutDirection.RightToLeft:
+            corner.moveLeft(inner.left())
+        if place.isEmpty():
+            return corner
+        middle = QRect(QPoint(0, 0), size)
+        middle.moveCenter(place.center())
+        sides = [
+            middle.translated(0, place.bottom() + gap - middle.top()),
+            middle.translated(place.right() + gap - middle.left(), 0),
+            middle.translated(place.left() - gap - middle.right(), 0),
+            middle.translated(0, place.top() - gap - middle.bottom()),
+        ]
+        pushed = [_pushed_into(side, inner) for side in sides]
+        return next((side for side in pushed if not side.intersects(place)), corner)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc ends the tour."""
+        if event.key() == Qt.Key.Key_Escape:
+            self.left.emit()
+        else:
+            super().keyPressEvent(event)
+
+
+def _pushed_into(rect: QRect, room: QRect) -> QRect:
+    x = min(max(rect.x(), room.x()), max(room.x(), room.right() - rect.width()))
+    y = min(max(rect.y(), room.y()), max(room.y(), room.bottom() - rect.height()))
+    return QRect(QPoint(x, y), rect.size())
+
+
+# The veil of the tour: it darkens the window but for the place that is shown.
+
+DARKNESS = {False: 105, True: 165}
+"""How dark the veil is, of 255, over a light and over a dark theme."""
+
+
+class Veil(QWidget):
+    """Lies over the whole window; the mouse goes through it everywhere."""
+
+    def __init__(self, look: Look, window: QWidget) -> None:
+        super().__init__(window)
+        self._look = look
+        self.hole = QRect()
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.hide()
+
+    def show_hole(self, hole: QRect) -> None:
+        """Show a place of the window; an empty one darkens all of it."""
+        if hole != self.hole:
+            self.hole = hole
+            self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the veil, and a line around the place."""
+        theme, line = self._look.theme, self.fontMetrics().height()
+        path = QPainterPath()
+        path.addRect(self.rect())
+        round_ = line * 0.45
+        place = self.hole.toRectF().adjusted(-3, -3, 3, 3) & self.rect().toRectF()
+        if not self.hole.isEmpty():
+            path.addRoundedRect(place, round_, round_)
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.fillPath(path, QColor(0, 0, 0, DARKNESS[theme.is_dark]))
+            if not self.hole.isEmpty():
+                width = max(2.0, line / 7)
+                painter.setPen(QPen(theme.colour("glow"), width))
+                painter.setBrush(Qt.BrushStyle.NoBrush)
+                inner = place.adjusted(width / 2, width / 2, -width / 2, -width / 2)
+                painter.drawRoundedRect(inner, round_, round_)
+
+
+LOOK_MS = 100
+"""How often it looks where things are now and whether they are done."""
+
+
+class Tour(QObject):
+    """Leads through the steps in a project of its own. ``ended`` comes however it ends."""
+
+    ended = Signal()
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._steps: list[Step] = []
+        self._document: Document | None = None
+        self.number = -1
+        self._is_opening = self._was_done = False
+        self._shown: tuple[QRect, QRect, int] | None = None
+        self.veil, self.bubble = Veil(window.look, window), Bubble(window.look, window)
+        self._looking = QTimer(self, interval=LOOK_MS)
+        self._looking.timeout.connect(self._on_look)
+        self.bubble.forth.connect(self.go_on)
+        self.bubble.back.connect(self.go_back)
+        self.bubble.left.connect(self.end)
+        window.files.document_changed.connect(self._on_document_changed)
+        window.studio.words_changed.connect(
+            self._on_looks_changed, Qt.ConnectionType.QueuedConnection
+        )
+        window.look.theme_changed.connect(self._on_looks_changed)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether a step is shown."""
+        return self.number >= 0
+
+    def start(self) -> None:
+        """Open the project of the tour and begin; work that is not saved is asked about first."""
+        self.end()
+        self._is_opening = True
+        self._window.files.open_example(FIRST_STEPS)
+
+    def go_on(self) -> None:
+        """Go to the next step; what this one asks for is done if nobody has."""
+        step = self._steps[self.number]
+        if step.is_done is not None and not step.is_done(self._window):
+            step.do(self._window)
+        self._go_to(self.number + 1)
+
+    def go_back(self) -> None:
+        """Go to the step before."""
+        self._go_to(max(0, self.number - 1))
+
+    def end(self) -> None:
+        """Put everything away; it is not offered any more."""
+        if not self.is_running:
+            return
+        self.number, self._document, self._shown = -1, None, None
+        self._looking.stop()
+        handle = self._window.windowHandle()
+        if handle is not None:
+            handle.removeEventFilter(self)
+        focus = QApplication.focusWidget()
+        had_focus = focus is not None and self.bubble.isAncestorOf(focus)
+        self.bubble.hide()
+        self.veil.hide()
+        if had_focus and self._window.workbench.isVisible():
+            self._window.workbench.canvas.setFocus()
+        self.ended.emit()
+
+    def _begin(self) -> None:
+        self._window.settings.tour_done = True
+        self._window.start_page.tour_offer.hide()
+        self._steps = steps()
+        handle = self._window.windowHandle()
+        if handle is not None:
+            handle.installEventFilter(self)
+        self._go_to(0)
+        self._looking.start()
+        self.bubble.next_button.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _go_to(self, number: int) -> None:
+        if number >= len(self._steps):
+            self.end()
+            return
+        self.number = number
+        step = self._steps[number]
+        step.prepare(self._window)
+        self._was_done = step.is_done is not None and step.is_done(self._window)
+        self.bubble.say(step, number, len(self._steps))
+        self._take_place()
+        announce(self.bubble, self.bubble.accessibleName())
+
+    def _take_place(self) -> None:
+        """Lie over the window as it is now, above all that has come into it since."""
+        room = self._window.rect()
+        place = self._steps[self.number].target(self._window).intersected(room)
+        if self._shown != (place, room, self.number):
+            self._shown = (place, QRect(room), self.number)
+            self.veil.setGeometry(room)
+            self.veil.show_hole(place)
+            self.bubble.sit_beside(place, room)
+        over = _parts_of(self._window)[-2:]
+        if over != [self.veil, self.bubble] or self.bubble.isHidden():
+            for part in (self.veil, self.bubble):
+                part.show()
+                part.raise_()
+
+    def _on_look(self) -> None:
+        """Follow what is shown, and go on when it has been done."""
+        if not self._window.isVisible():
+            return
+        self._take_place()
+        done = self._steps[self.number].is_done
+        if done is None:
+            return
+        is_done = done(self._window)
+        if is_done and not self._was_done:
+            self._go_to(self.number + 1)
+        else:
+            self._was_done = is_done
+
+    def _on_document_changed(self, document: Document | None) -> None:
+        """Begin when the project of the tour is there; another one ends the tour."""
+        was_opening, self._is_opening = self._is_opening, False
+        if was_opening and document is not None and document.project.name == PROJECT:
+            self._document = document
+            QTimer.singleShot(0, self, self._begin)
+        elif document is not self._document:
+            self.end()
+
+    def _on_looks_changed(self) -> None:
+        if self.is_running:
+            self._steps, self._shown = steps(), None
+            self.bubble.say(self._steps[self.number], self.number, len(self._steps))
+            self._take_place()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Esc ends the tour from everywhere, unless something else in the window needs it."""
+        is_escape = (
+            event.type() == QEvent.Type.KeyPress
+            and isinstance(event, QKeyEvent)
+            and event.key() == Qt.Key.Key_Escape
+        )
+        if is_escape and self.is_running and not self._is_escape_needed():
+            self.end()
+            return True
+        if event.type() == QEvent.Type.Resize and self.is_running:
+            QTimer.singleShot(0, self, self._on_resized)
+        return super().eventFilter(watched, event)
+
+    def _on_resized(self) -> None:
+        if self.is_running:
+            self._take_place()
+
+    def _is_escape_needed(self) -> bool:
+        """Whether a menu, a field or a drag is open, which Esc ends first."""
+        canvas = self._window.workbench.canvas
+        return (
+            QApplication.activePopupWidget() is not None
+            or QApplication.activeModalWidget() is not None
+            or isinstance(QApplication.focusWidget(), QLineEdit | QPlainTextEdit)
+            or canvas.gesture is not None
+            or canvas.fields.widget is not None
+        )
+
+
+def _parts_of(window: QWidget) -> list[QWidget]:
+    """What lies in a window, the lowest first; its dialogs are windows of their own."""
+    parts = (part for part in window.children() if isinstance(part, QWidget))
+    return [part for part in parts if not part.isWindow()]
+
+
+def add_tour(window: MainWindow) -> Tour:
+    """Put the tour into the Help menu; once for each build.
+
+    The window's contents may be made anew while the tour goes on: it stays.
+    """
+    tour = window.findChild(Tour) or Tour(window)
+    action = window.actions_by_name.add(
+        "tour", tr("Take the tour"), tour.start, icon_name="footprints"
+    )
+    help_menu = window.menus["help"]
+    first = next(iter(help_menu.actions()), None)
+    if first is None:
+        help_menu.addAction(action)
+    else:
+        help_menu.insertAction(first, action)
+    return tour

@@ -1,0 +1,203 @@
+"""Connecting a watch or phone: choose the way, follow its steps, see what arrives, use it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from nep_studio.blocks.deployment import gestures_used, node_entries
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.operations.fixes import (
+    USUAL_NAME,
+    WATCH,
+    free_watch_name,
+    use_watch,
+    watch_entry,
+)
+from nep_studio.blocks.own_gestures import own_gestures
+from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode, with_takes
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.editor import Editor
+    from nep_studio.ui.shell.main_window import MainWindow
+
+    from .dialog import Plan, WatchDialog
+
+
+# Puts “Connect a watch or phone” into the window: its action, and what “Use” changes.
+
+RECORDINGS = "recordings"
+MOST_GESTURES = 5
+"""So many are offered to be made by a simulated person when the program waits for none yet."""
+
+
+def add_watches(window: MainWindow) -> WatchKit:
+    """Add the action "connect_watch"; it is in the Robots menu and in the command palette."""
+    return WatchKit(window)
+
+
+def open_watches(window: MainWindow) -> None:
+    """Show the dialog, as other rooms ask for it: who works there stays on their page."""
+    kit = window.actions_by_name.findChild(WatchKit)
+    if kit is not None:
+        kit.open(stays=True)
+
+
+class WatchKit(QObject):
+    """What the action does; the dialog is loaded when it is opened, and there is one."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window.actions_by_name)
+        self._window = window
+        self._token = ""
+        self.dialog: WatchDialog | None = None
+        self._stays = False
+        tip = tr("Let the movements of a real watch or phone into this project.")
+        action = window.actions_by_name.add(
+            "connect_watch",
+            tr("Connect a watch or phone…"),
+            self._on_asked,
+            icon_name="watch",
+            tip=tip,
+        )
+        window.menus["robots"].addAction(action)
+        window.files.document_changed.connect(self._on_document_changed)
+
+    def _on_asked(self) -> None:
+        self.open()
+
+    def open(self, *, stays: bool = False) -> None:
+        """Show the dialog; when another watch is in use, ask first.
+
+        ``stays``: the page that is shown stays when a watch is used, else its block is shown.
+        """
+        self._stays = stays
+        window = self._window
+        if window.files.document is None:
+            window.messages.refuse(
+                tr("There is no project to run."), (tr("Open or make one first."),)
+            )
+        elif self.dialog is not None:
+            self.dialog.raise_()
+            self.dialog.activateWindow()
+        elif self._is_in_use(name := self._plan().name):
+            self._ask(name)
+        else:
+            self._show(self._plan())
+
+    def _ask(self, name: str) -> None:
+        """A watch is connected: it may be looked at, or another one comes beside it."""
+        words = tr("“{name}” is connected now. What would you like?", name=name)
+        answers = (
+            Answer(tr("See or change it"), lambda: self._show(self._plan()), "primary"),
+            Answer(tr("Connect another one"), lambda: self._show(self._plan(is_another=True))),
+            Answer(tr("Cancel"), lambda: None),
+        )
+        self._window.messages.ask(Message("info", tr("A watch is in use"), words, answers=answers))
+
+    def _show(self, plan: Plan) -> None:
+        from nodes.sensory.phone_page.site import new_token
+
+        from .dialog import WatchDialog
+
+        window = self._window
+        self._token = self._token or new_token()
+        runner, look = window.running.runner, window.look
+        dialog = self.dialog = WatchDialog(runner, plan, self._token, look, window)
+        dialog.used.connect(lambda: self._use(dialog))
+        dialog.finished.connect(self._on_finished)
+        self.destroyed.connect(dialog.reject)  # the window is made anew, in another language
+        dialog.begin()
+
+    def _plan(self, *, is_another: bool = False) -> Plan:
+        """What the project says of its watch."""
+        from .dialog import Plan
+
+        editor = self._editor
+        folder = self._window.settings.last_folder / RECORDINGS
+        blank = Plan(
+            free_watch_name(editor),
+            gestures=self._gestures(),
+            folder=folder,
+            equip=lambda node: with_takes(node, editor.project),
+        )
+        entry = watch_entry(node_entries(editor.project, editor.language))
+        if is_another or entry is None:
+            return blank
+        if entry.node != WATCH:  # what stands in for a watch: its name may do for a watch too
+            return replace(blank, name=USUAL_NAME) if entry.name == USUAL_NAME else blank
+        return replace(
+            blank, name=entry.name, settings=dict(entry.parameters) or {"through": "udp"}
+        )
+
+    def _gestures(self) -> str:
+        """What a simulated person is to make: what the program waits for, as far as it is known."""
+        from nodes.sensory.arm.gestures import GESTURES
+
+        editor = self._editor
+        own = own_gestures(editor.project)
+        used = gestures_used(editor.project, editor.language)
+        offered = editor.language.choices.get("gestures", {})
+        known = {name for name, one in own.items() if one.takes} | set(GESTURES)
+        wanted = [name for name in used if name in known]
+        return ", ".join(wanted or [name for name in offered if name in known][:MOST_GESTURES])
+
+    @property
+    def _editor(self) -> Editor:
+        return self._window.workbench.canvas.editor
+
+    def _is_in_use(self, name: str) -> bool:
+        """Whether a real watch of this name sends now."""
+        status = self._window.running.runner.board.nodes.get(name)
+        if status is None or not status.is_there:
+            return False
+        return status.event == "connected" or (status.event == "warning" and bool(status.measures))
+
+    def _use(self, dialog: WatchDialog) -> None:
+        """Let the watch that runs be the project's; one step of undo."""
+        planned, window = dialog.planned, self._window
+        if planned is None:
+            dialog.trial.end()
+            return
+        try:
+            block = use_watch(
+                self._editor,
+                planned.parameters,
+                tr("connect a watch"),
+                node=planned.node,
+                name=planned.name,
+            )
+        except EditRefused as refusal:
+            dialog.trial.end()
+            window.messages.refuse(refusal.sentence, refusal.checklist)
+            return
+        runner = window.running.runner
+        for name in self._stand_ins(runner.local.planned):
+            runner.stop_node(name)
+        dialog.trial.keep(self._planned_of(block))
+        if not self._stays:
+            window.workbench.show_block(block)
+        window.messages.confirm(tr("“{name}” gives the movements now", name=planned.name))
+
+    def _planned_of(self, block: str) -> PlannedNode | None:
+        planned = self._window.running.runner.planned()
+        return next((node for node in planned if node.block_id == block), None)
+
+    def _stand_ins(self, started: dict[str, PlannedNode]) -> list[str]:
+        """The virtual watches that run, and that the project does not ask for any more."""
+        wanted = {node.name for node in self._window.running.runner.planned()}
+        virtual = [one.name for one in started.values() if one.node == VIRTUAL_WATCH]
+        return [name for name in virtual if name not in wanted]
+
+    def _on_finished(self) -> None:
+        self.dialog = None
+
+    def _on_document_changed(self) -> None:
+        """Another project: what is being connected was for the last one."""
+        self._token = ""
+        if self.dialog is not None:
+            self.dialog.reject()

@@ -1,0 +1,285 @@
+"""The dialog that connects a watch or phone: what one has, the steps, what arrives, using it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.run.plan import PlannedNode, Setting
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import fit_on_screen, room_around
+from nep_studio.ui.widgets.layouts import scrolled, show_top
+from nep_studio.ui.words import is_right_to_left, tr
+
+from .choosing import ChoosingPage
+from .connector_page import Known, WayPage
+from .connectors import WAYS, Way
+from .receiving import WatchEar
+from .trial import WatchTrial
+
+SETTLE_MS = 400
+"""So long after the last change of a setting the node is started with it."""
+PATIENCE_S = 10.0
+"""When nothing has arrived for so long, what to look at is shown."""
+LINES_WIDE, LINES_HIGH = 54, 40
+LEAST_WIDE, LEAST_HIGH = 20, 16
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What the project has: the name of the watch's node, and how it is set, if there is one."""
+
+    name: str
+    settings: Mapping[str, Setting] = field(default_factory=dict)
+    gestures: str = ""
+    folder: Path = field(default_factory=Path)
+    equip: Callable[[PlannedNode], PlannedNode] = lambda node: node
+    """Gives a node that is tried what Run would give it, such as the gestures of the project."""
+
+    @property
+    def way(self) -> Way | None:
+        """The way in which the project's watch comes; None when it has none."""
+        return WAYS.get(str(self.settings.get("through", "udp"))) if self.settings else None
+
+
+class WatchDialog(QDialog):
+    """``used`` tells that the watch which runs now is to be the project's."""
+
+    used = Signal()
+
+    def __init__(
+        self,
+        runner: Runner,
+        plan: Plan,
+        token: str,
+        look: Look,
+        parent: QWidget | None = None,
+        find_addresses: Callable[[], Sequence[str]] | None = None,
+    ) -> None:
+        """``find_addresses`` gives those of this computer; for tests."""
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(tr("Connect a watch or phone"))
+        self.plan = plan
+        self._runner, self._token, self._look = runner, token, look
+        self._find_addresses = find_addresses or _own_addresses
+        self.ear = WatchEar(runner, self, plan.name)
+        self.trial = WatchTrial(runner, plan.name, runner)
+        self.choosing = ChoosingPage(look)
+        self.page: WayPage | None = None
+        self.pages = QStackedWidget()
+        self.back_button = QPushButton(tr("Something else"))
+        self.close_button = QPushButton(tr("Close"))
+        self.use_button = QPushButton(tr("Use this watch"))
+        self._waiting_since_s = 0.0
+        self._settling = QTimer(self, singleShot=True, interval=SETTLE_MS)
+        self._lay_out()
+        self._connect()
+        self._on_theme_changed()
+        self._update()
+
+    # Layout
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        self.pages.addWidget(scrolled(self.choosing))
+        foot = QHBoxLayout()
+        self.use_button.setProperty("kind", "primary")
+        self.back_button.setIconSize(QSize(line, line))
+        for button in (self.back_button, self.close_button, self.use_button):
+            button.setAutoDefault(False)
+        foot.addWidget(self.back_button)
+        foot.addStretch(1)
+        foot.addWidget(self.close_button)
+        foot.addWidget(self.use_button)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line // 2)
+        box.addWidget(self.pages, 1)
+        box.addLayout(foot)
+        fit_on_screen(self, LINES_WIDE, LINES_HIGH)
+
+    def minimumSizeHint(self) -> QSize:
+        """What is of use; the pages scroll."""
+        line, room = self.fontMetrics().height(), room_around(self.parentWidget()).size()
+        return QSize(min(line * LEAST_WIDE, room.width()), min(line * LEAST_HIGH, room.height()))
+
+    def _connect(self) -> None:
+        self.choosing.chosen.connect(self.show_way)
+        self.back_button.clicked.connect(self.show_choice)
+        self.close_button.clicked.connect(self.reject)
+        self.use_button.clicked.connect(self._on_use)
+        self.trial.changed.connect(self._on_trial_changed)
+        self.ear.changed.connect(self._update)
+        self._settling.timeout.connect(self._on_settled)
+        self._look.theme_changed.connect(self._on_theme_changed)
+
+    # What happens
+
+    def begin(self) -> None:
+        """Show it: what the project has, else what one may have. It does not hold up the window."""
+        self.show()
+        self.ear.start()
+        way = self.plan.way
+        if way is not None and self.trial.before is not None:
+            self.show_way(way.name)
+        else:
+            self.show_choice()
+
+    def show_choice(self) -> None:
+        """Ask what one has."""
+        self._settling.stop()
+        self.trial.stop()
+        self.pages.setCurrentIndex(0)
+        self._drop_page()
+        next(iter(self.choosing.cards.values())).setFocus()
+        self._update()
+
+    def show_way(self, name: str) -> None:
+        """Show the steps of a way, and begin to listen."""
+        way, plan = WAYS[name], self.plan
+        is_known = plan.way == way
+        settings = dict(plan.settings) if is_known else {}
+        is_running = is_known and self.trial.before is not None
+        token = str(settings.get("token") or "") if is_running else ""
+        known = Known(
+            self._find_addresses(), token or self._token, plan.gestures, plan.folder, settings
+        )
+        self._drop_page()
+        page = self.page = WayPage(way, known, self.ear, self._look)
+        page.changed.connect(self._settling.start)
+        page.changed.connect(self._update)
+        page.way_asked.connect(self.show_way)
+        page.network.again.clicked.connect(
+            lambda: page.network.show_addresses(self._find_addresses())
+        )
+        area = scrolled(page)
+        page.came_into_view.connect(
+            lambda shown: QTimer.singleShot(0, area, lambda: show_top(area, shown))
+        )
+        self.pages.addWidget(area)
+        self.pages.setCurrentIndex(1)
+        self.ear.begin_anew(self.plan.name)
+        self._settling.start()  # who looks through the ways starts no node for each
+        self._update()
+        self._focus_first(page)
+
+    @property
+    def planned(self) -> PlannedNode | None:
+        """The node of what is chosen; None as long as something is missing."""
+        settings = self.page.settings if self.page is not None else None
+        if self.page is None or settings is None:
+            return None
+        return PlannedNode(self.page.way.node, self.plan.name, settings)
+
+    def _on_settled(self) -> None:
+        """Let the node run with the settings that are chosen now."""
+        planned = self.planned
+        self._waiting_since_s = time.monotonic()
+        self.ear.begin_anew(self.plan.name)
+        if planned is None:
+            self.trial.stop()
+        else:
+            self.trial.want(self.plan.equip(planned))
+        self._update()
+
+    def _on_theme_changed(self) -> None:
+        back = "arrow-right" if is_right_to_left() else "arrow-left"
+        self.back_button.setIcon(icon(back, self._look.theme))
+        for card in self.choosing.cards.values():
+            card.redraw()
+        if self.page is not None:
+            self.page.redraw()
+
+    def _on_trial_changed(self) -> None:
+        if self.trial.state == "listening":
+            self._waiting_since_s = time.monotonic()
+        self._update()
+
+    def _update(self) -> None:
+        """Show how far it is."""
+        page = self.page
+        is_listening = self.trial.state == "listening" and not self._settling.isActive()
+        self.back_button.setVisible(page is not None)
+        self.use_button.setVisible(page is not None)
+        self.use_button.setEnabled(is_listening)
+        if page is None:
+            return
+        page.show_sending(is_listening and self.ear.is_sending)
+        if self.trial.state == "failed" and self.trial.problem is not None:
+            page.live.show_problem(self.trial.problem)
+        elif self.ear.silent_s < float("inf") and self.trial.state == "listening":
+            is_silent = self.ear.silent_s > PATIENCE_S
+            page.live.show_arriving(page.advice if is_silent else ())
+        else:
+            advice = self._advice(page)
+            title, told = self._waiting_words(page)
+            page.live.show_waiting(title, "" if advice and page.way.listens else told, advice)
+
+    def _waiting_words(self, page: WayPage) -> tuple[str, str]:
+        if page.settings is None:
+            return tr("Something is still missing"), tr("Fill in what is asked in the steps.")
+        if self.trial.state != "listening":
+            return tr("Getting ready…"), ""
+        status = self.ear.status
+        told = tr(status.description) if status is not None else ""
+        if page.way.listens and not page.network.is_open:
+            return tr("Let this network in first"), told
+        return tr("Waiting for the first movement…"), told
+
+    def _advice(self, page: WayPage) -> tuple[str, ...]:
+        waited_s = time.monotonic() - self._waiting_since_s
+        has_waited = self.trial.state == "listening" and waited_s > PATIENCE_S
+        return page.advice if has_waited else ()
+
+    def _drop_page(self) -> None:
+        area = self.pages.widget(1)
+        if area is not None:
+            self.pages.removeWidget(area)
+            area.deleteLater()
+            self.page = None
+
+    def _focus_first(self, page: WayPage) -> None:
+        first = next((one for one in _asked_first(page) if one.isVisible()), self.close_button)
+        first.setFocus()
+
+    def _on_use(self) -> None:
+        self.used.emit()
+        self.accept()
+
+    def done(self, result: int) -> None:
+        """Stop what is not used. Also the window's cross comes here."""
+        self._settling.stop()
+        self.ear.stop()
+        if result != QDialog.DialogCode.Accepted:
+            self.trial.end()
+        super().done(result)
+
+
+def _asked_first(page: WayPage) -> list[QWidget]:
+    return [
+        page.network.switch,
+        page.address,
+        page.gestures.gestures,
+        page.recording.button,
+    ]
+
+
+def _own_addresses() -> Sequence[str]:
+    from nodes.sensory.connectors.addresses import lan_addresses
+
+    return lan_addresses()

@@ -1,1 +1,0 @@
-"""What is not right yet in the program: found while a person works, listed, shown at its block."""

@@ -1,0 +1,577 @@
+"""The gallery of examples: cards, a search, and tags to choose from."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QEnterEvent,
+    QFocusEvent,
+    QFont,
+    QFontMetrics,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QShowEvent,
+)
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.project.examples import Example, example_of, examples
+from nep_studio.ui.messages import announce
+from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import Flow, begin_where_reading_begins
+from nep_studio.ui.words import count_words, is_right_to_left, tr
+
+from .app import Studio
+
+# How the gallery says what an example needs, how hard and how long it is, and what it is about.
+
+Sign = tuple[str, str]
+"""The name of an icon, and words."""
+
+
+def signs_of(example: Example) -> list[Sign]:
+    """What one needs for an example, and how long it takes, each with its icon."""
+    known = _needs()
+    needs = [known[need] for need in example.needs if need in known]
+    return [*(needs or [("circle-check", tr("Needs nothing"))]), _length(example)]
+
+
+def difficulty_of(example: Example) -> Sign:
+    """How much of the block language an example uses."""
+    return {
+        "first": ("star", tr("Begin here")),
+        "next": ("chevron-right", tr("Next step")),
+        "more": ("sparkles", tr("For more")),
+    }[example.difficulty]
+
+
+def tag_words(tag: str) -> str:
+    """What a tag is called."""
+    return _tags().get(tag, tag)
+
+
+def search_text(example: Example) -> str:
+    """All that an example can be found by, in the person's language and in English."""
+    shown = [tr(words) for words in example.words()]
+    tags = [tag_words(tag) for tag in example.tags]
+    signs = [words for _, words in (*signs_of(example), difficulty_of(example))]
+    return " ".join([*shown, *example.words(), *tags, *example.tags, *signs]).casefold()
+
+
+def _length(example: Example) -> Sign:
+    if not example.seconds:
+        return "repeat", tr("Until you stop it")
+    if example.seconds < 60:
+        return "clock", tr("{seconds} seconds", seconds=round(example.seconds))
+    return "clock", count_words(round(example.seconds / 60), "1 minute", "{n} minutes")
+
+
+def _needs() -> dict[str, Sign]:
+    return {
+        "watch": ("watch", tr("A watch, or the virtual one")),
+        "two_robots": ("users", tr("Two robots on the screen")),
+        "voice": ("message-square-text", tr("Somebody who answers")),
+        "people": ("user", tr("Somebody in front of it")),
+        "touch": ("hand", tr("Somebody who touches it")),
+        "cues": ("flag", tr("Somebody who gives cues")),
+    }
+
+
+def _tags() -> dict[str, str]:
+    return {
+        "gestures": tr("Gestures"),
+        "museum": tr("Museum"),
+        "robots": tr("Several robots"),
+        "speech": tr("Speech"),
+        "theatre": tr("Theatre"),
+        "lights": tr("Lights"),
+        "feelings": tr("Feelings"),
+        "movement": tr("Movement"),
+        "games": tr("Games"),
+        "values": tr("Counting and keeping"),
+        "sensors": tr("Sensors"),
+        "goals": tr("Goals"),
+        "own_blocks": tr("My blocks"),
+    }
+
+
+# The examples as cards: a picture of the blocks, what it is, what it needs, and what to do.
+
+CARD_LINES, PICTURE_LINES = 17.0, 7.5
+"""How wide a card is, and how high its picture, in lines of text."""
+
+ARROWS = {
+    Qt.Key.Key_Left: "left",
+    Qt.Key.Key_Right: "right",
+    Qt.Key.Key_Up: "up",
+    Qt.Key.Key_Down: "down",
+}
+
+
+def example_files() -> list[Path]:
+    """The examples that come with the program, in the order of the gallery."""
+    return [example.path for example in examples()]
+
+
+def example_title(path: Path) -> str:
+    """What an example is called."""
+    example = example_of(path)
+    return tr(example.title) if example else path.stem
+
+
+def example_sentence(path: Path) -> str:
+    """What an example does, in a sentence."""
+    example = example_of(path)
+    return tr(example.sentence) if example else ""
+
+
+class Signs(QWidget):
+    """Small icons with words under each other: what one needs, how long it takes."""
+
+    def __init__(self, signs: Sequence[Sign], look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._signs, self._look = signs, look
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+
+    def sizeHint(self) -> QSize:
+        """A line for each."""
+        metrics = self._metrics()
+        wide = max((metrics.horizontalAdvance(words) for _, words in self._signs), default=0)
+        return QSize(wide + 2 * metrics.height(), self._row(metrics) * len(self._signs))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the icons and words."""
+        metrics, theme = self._metrics(), self._look.theme
+        side, row = metrics.height() * 0.9, self._row(metrics)
+        is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setFont(self._small_font())
+            painter.setPen(theme.colour("muted"))
+            for number, (name, words) in enumerate(self._signs):
+                x = self.width() - side if is_mirrored else 0.0
+                top = number * row + (row - side) / 2
+                paint_icon(painter, QRectF(x, top, side, side), name, theme.colour("muted"))
+                room = self.rect().adjusted(round(side * 1.5), 0, 0, 0)
+                if is_mirrored:
+                    room = self.rect().adjusted(0, 0, -round(side * 1.5), 0)
+                room.setTop(number * row)
+                room.setHeight(row)
+                said = metrics.elidedText(words, Qt.TextElideMode.ElideRight, room.width())
+                flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeading
+                painter.drawText(room, flags, said)
+
+    def _small_font(self) -> QFont:
+        font = QFont(self.font())
+        font.setPixelSize(round(self.fontMetrics().height() * 0.74))
+        return font
+
+    def _metrics(self) -> QFontMetrics:
+        return QFontMetrics(self._small_font())
+
+    def _row(self, metrics: QFontMetrics) -> int:
+        return round(metrics.height() * 1.25)
+
+
+class Card(QFrame):
+    """An example that can be opened by a click or with the keyboard, or tried at once.
+
+    ``moved_on`` asks for the card on another side: "left", "right", "up", "down".
+    """
+
+    clicked = Signal()
+    try_requested = Signal()
+    moved_on = Signal(str)
+
+    def __init__(self, example: Example, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.example, self._look = example, look
+        title, sentence = tr(example.title), tr(example.sentence)
+        signs = [difficulty_of(example), *signs_of(example)]
+        self.setProperty("kind", "card")
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setAccessibleName(f"{title}. {sentence}")
+        self.setAccessibleDescription(". ".join(words for _, words in signs))
+        self.setToolTip("\n".join(f"• {tr(each.words)}" for each in example.tries))
+        self._fill(title, sentence, signs)
+
+    def _fill(self, title: str, sentence: str, signs: Sequence[Sign]) -> None:
+        line = self.fontMetrics().height()
+        self.picture = QLabel()
+        self.picture.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
+        self.picture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.picture.setFixedHeight(round(line * PICTURE_LINES))
+        self.signs = Signs(signs, self._look)
+        inside = QVBoxLayout()
+        inside.setContentsMargins(line // 2, line // 4, line // 2, 0)
+        inside.setSpacing(line // 4)
+        inside.addWidget(_label(title, "heading"))
+        inside.addWidget(_label(sentence, "hint"))
+        inside.addWidget(self.signs)
+        inside.addStretch(1)
+        inside.addLayout(self._buttons(title, line))
+        box = QVBoxLayout(self)
+        box.setContentsMargins(2, 2, 2, line // 2)
+        box.setSpacing(0)
+        box.addWidget(self.picture)
+        box.addLayout(inside, 1)
+        self.set_width(round(line * CARD_LINES) + 4)
+
+    def _buttons(self, title: str, line: int) -> Flow:
+        row = Flow(spacing=line // 3)
+        row.setContentsMargins(0, line // 4, 0, 0)
+        self.try_button = QPushButton(tr("Try on the simulator"))
+        self.try_button.setIcon(icon("play", self._look.theme))
+        self.try_button.setIconSize(icon_room(line))
+        self.try_button.setAccessibleName(tr("Try “{example}” on the simulator", example=title))
+        self.try_button.clicked.connect(self.try_requested)
+        self.open_button = QPushButton(tr("Open"))
+        self.open_button.setAccessibleName(tr("Open “{example}”", example=title))
+        self.open_button.clicked.connect(self.clicked)
+        for button in (self.try_button, self.open_button):
+            button.setCursor(Qt.CursorShape.ArrowCursor)
+            row.addWidget(button)
+        return row
+
+    def set_width(self, width: int) -> None:
+        """Be so wide, and as high as that needs."""
+        layout = self.layout()
+        if layout is None or self.minimumWidth() == width:
+            return
+        self.setFixedWidth(width)
+        self.setMinimumHeight(layout.totalHeightForWidth(width))
+
+    def picture_size(self) -> QSize:
+        """How large the picture is, in pixels of the window."""
+        return QSize(self.minimumWidth() - 4, self.picture.height())
+
+    def is_painted(self) -> bool:
+        """Whether the picture is as wide as the card."""
+        picture = self.picture.pixmap()
+        wide = round(picture.width() / picture.devicePixelRatio()) if picture else 0
+        return wide == self.picture_size().width()
+
+    def show_picture(self, picture: QPixmap) -> None:
+        """Show the picture."""
+        self.picture.setPixmap(picture)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """A click."""
+        if event.button() == Qt.MouseButton.LeftButton and self.rect().contains(
+            event.position().toPoint()
+        ):
+            self.clicked.emit()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter and Space are a click; arrows go to the cards around."""
+        key = Qt.Key(event.key())
+        if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Space):
+            self.clicked.emit()
+        elif key in ARROWS and event.modifiers() in (
+            Qt.KeyboardModifier.NoModifier,
+            Qt.KeyboardModifier.KeypadModifier,
+        ):
+            self.moved_on.emit(ARROWS[key])
+        else:
+            super().keyPressEvent(event)
+
+    def enterEvent(self, event: QEnterEvent) -> None:
+        """Show that it can be clicked."""
+        super().enterEvent(event)
+        self.update()
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show the focus."""
+        super().focusInEvent(event)
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw a line around it when the mouse or the keyboard is there."""
+        super().paintEvent(event)
+        if not self.hasFocus() and not self.underMouse():
+            return
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            width = max(2.0, self.fontMetrics().height() / 9)
+            painter.setPen(
+                QPen(self._look.theme.colour("focus" if self.hasFocus() else "accent"), width)
+            )
+            half, round_ = width / 2, self.fontMetrics().height() * 0.42
+            inner = self.rect().toRectF().adjusted(half, half, -half, -half)
+            painter.drawRoundedRect(inner, round_, round_)
+
+
+def _label(words: str, role: str) -> QLabel:
+    label = QLabel(words)
+    label.setWordWrap(True)
+    label.setProperty("role", role)
+    begin_where_reading_begins(label)
+    if role == "heading":
+        font = QFont(label.font())
+        font.setWeight(QFont.Weight.DemiBold)
+        label.setFont(font)
+    return label
+
+
+FEWEST_WITH_TAG = 2
+"""A tag of fewer examples is found by the search only."""
+
+
+SETTLED_MS = 120
+"""So long after its last change a size counts as settled."""
+
+
+class SearchLine(QLineEdit):
+    """Where a person types what an example is about; ``left_downwards`` goes to the cards."""
+
+    left_downwards = Signal()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter and Down go on to the cards, Escape empties the line."""
+        if event.key() in (Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.left_downwards.emit()
+        elif event.key() == Qt.Key.Key_Escape and self.text():
+            self.clear()
+        else:
+            super().keyPressEvent(event)
+
+
+class Gallery(QWidget):
+    """Cards of all examples. ``opened`` and ``try_requested`` give the file of one."""
+
+    opened = Signal(Path)
+    try_requested = Signal(Path)
+    focus_moved = Signal(QWidget)
+
+    def __init__(self, studio: Studio, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._studio = studio
+        self._unbuilt = list(examples())
+        self._cards: dict[Path, Card] = {}
+        self._shown: list[Card] = []
+        self.tag_buttons: dict[str, QPushButton] = {}
+        self._columns = self._wide = 0
+        self._unpainted: list[Path] = []
+        self._has_pictures = True
+        self._painting = QTimer(self, interval=0)
+        self._painting.timeout.connect(self._on_paint_next)
+        self._settling = QTimer(self, singleShot=True, interval=SETTLED_MS)
+        self._settling.timeout.connect(self._on_settled)
+        self._fill()
+
+    def _fill(self) -> None:
+        line = self.fontMetrics().height()
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(line // 2)
+        box.addLayout(self._search_row(line))
+        box.addWidget(self._tag_row(line))
+        self.nothing = QLabel(tr("No example is about this. Try fewer words."))
+        self.nothing.setProperty("role", "hint")
+        self.nothing.setWordWrap(True)
+        self.nothing.hide()
+        box.addWidget(self.nothing)
+        self._grid = QGridLayout()
+        self._grid.setSpacing(line)
+        self._grid.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
+        box.addLayout(self._grid)
+
+    @property
+    def cards(self) -> dict[Path, Card]:
+        """The cards of all examples by file."""
+        while self._unbuilt:
+            self._build_next()
+        return self._cards
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all cards are made."""
+        return not self._unbuilt
+
+    @property
+    def shown(self) -> list[Card]:
+        """The cards that are about what is searched for."""
+        return self._shown if self.cards else []
+
+    def _search_row(self, line: int) -> QHBoxLayout:
+        row = QHBoxLayout()
+        self.search = SearchLine()
+        self.search.setPlaceholderText(tr("Find an example"))
+        self.search.setAccessibleName(tr("Find an example"))
+        self.search.setClearButtonEnabled(True)
+        self.search.addAction(
+            icon("search", self._studio.look.theme), QLineEdit.ActionPosition.LeadingPosition
+        )
+        self.search.setMaximumWidth(line * 18)
+        self.search.textChanged.connect(self._on_filter_changed)
+        self.search.left_downwards.connect(self._on_left_search)
+        row.addWidget(self.search)
+        row.addStretch(1)
+        return row
+
+    def _tag_row(self, line: int) -> QWidget:
+        row = QWidget()
+        policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        policy.setHeightForWidth(True)
+        row.setSizePolicy(policy)
+        flow = Flow(row, spacing=line // 3)
+        counts = Counter(tag for example in examples() for tag in example.tags)
+        for tag in (tag for tag, count in counts.items() if count >= FEWEST_WITH_TAG):
+            button = self.tag_buttons[tag] = QPushButton(tag_words(tag))
+            button.setCheckable(True)
+            button.clicked.connect(lambda _=False, tag=tag: self._on_tag_clicked(tag))
+            flow.addWidget(button)
+        return row
+
+    def _build_next(self) -> None:
+        """Make one more card; all at once would keep the window waiting."""
+        example = self._unbuilt.pop(0)
+        path = example.path
+        card = self._cards[path] = Card(example, self._studio.look)
+        card.clicked.connect(lambda: self.opened.emit(path))
+        card.try_requested.connect(lambda: self.try_requested.emit(path))
+        card.moved_on.connect(lambda side: self._on_moved(card, side))
+        self._unpainted.append(path)
+        self._shown.append(card)
+        if self._columns:
+            card.set_width(self._wide)
+            self._put(card, len(self._shown) - 1)
+
+    # Which cards, and where
+
+    def show_in(self, width: int) -> None:
+        """Put as many cards beside each other as there is room for."""
+        line = self.fontMetrics().height()
+        columns = max(1, (width + line) // (round(line * CARD_LINES) + line))
+        self._wide = max((width + line) // columns - line, line * 8)
+        for card in self._cards.values():
+            card.set_width(self._wide)
+        if columns != self._columns:
+            self._columns = columns
+            self._place()
+        self._settling.start()
+
+    def _place(self) -> None:
+        for card in self._cards.values():
+            self._grid.removeWidget(card)
+            card.setVisible(card in self._shown)
+        for number, card in enumerate(self._shown):
+            self._put(card, number)
+        self.nothing.setVisible(not self._shown and not self._unbuilt)
+
+    def _put(self, card: Card, number: int) -> None:
+        self._grid.addWidget(card, number // self._columns, number % self._columns)
+        card.show()
+
+    def _on_filter_changed(self) -> None:
+        wanted = self.search.text().casefold().split()
+        tags = {tag for tag, button in self.tag_buttons.items() if button.isChecked()}
+        self._shown = [card for card in self.cards.values() if _fits(card.example, wanted, tags)]
+        self._place()
+        announce(self.search, count_words(len(self.shown), "1 example", "{n} examples"))
+
+    def _on_tag_clicked(self, tag: str) -> None:
+        """At most one tag is chosen; the chosen one clicked again is chosen no more."""
+        for other, button in self.tag_buttons.items():
+            button.setChecked(other == tag and button.isChecked())
+        self._on_filter_changed()
+
+    def _on_left_search(self) -> None:
+        if self.shown:
+            self._focus(self.shown[0])
+
+    def _on_moved(self, card: Card, side: str) -> None:
+        at, is_mirrored = self.shown.index(card), is_right_to_left()
+        forward = -1 if is_mirrored else 1
+        to = at + {"left": -forward, "right": forward, "up": -self._columns}.get(
+            side, self._columns
+        )
+        if 0 <= to < len(self.shown):
+            self._focus(self.shown[to])
+        elif side == "up":
+            self.search.setFocus(Qt.FocusReason.BacktabFocusReason)
+            self.focus_moved.emit(self.search)
+
+    def _focus(self, card: Card) -> None:
+        card.setFocus(Qt.FocusReason.TabFocusReason)
+        self.focus_moved.emit(card)
+
+    # Pictures
+
+    def wait_with_pictures(self) -> None:
+        """Paint none before ``paint_pictures``: they need all that paints blocks."""
+        self._has_pictures = False
+
+    def paint_pictures(self) -> None:
+        """Paint them from now on."""
+        self._has_pictures = True
+        self._painting.start()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Go on painting."""
+        super().showEvent(event)
+        self._painting.start()
+
+    def _on_settled(self) -> None:
+        """Paint the pictures that are smaller or larger than their cards once more."""
+        self._unpainted = [path for path, card in self._cards.items() if not card.is_painted()]
+        self._painting.start()
+
+    def _on_paint_next(self) -> None:
+        """Make one card or paint one picture at a time, so that the window is there at once."""
+        if self._unbuilt and self.isVisible():
+            self._build_next()
+            return
+        if not self._unpainted or not self._has_pictures or not self.isVisible():
+            self._painting.stop()
+            return
+        self._paint(self._unpainted.pop(0))
+
+    def _paint(self, path: Path) -> None:
+        from nep_studio.blocks.editor import Editor  # all of the blocks: after the first page
+        from nep_studio.blocks.files import load
+        from nep_studio.ui.canvas.block_pictures import picture_of
+        from nep_studio.ui.workbench.workbench import block_font
+
+        card, language = self._cards[path], self._studio.language
+        try:
+            editor = Editor(load(path, language), language)
+        except BlocksError:
+            return  # it is told when somebody opens it
+        picture = picture_of(
+            editor,
+            self._studio.look.theme,
+            block_font(self._studio),
+            card.picture_size(),
+            self.devicePixelRatioF(),
+            is_mirrored=is_right_to_left(),
+        )
+        card.show_picture(picture)
+
+
+def _fits(example: Example, wanted: list[str], tags: set[str]) -> bool:
+    """Whether an example has the chosen tag and all words that were typed."""
+    if not tags <= set(example.tags):
+        return False
+    text = search_text(example)
+    return all(word in text for word in wanted)

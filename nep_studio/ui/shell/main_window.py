@@ -1,0 +1,497 @@
+"""The main window: the start page or the workbench, with menus, toolbar and messages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
+from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar, QWidget
+
+from nep_studio.ui.document_files import PICTURES, SUFFIX, FileChooser, Files, SystemFileChooser
+from nep_studio.ui.message_cards import MessageArea
+from nep_studio.ui.messages import Answer, Message, Messages
+from nep_studio.ui.running.actions import add_run_menu, follow_running
+from nep_studio.ui.theme.icons import fit_icons
+from nep_studio.ui.words import is_right_to_left, tr
+from nep_studio.ui.workbench.problem_style import dress_check
+
+from .app import Studio
+from .dialogs import export_picture, offer_recovery, open_settings
+from .menus import (
+    Actions,
+    add_edit_menu,
+    add_file_menu,
+    add_help_menu,
+    add_toolbar,
+    add_view_menu,
+    size_toolbar,
+    update_edit_actions,
+)
+from .start_page import StartPage
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.checks.problem import Problem
+    from nep_studio.ui.documents import Document, Opening
+    from nep_studio.ui.plugins.help.help_controller import HelpDesk
+    from nep_studio.ui.running.control import RunControl
+    from nep_studio.ui.workbench.side_panels import AreaName, Panel
+    from nep_studio.ui.workbench.workbench import Workbench
+
+
+# Makes what the first page does not need, a part at a time, or at once when it is needed.
+
+MODULES = (
+    "nep_studio.blocks.program",
+    "nep_studio.blocks.definitions",
+    "nep_studio.blocks.editor",
+    "nep_studio.run.installation",
+    "nep_studio.project.journal",
+    "nep_studio.blocks.checks",
+    "nep_studio.ui.documents",
+    "nep_studio.blocks.generate.program",
+    "nep_studio.run.plan",
+    "nep_studio.blocks.typing_in.vocabulary",
+    "nep_studio.ui.canvas.editing.commands",
+    "nep_studio.ui.canvas.layout.page",
+    "nep_studio.ui.canvas.editing.menu",
+    "nep_studio.ui.canvas.view",
+    "nep_studio.ui.canvas.fields.editors",
+    "nep_studio.ui.canvas.canvas",
+    "nep_studio.ui.workbench.code",
+    "nep_studio.ui.workbench.palette.palette",
+    "nep_studio.ui.workbench.workbench",
+    "nep_studio.run.session",
+    "nep_studio.ui.running.control",
+    "nep_studio.help.texts",
+    "nep_studio.ui.plugins.help.repository",
+    "nep_studio.ui.plugins.help.panel",
+    "nep_studio.ui.plugins.cues.panel",
+    "nep_studio.ui.plugins.nodes.panel",
+    "nep_studio.ui.plugins.network.panel",
+    "nep_studio.ui.plugins.robots.panel",
+    "nep_studio.ui.plugins.show",
+    "nep_studio.ui.plugins.tour.tour",
+    "nep_studio.ui.plugins.study",
+    "nep_studio.ui.shell.rooms",
+)
+"""What the parts are made of, in an order in which none of them takes long to load."""
+
+
+class Later(QObject):
+    """The workbench and what stands around it, made by one step after the other.
+
+    What runs the project is made once; the rest again each time that the window is made anew.
+    ``completed`` comes when all is there.
+    """
+
+    completed = Signal()
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._steps: Iterator[None] = iter(())
+        self._is_working = False
+        self._is_unfinished = False
+        self.is_laid_out = False
+        """Whether the panels are to have the sizes that the person gave them."""
+        self.made_workbench: Workbench | None = None
+        self.made_running: RunControl | None = None
+        self.desk: HelpDesk | None = None
+        self._turns = QTimer(self, interval=0)
+        self._turns.timeout.connect(self.step)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether everything is made."""
+        return not self._is_unfinished and self.made_workbench is not None
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether it looks for something to make at each turn of the event loop."""
+        return self._turns.isActive()
+
+    @property
+    def workbench(self) -> Workbench:
+        """The workbench; when it is not there yet, all is made now."""
+        if self.made_workbench is None:
+            self.finish()
+        assert self.made_workbench is not None
+        return self.made_workbench
+
+    @property
+    def running(self) -> RunControl:
+        """What runs the project, made when somebody first asks."""
+        if self.made_running is None:
+            from nep_studio.ui.running.control import RunControl
+
+            self.made_running = RunControl(self._window)
+        return self.made_running
+
+    @property
+    def help_desk(self) -> HelpDesk:
+        """Who answers what is asked of the help."""
+        self.finish()
+        assert self.desk is not None
+        return self.desk
+
+    def begin(self) -> None:
+        """Let everything be made anew, once it is needed."""
+        self.made_workbench = None
+        self._steps, self._is_unfinished = self._make(), True
+
+    def go_on_after_paint(self) -> None:
+        """Make a step at each turn of the event loop, once the window has been painted."""
+        self._window.installEventFilter(self)
+
+    def finish(self) -> None:
+        """Make all that is left now."""
+        while self._is_unfinished and not self._is_working:
+            self.step()
+
+    def trigger(self, name: str) -> None:
+        """Do what an action does that may not be there yet."""
+        self.finish()
+        self._window.actions_by_name[name].trigger()
+
+    def enable(self, is_open: bool) -> None:
+        """Let what is made be used or not, as a project is open or not."""
+        if not self.is_done:
+            return
+        from .rooms import WITH_A_PROJECT
+
+        self._window.actions_by_name.enable(is_open, *WITH_A_PROJECT)
+        for panel in self.workbench.panels.all:
+            panel.action.setEnabled(is_open)
+
+    def stop(self) -> None:
+        """Make no more."""
+        self._is_unfinished = False
+        self._turns.stop()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Begin when the window has been painted."""
+        if event.type() == QEvent.Type.Paint:
+            watched.removeEventFilter(self)
+            self._turns.start()
+        return super().eventFilter(watched, event)
+
+    def step(self) -> None:
+        """Make one step."""
+        if self._is_working:
+            return
+        if not self._is_unfinished:
+            self._turns.stop()
+            return
+        self._is_working = True
+        try:
+            is_over = next(self._steps, "over") == "over"
+        except Exception:
+            self.stop()  # a step that failed cannot be made a second time
+            raise
+        finally:
+            self._is_working = False
+        if is_over:
+            self.stop()
+            self._window.follow_workbench()
+            self.completed.emit()
+
+    def _make(self) -> Iterator[None]:
+        for name in MODULES:
+            import_module(name)
+            yield
+        from nep_studio.ui.workbench.workbench import Workbench
+
+        from .rooms import add_rooms
+
+        window = self._window
+        _ = window.studio.language
+        yield
+        workbench = self.made_workbench = Workbench(window.studio, window.messages, window.pages)
+        window.pages.addWidget(workbench)
+        yield
+        self.running.attach()
+        follow_running(window)
+        yield from add_rooms(window)
+        fit_icons(workbench)
+        if self.is_laid_out:
+            workbench.restore(window.fontMetrics().height())
+
+
+# What can be dropped onto the window: a project, or a picture with one in it.
+
+
+def project_in(event: QDropEvent) -> Path | None:
+    """The project among what is dragged; the event is then taken."""
+    files = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
+    found = next((file for file in files if file.suffix.lower() in (SUFFIX, *PICTURES)), None)
+    if found is not None:
+        event.acceptProposedAction()
+    return found
+
+
+FIRST_SIZE = (1280, 800)
+
+
+class MainWindow(QMainWindow):
+    """One window with at most one project.
+
+    What is in it is made anew when the language changes; the project and its history stay.
+    With ``is_gradual`` the first page is there first: the workbench and what stands around it
+    are made after that has been painted, or when they are needed.
+    """
+
+    def __init__(
+        self, studio: Studio, chooser: FileChooser | None = None, *, is_gradual: bool = False
+    ) -> None:
+        super().__init__()
+        self.studio = studio
+        self.settings, self.look = studio.settings, studio.look
+        self.messages = Messages(self)
+        self.files = Files(
+            lambda: studio.language,
+            self.settings,
+            self.messages,
+            chooser or SystemFileChooser(),
+            self,
+        )
+        self._opening_message: Message | None = None
+        self._may_close = False
+        self.later = Later(self)
+        self.setAcceptDrops(True)
+        self.resize(*FIRST_SIZE)
+        self.restoreGeometry(self.settings.state("geometry"))
+        self._build()
+        if is_gradual:
+            self.start_page.gallery.wait_with_pictures()
+            self.later.go_on_after_paint()
+        else:
+            self.later.finish()
+        self.files.document_changed.connect(self._on_document_changed)
+        self.files.opening_changed.connect(self._on_opening_changed)
+        studio.words_changed.connect(self._on_words_changed)
+        self.look.theme_changed.connect(self._on_theme_changed)
+        self._show_title()
+
+    @property
+    def workbench(self) -> Workbench:
+        """Where the project is worked on; made when it is first asked for."""
+        return self.later.workbench
+
+    @property
+    def running(self) -> RunControl:
+        """What runs the project; made when it is first asked for."""
+        return self.later.running
+
+    def _build(self) -> None:
+        """Make all that has words in it: the first page now, the rest later."""
+        self._is_mirrored = is_right_to_left()
+        self.pages = QStackedWidget()
+        self.setCentralWidget(self.pages)
+        self.start_page = StartPage(self.studio, self.files)
+        self.pages.addWidget(self.start_page)
+        self.start_page.try_requested.connect(lambda path: self.running.try_example(path))
+        self.start_page.tour_requested.connect(lambda: self.later.trigger("tour"))
+        self.message_area = MessageArea(self.look, self.pages)
+        self.messages.show_in(self.message_area)
+        self.actions_by_name = Actions(self, self.look)
+        self.menus = {
+            "file": add_file_menu(self),
+            "edit": add_edit_menu(self),
+            "view": add_view_menu(self),
+            "run": add_run_menu(self),
+            "robots": self.menuBar().addMenu(tr("R&obots")),
+            "help": add_help_menu(self),
+        }
+        self.toolbar: QToolBar = add_toolbar(self)
+        self.later.begin()
+        self._on_problems_found([])
+        self.update_actions()
+        fit_icons(self.pages)
+
+    def follow_workbench(self) -> None:
+        """Follow the workbench, now that it and all around it are made."""
+        workbench = self.workbench
+        workbench.problems_found.connect(self._on_problems_found)
+        workbench.canvas.picture_requested.connect(lambda: export_picture(self))
+        workbench.canvas.layout_changed.connect(self.update_actions)
+        workbench.canvas.selection.changed.connect(self.update_actions)
+        self.update_actions()
+        self.start_page.gallery.paint_pictures()
+
+    def start(self, path: Path | None) -> None:
+        """Begin with a project, or with the start page; offer what was lost the last time."""
+        self.later.is_laid_out = True
+        if self.later.is_done:
+            self.workbench.restore(self.fontMetrics().height())
+        if path is not None:
+            self.files.open(path)
+        self.offer_recovery()
+
+    def add_side_panel(
+        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
+    ) -> Panel:
+        """Add a panel beside the canvas: left, right or at the bottom."""
+        return self.workbench.add_side_panel(widget, title, icon_name, area, is_shown=is_shown)
+
+    def offer_recovery(self) -> None:
+        """Offer work that was not saved when the program ended without warning."""
+        offer_recovery(self)
+
+    def flush(self) -> None:
+        """Put all work on the disk."""
+        if self.files.document is not None:
+            self.files.document.flush()
+
+    # What the actions ask for
+
+    def open_settings(self) -> None:
+        """Show the settings."""
+        open_settings(self)
+
+    def reset_panels(self) -> None:
+        """Put the panels back to where they were at first."""
+        self.settings.forget_window()
+        self._rebuild()
+
+    def show_problems(self) -> None:
+        """Check now, and show the problems."""
+        self.workbench.checks.start()
+        self.workbench.panels.show(self.workbench.problems)
+
+    def update_actions(self) -> None:
+        """Let those actions be used that have something to do."""
+        is_open = self.files.document is not None
+        names = ("save", "save_as", "close", "check", "zoom_in", "zoom_out", "zoom_100", "zoom_fit")
+        self.actions_by_name.enable(is_open, *names)
+        self.later.enable(is_open)
+        update_edit_actions(self)
+
+    # What happens
+
+    def _on_document_changed(self, document: Document | None) -> None:
+        self.later.finish()
+        self.running.follow(document)
+        self.pages.setCurrentIndex(0 if document is None else 1)  # first: it needs its size
+        self.workbench.show_document(document)
+        if document is not None:
+            document.changed.connect(self._show_title)
+            self.workbench.canvas.setFocus()
+        self._show_title()
+        self.update_actions()
+
+    def _show_title(self) -> None:
+        document = self.files.document
+        self.setWindowTitle(f"{document.title}[*]" if document is not None else tr("Start"))
+        self.setWindowModified(document is not None and document.is_modified)
+        self.setWindowFilePath("" if document is None else str(document.path or ""))
+        if self.later.is_done:
+            self.workbench.show_folder(document)
+        can_compare = document is not None and document.path is not None and document.is_modified
+        self.actions_by_name.enable(can_compare, "compare")
+
+    def _on_problems_found(self, problems: Sequence[Problem]) -> None:
+        document = self.files.document
+        is_open = document is not None
+        if document is not None and not document.project.blocks:
+            problems = []  # that nothing happens yet is no news to somebody who begins
+        dress_check(self.actions_by_name["check"], problems, self.look.theme, is_open=is_open)
+        size_toolbar(self.toolbar)
+
+    def _on_opening_changed(self, opening: Opening | None) -> None:
+        if self._opening_message is not None:
+            self.messages.withdraw(self._opening_message)
+            self._opening_message = None
+        if opening is not None:
+            title = tr("Opening “{name}”…", name=opening.path.name)
+            stop = Answer(tr("Cancel"), self.files.cancel_opening)
+            self._opening_message = Message("info", title, answers=(stop,), is_busy=True)
+            self.messages.tell(self._opening_message)
+
+    def _on_theme_changed(self) -> None:
+        size_toolbar(self.toolbar)
+        fit_icons(self.pages)
+        self._on_problems_found(self.workbench.checks.problems if self.later.is_done else [])
+
+    def _on_words_changed(self) -> None:
+        if self.files.document is not None:
+            self.files.document.use_language(self.studio.language)
+        self._rebuild()
+
+    def _rebuild(self) -> None:
+        """Make the contents of the window anew, and show the same place of the same project."""
+        old, page = self.workbench, self.workbench.canvas.page
+        camera, selected = replace(old.canvas.camera), old.canvas.selection.ids
+        was_mirrored = self._is_mirrored
+        old.retire()
+        self.menuBar().clear()
+        for menu in self.menus.values():
+            menu.setParent(None)  # to clear the menu bar does not delete its menus
+            menu.deleteLater()
+        self.removeToolBar(self.toolbar)
+        self.toolbar.deleteLater()
+        self.actions_by_name.retire()
+        self._build()
+        self._on_document_changed(self.files.document)
+        canvas = self.workbench.canvas
+        if self.files.document is not None:
+            canvas.show_page(page)
+            canvas.selection.set(selected)
+            canvas.zoom(camera.scale)
+            if was_mirrored == self._is_mirrored:
+                canvas.move_camera(camera.x, camera.y)
+            else:  # the page is read from its other side now
+                canvas.show_beginning()
+            if selected:
+                canvas.show_block(selected[0])
+
+    # Closing
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the words on the toolbar where there is room for them."""
+        super().resizeEvent(event)
+        size_toolbar(self.toolbar)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask what is to become of work that is not saved; then remember the window's shape."""
+        document = self.files.document
+        if not self._may_close and document is not None and document.is_modified:
+            event.ignore()
+            self.files.guard(self.close_now)
+            return
+        self._remember()
+        super().closeEvent(event)
+
+    def close_now(self) -> None:
+        """Close without asking."""
+        self._may_close = True
+        self.close()
+
+    def _remember(self) -> None:
+        self.settings.set_state("geometry", self.saveGeometry())
+        is_complete = self.later.is_done
+        self.later.stop()
+        if is_complete:
+            self.workbench.panels.remember()
+        self.settings.write()
+        self.hide()  # what is running takes a moment to stop
+        if self.later.made_running is not None:
+            self.running.close()
+        if is_complete:
+            self.workbench.retire()
+        if self.files.document is not None:
+            self.files.document.close()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take a project that is dragged onto the window."""
+        project_in(event)
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open a project that is dropped onto the window."""
+        path = project_in(event)
+        if path is not None:
+            self.files.open(path)

@@ -1,0 +1,595 @@
+"""The window's actions: each has a name, words, perhaps an icon and keys, and is made once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QSize, Qt
+from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, QPalette
+from PySide6.QtWidgets import (
+    QApplication,
+    QLineEdit,
+    QMenu,
+    QPlainTextEdit,
+    QToolBar,
+    QToolButton,
+    QWidget,
+)
+
+from faults import Words
+from nep_studio.settings import SYSTEM, Settings
+from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, dress_buttons, keep_width
+from nep_studio.ui.theme.colours import load_theme, themes
+from nep_studio.ui.theme.icons import icon, icon_room
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import available_languages, tr
+
+from .dialogs import export_picture, show_about, show_report, show_shortcuts
+from .gallery import example_files, example_title
+
+if TYPE_CHECKING:
+    from nep_studio.ui.canvas.editing.commands import Commands
+    from nep_studio.ui.plugins.help.help_controller import HelpDesk
+    from nep_studio.ui.workbench.find_bar import FindBar
+
+    from .main_window import MainWindow
+
+
+Keys = QKeySequence.StandardKey | str
+
+
+class Actions(QObject):
+    """The actions of one window by name; they work wherever the focus is in it."""
+
+    def __init__(self, window: QWidget, look: Look) -> None:
+        super().__init__(window)
+        self._window, self._look = window, look
+        self._icons: dict[str, tuple[str, str]] = {}
+        self.by_name: dict[str, QAction] = {}
+        look.theme_changed.connect(self._on_theme_changed)
+
+    def __getitem__(self, name: str) -> QAction:
+        return self.by_name[name]
+
+    def add(
+        self,
+        name: str,
+        words: str,
+        do: Callable[[], object],
+        *,
+        icon_name: str = "",
+        keys: Keys | tuple[Keys, ...] = (),
+        tip: str = "",
+        colour: str = "text",
+    ) -> QAction:
+        """Make an action; ``words`` with an ellipsis where a question follows.
+
+        ``colour`` is the theme's colour of an icon that does not stand on a panel.
+        """
+        action = QAction(words, self)
+        action.setObjectName(name)
+        action.setShortcuts(sequences(keys))
+        action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
+        action.triggered.connect(lambda: do())
+        action.setIconText(words.removesuffix("…"))
+        action.setToolTip(_tip(tip or words.removesuffix("…"), action))
+        self._window.addAction(action)
+        self.by_name[name] = action
+        if icon_name:
+            self._icons[name] = icon_name, colour
+            self._dress(name)
+        return action
+
+    def enable(self, is_enabled: bool, *names: str) -> None:
+        """Let these actions be used, or not."""
+        for name in names:
+            self.by_name[name].setEnabled(is_enabled)
+
+    def retire(self) -> None:
+        """Take the actions away from the window."""
+        for action in self.by_name.values():
+            self._window.removeAction(action)
+        self.deleteLater()
+
+    def _on_theme_changed(self) -> None:
+        for name in self._icons:
+            self._dress(name)
+
+    def _dress(self, name: str) -> None:
+        icon_name, colour = self._icons[name]
+        self.by_name[name].setIcon(icon(icon_name, self._look.theme, colour))
+
+
+def sequences(keys: Keys | tuple[Keys, ...]) -> list[QKeySequence]:
+    """The key sequences of keys; a standard key may have several on this system."""
+    found: list[QKeySequence] = []
+    for key in keys if isinstance(keys, tuple) else (keys,):
+        if isinstance(key, str):
+            found.append(QKeySequence(key))
+        else:
+            found.extend(QKeySequence.keyBindings(key))
+    return list(dict.fromkeys(found))  # one that is there twice would be ambiguous
+
+
+def _tip(words: str, action: QAction) -> str:
+    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+    return f"{words} ({keys})" if keys else words
+
+
+# The Edit menu, and which of its actions can be used now.
+
+Key = QKeySequence.StandardKey
+NEEDS_SELECTION = ("cut", "copy", "duplicate", "delete", "disable", "collapse")
+
+NEEDS_PROJECT = (
+    "select_all",
+    "tidy",
+    "add_page",
+    "find",
+    "find_next",
+    "find_previous",
+    "insert",
+    "minimap",
+    "picture",
+)
+
+
+def add_edit_menu(window: MainWindow) -> QMenu:
+    """Make the Edit menu."""
+    menu, actions = window.menuBar().addMenu(tr("&Edit")), window.actions_by_name
+    add = actions.add
+
+    def commands() -> Commands:
+        return window.workbench.canvas.commands
+
+    menu.addActions(
+        [
+            add("undo", tr("Undo"), lambda: commands().undo(), icon_name="undo-2", keys=Key.Undo),
+            add(
+                "redo",
+                tr("Redo"),
+                lambda: commands().redo(),
+                icon_name="redo-2",
+                keys=(Key.Redo, "Ctrl+Y"),
+            ),
+        ]
+    )
+    menu.addSeparator()
+    cut, copy, paste = _in_texts_too(commands)
+    menu.addActions(
+        [
+            add("cut", tr("Cut"), cut, icon_name="scissors", keys=Key.Cut),
+            add("copy", tr("Copy"), copy, icon_name="copy", keys=Key.Copy),
+            add("paste", tr("Paste"), paste, icon_name="clipboard-paste", keys=Key.Paste),
+            add(
+                "duplicate",
+                tr("Duplicate"),
+                lambda: commands().duplicate(),
+                icon_name="copy-plus",
+                keys="Ctrl+D",
+            ),
+            add(
+                "delete",
+                tr("Delete"),
+                lambda: commands().delete(),
+                icon_name="trash-2",
+                keys=Key.Delete,
+            ),
+        ]
+    )
+    menu.addSeparator()
+    menu.addActions(_about_blocks(window, commands))
+    menu.addSeparator()
+    menu.addActions(_finding(window))
+    menu.addSeparator()
+    settings = add("settings", tr("Settings…"), window.open_settings, icon_name="settings")
+    settings.setMenuRole(settings.MenuRole.PreferencesRole)
+    settings.setShortcuts(QKeySequence.keyBindings(Key.Preferences))
+    menu.addAction(settings)
+    QGuiApplication.clipboard().dataChanged.connect(window.update_actions)
+    return menu
+
+
+def _about_blocks(window: MainWindow, commands: Callable[[], Commands]) -> list[QAction]:
+    add = window.actions_by_name.add
+    return [
+        add("select_all", tr("Select all"), lambda: commands().select_all(), keys=Key.SelectAll),
+        add(
+            "disable",
+            tr("Switch off or on"),
+            lambda: commands().toggle("disabled"),
+            icon_name="eye-off",
+        ),
+        add(
+            "collapse",
+            tr("Fold or unfold"),
+            lambda: commands().toggle("collapsed"),
+            icon_name="fold-vertical",
+        ),
+        add(
+            "tidy",
+            tr("Tidy up"),
+            lambda: commands().tidy(),
+            icon_name="brush",
+            tip=tr("Push stacks apart that overlap"),
+        ),
+        add(
+            "add_page",
+            tr("Add a page"),
+            lambda: window.workbench.pages_bar.add_page(),
+            icon_name="plus",
+        ),
+    ]
+
+
+def _finding(window: MainWindow) -> list[QAction]:
+    add = window.actions_by_name.add
+
+    def find() -> FindBar:
+        return window.workbench.helpers.find_bar
+
+    def insert() -> None:
+        window.workbench.helpers.insert_bar.open()
+
+    return [
+        add("find", tr("Find…"), lambda: find().open(), icon_name="search", keys=Key.Find),
+        add("find_next", tr("Find next"), lambda: find().find_next(), keys=Key.FindNext),
+        add(
+            "find_previous",
+            tr("Find previous"),
+            lambda: find().find_previous(),
+            keys=Key.FindPrevious,
+        ),
+        add("insert", tr("Insert by typing…"), insert, icon_name="keyboard", keys="Ctrl+Space"),
+    ]
+
+
+def _in_texts_too(commands: Callable[[], Commands]) -> tuple[Callable[[], object], ...]:
+    """Cut, copy and paste: in a text that has the focus, else the blocks."""
+
+    def do(name: str) -> object:
+        focus = QApplication.focusWidget()
+        if isinstance(focus, QLineEdit | QPlainTextEdit):
+            return getattr(focus, name)()
+        return getattr(commands(), name)()
+
+    return tuple(lambda name=name: do(name) for name in ("cut", "copy", "paste"))
+
+
+def update_edit_actions(window: MainWindow) -> None:
+    """Enable what can be done, and say what undo and redo would do."""
+    actions, document = window.actions_by_name, window.files.document
+    is_open = document is not None
+    selected = len(window.workbench.canvas.selection) if is_open else 0
+    data = QGuiApplication.clipboard().mimeData()
+    actions.enable(bool(selected), *NEEDS_SELECTION)
+    actions.enable(is_open and data is not None and bool(data.formats()), "paste")
+    actions.enable(is_open, *NEEDS_PROJECT)
+    _label(
+        window,
+        "undo",
+        document.editor.history.undo_label if document else "",
+        tr("Undo"),
+        "Undo “{step}”",
+    )
+    _label(
+        window,
+        "redo",
+        document.editor.history.redo_label if document else "",
+        tr("Redo"),
+        "Redo “{step}”",
+    )
+
+
+def _label(window: MainWindow, name: str, step: Words, plain: str, with_step: str) -> None:
+    action = window.actions_by_name[name]
+    words = tr(with_step, step=tr(step)) if step else plain
+    action.setEnabled(bool(step))
+    action.setText(words)
+    action.setIconText(plain)
+    action.setToolTip(words)
+
+
+# The File menu.
+
+
+def add_file_menu(window: MainWindow) -> QMenu:
+    """Make the File menu."""
+    menu, actions, files = (
+        window.menuBar().addMenu(tr("&File")),
+        window.actions_by_name,
+        window.files,
+    )
+    menu.addAction(actions.add("new", tr("New"), files.new, icon_name="file-plus", keys=Key.New))
+    open_ = actions.add("open", tr("Open…"), files.choose, icon_name="folder-open", keys=Key.Open)
+    menu.addAction(open_)
+    recent = menu.addMenu(icon("history", window.look.theme), tr("Open recent"))
+    recent.aboutToShow.connect(lambda: fill_recent(recent, window))
+    _add_examples(menu.addMenu(icon("graduation-cap", window.look.theme), tr("Examples")), window)
+    menu.addSeparator()
+    save = actions.add("save", tr("Save"), files.save, icon_name="save", keys=Key.Save)
+    save_as = actions.add(
+        "save_as",
+        tr("Save as…"),
+        files.save_as,
+        icon_name="save-all",
+        keys=(Key.SaveAs, "Ctrl+Shift+S"),
+    )
+    compare = actions.add(
+        "compare",
+        tr("Compare with the saved version…"),
+        lambda: _compare(window),
+        icon_name="file-text",
+    )
+    menu.addActions([save, save_as, compare])
+    picture = actions.add(
+        "picture", tr("Export picture…"), lambda: export_picture(window), icon_name="image"
+    )
+    menu.addAction(picture)
+    menu.addSeparator()
+    menu.addAction(actions.add("close", tr("Close the project"), files.close, keys=Key.Close))
+    leave = actions.add(
+        "quit", tr("Quit"), window.close, icon_name="power", keys=(Key.Quit, "Ctrl+Q")
+    )
+    menu.addAction(leave)
+    return menu
+
+
+def _compare(window: MainWindow) -> None:
+    from .comparing import compare_with_saved  # not at a start
+
+    compare_with_saved(window)
+
+
+def fill_recent(menu: QMenu, window: MainWindow) -> None:
+    """List the recent projects; a missing one says so."""
+    menu.clear()
+    for path in window.settings.recent_files:
+        is_there = path.is_file()
+        words = path.stem if is_there else tr("{name} (not there any more)", name=path.stem)
+        action = menu.addAction(words.replace("&", "&&"))
+        action.setToolTip(str(path))
+        action.setEnabled(is_there)
+        action.triggered.connect(lambda _=False, path=path: window.files.open(path))
+    if menu.isEmpty():
+        menu.addAction(tr("No project has been opened yet")).setEnabled(False)
+    menu.setToolTipsVisible(True)
+
+
+def _add_examples(menu: QMenu, window: MainWindow) -> None:
+    for path in example_files():
+        action = menu.addAction(example_title(path))
+        action.triggered.connect(lambda _=False, path=path: window.files.open_example(path))
+
+
+# The View and Help menus, and the toolbar.
+
+ZOOM_STEP = 1.2
+TEXT_SCALES = (1.0, 1.15, 1.3, 1.5, 1.75, 2.0)
+TOOLBAR = (
+    RUN_BUTTONS,
+    ("new", "open", "save"),
+    ("undo", "redo"),
+    ("check",),
+    ("zoom_out", "zoom_fit", "zoom_in"),
+)
+LAST_BUTTONS = ("help", "settings")
+"""At the far end."""
+
+ICON_ONLY = ("pause", "step", "zoom_out", "zoom_in", "help", "settings")
+WORDS_KEPT = (
+    ("run", "stop", "check", "new", "open", "save"),
+    ("run", "stop", "check"),
+    RUN_BUTTONS[:2],
+)
+"""Which buttons keep their words, the narrower the window the fewer; Run and Stop always do."""
+
+
+def add_view_menu(window: MainWindow) -> QMenu:
+    """Make the View menu."""
+    menu, add, theme = (
+        window.menuBar().addMenu(tr("&View")),
+        window.actions_by_name.add,
+        window.look.theme,
+    )
+
+    def zoom(factor: float) -> None:
+        canvas = window.workbench.canvas
+        canvas.zoom(canvas.camera.scale * factor)
+
+    menu.addActions(
+        [
+            add(
+                "zoom_in",
+                tr("Zoom in"),
+                lambda: zoom(ZOOM_STEP),
+                icon_name="zoom-in",
+                keys=(Key.ZoomIn, "Ctrl+="),
+            ),
+            add(
+                "zoom_out",
+                tr("Zoom out"),
+                lambda: zoom(1 / ZOOM_STEP),
+                icon_name="zoom-out",
+                keys=Key.ZoomOut,
+            ),
+            add("zoom_100", tr("Usual size"), lambda: window.workbench.zoom_usual(), keys="Ctrl+0"),
+            add(
+                "zoom_fit",
+                tr("Show all"),
+                lambda: window.workbench.canvas.fit(),
+                icon_name="maximize",
+                keys="Ctrl+9",
+            ),
+        ]
+    )
+    menu.addSeparator()
+    panels = menu.addMenu(icon("panel-right", theme), tr("Panels"))
+    panels.aboutToShow.connect(lambda: _fill_panels(panels, window))
+    minimap = add("minimap", tr("Minimap"), lambda: None, icon_name="map")
+    minimap.setCheckable(True)
+    minimap.setChecked(is_minimap_shown(window.settings))
+    minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
+    menu.addAction(minimap)
+    check = add("check", tr("Check"), window.show_problems, icon_name="circle-check", keys="F8")
+    check.setToolTip(tr("Show what is not right yet"))
+    menu.addAction(check)
+    menu.addSeparator()
+    _add_choices(
+        menu.addMenu(icon("contrast", theme), tr("Theme")),
+        _themes(),
+        window.settings.theme,
+        window.studio.choose_theme,
+    )
+    _add_choices(
+        menu.addMenu(icon("languages", theme), tr("Language")),
+        _languages(),
+        window.settings.language,
+        window.studio.choose_language,
+    )
+    scales = [(f"{scale:g}", f"{scale:.0%}") for scale in TEXT_SCALES]
+    chosen = f"{window.settings.text_scale:g}"
+    _add_choices(
+        menu.addMenu(icon("type", theme), tr("Size of the text")),
+        scales,
+        chosen,
+        lambda scale: window.studio.choose_text_scale(float(scale)),
+    )
+    return menu
+
+
+def is_minimap_shown(settings: Settings) -> bool:
+    """Whether the person left the minimap open."""
+    return settings.is_shown("Minimap", default=False)
+
+
+def _fill_panels(menu: QMenu, window: MainWindow) -> None:
+    """List the panels; some are added after the menu."""
+    menu.clear()
+    menu.addActions([panel.action for panel in window.workbench.panels.all])
+
+
+def add_help_menu(window: MainWindow) -> QMenu:
+    """Make the Help menu."""
+    menu, add = window.menuBar().addMenu(tr("&Help")), window.actions_by_name.add
+    menu.addActions(_help_actions(window))
+    menu.addSeparator()
+    menu.addAction(
+        add(
+            "shortcuts",
+            tr("Keyboard shortcuts"),
+            lambda: show_shortcuts(window),
+            icon_name="keyboard",
+            keys="Ctrl+F1",
+        )
+    )
+    report = tr("Report for support…")
+    menu.addAction(add("report", report, lambda: show_report(window), icon_name="file-text"))
+    about = add("about", tr("About NEP Studio"), lambda: show_about(window), icon_name="info")
+    about.setMenuRole(about.MenuRole.AboutRole)
+    menu.addAction(about)
+    return menu
+
+
+def _help_actions(window: MainWindow) -> list[QAction]:
+    """They are there before the help, which may come a moment later."""
+    add, sign = window.actions_by_name.add, "circle-question-mark"
+
+    def desk() -> HelpDesk:
+        return window.later.help_desk
+
+    def browse() -> None:
+        from nep_studio.ui.plugins.help.help_controller import open_documentation
+
+        open_documentation(window.messages)
+
+    contents, search = tr("Contents of the help"), tr("Search the help…")
+    pages = tr("Documentation in the browser")
+    return [
+        add("help", tr("Help"), lambda: desk().answer(), icon_name=sign, keys="F1"),
+        add("help_contents", contents, lambda: desk().open(), icon_name="book-open"),
+        add("help_search", search, lambda: desk().search(), icon_name="search"),
+        add("documentation", pages, browse, icon_name="external-link"),
+    ]
+
+
+def add_toolbar(window: MainWindow) -> QToolBar:
+    """Make the toolbar: few big clear buttons."""
+    bar = QToolBar(tr("Tools"), window)
+    bar.setObjectName("tools")
+    bar.setMovable(False)
+    bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+    for number, names in enumerate(TOOLBAR):
+        if number:
+            bar.addSeparator()
+        bar.addActions([window.actions_by_name[name] for name in names])
+    bar.addWidget(RunState(window, bar))
+    bar.addActions([window.actions_by_name[name] for name in LAST_BUTTONS])
+    window.addToolBar(bar)
+    dress_buttons(bar, window.look)
+    size_toolbar(bar)
+    return bar
+
+
+def size_toolbar(bar: QToolBar) -> None:
+    """Let the icons be as large as the text asks for, with words where there is room for them."""
+    side = round(bar.fontMetrics().height() * 1.25)
+    bar.setIconSize(icon_room(side))
+    _dress_rest(bar, side)
+    names = [action.objectName() for action in bar.actions() if action.objectName()]
+    all_words = [name for name in names if name not in ICON_ONLY]
+    for kept in (all_words, *WORDS_KEPT):
+        for name in names:
+            style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+            if name not in kept:
+                style = Qt.ToolButtonStyle.ToolButtonIconOnly
+            _button(bar, name).ensurePolished()  # else it has not its size yet
+            _button(bar, name).setToolButtonStyle(style)
+        keep_width(_button(bar, "run"))
+        for sign in bar.findChildren(RunState):
+            sign.be_tight(kept == WORDS_KEPT[-1])
+        if (layout := bar.layout()) is not None:
+            layout.invalidate()  # it would keep the width that it had with other words
+        if bar.sizeHint().width() <= bar.window().width():
+            return
+
+
+def _dress_rest(bar: QToolBar, side: int) -> None:
+    """The button behind which a bar keeps what it has no room for: Qt's is black."""
+    more = bar.findChild(QToolButton, "qt_toolbar_ext_button")
+    if more is not None:
+        more.setIcon(icon("chevron-down", bar.palette().color(QPalette.ColorRole.WindowText)))
+        more.setIconSize(QSize(side, side))  # Qt makes it as narrow as it likes
+        more.setToolTip(tr("More"))
+        more.setAccessibleName(tr("More"))
+
+
+def _button(bar: QToolBar, name: str) -> QToolButton:
+    action = next(action for action in bar.actions() if action.objectName() == name)
+    button = bar.widgetForAction(action)
+    assert isinstance(button, QToolButton)
+    return button
+
+
+def _themes() -> list[tuple[str, str]]:
+    named = [(name, tr(load_theme(name).title)) for name in themes()]
+    return [(SYSTEM, tr("Like the computer's")), *named]
+
+
+def _languages() -> list[tuple[str, str]]:
+    return [(SYSTEM, tr("Like the computer's")), *available_languages().items()]
+
+
+def _add_choices(
+    menu: QMenu, choices: Iterable[tuple[str, str]], chosen: str, choose: Callable[[str], object]
+) -> None:
+    """One of several, with a mark before it."""
+    group = QActionGroup(menu)
+    for value, words in choices:
+        action = menu.addAction(words)
+        action.setCheckable(True)
+        action.setChecked(value == chosen)
+        action.setData(value)
+        group.addAction(action)
+    group.triggered.connect(lambda action: choose(action.data()))

@@ -1,0 +1,583 @@
+"""The settings of the program: each is in force at once, and Cancel undoes them."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Qt, QTimer, QUrl, Signal
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QFileDialog,
+    QFormLayout,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QSlider,
+    QSpinBox,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio import __version__
+from nep_studio.settings import (
+    LARGEST_TEXT,
+    MOST_RESTARTS,
+    SMALLEST_TEXT,
+    SYSTEM,
+    FolderName,
+    Settings,
+    ShowOptions,
+)
+from nep_studio.support.updates import Newest, UpdateChoice, ask, is_usable
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.theme.colours import load_theme, themes
+from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.words import available_languages, tr
+
+from .app import Studio
+
+if TYPE_CHECKING:
+    from .main_window import MainWindow
+
+
+# The pages of the settings: look, folders, show mode, network.
+
+TEXT_STEP = 5
+"""Percent between two sizes of the text."""
+
+FOLDERS: tuple[FolderName, ...] = ("projects", "recordings", "logs")
+
+
+class LookPage(QWidget):
+    """Language, theme, size of the text. ``size_chosen``: the knob has been let go."""
+
+    size_chosen = Signal()
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__()
+        system = {SYSTEM: tr("Like the computer's")}
+        self.language = _choice({**system, **available_languages()}, settings.language)
+        named = {name: tr(load_theme(name).title) for name in themes()}
+        self.theme = _choice({**system, **named}, settings.theme)
+        self.text_size = QSlider(Qt.Orientation.Horizontal)
+        self.text_percent = QLabel()
+        self._set_up_slider(settings.text_scale)
+        form = _form(self)
+        form.addRow(tr("Language"), self.language)
+        form.addRow(tr("Theme"), self.theme)
+        form.addRow(tr("Size of the text"), self._size_row())
+        form.addRow("", _hint(tr("The window makes no sounds, and nothing in it moves by itself.")))
+        self.text_size.valueChanged.connect(self._show_percent)
+        self.text_size.sliderReleased.connect(self.size_chosen)
+        self.text_size.actionTriggered.connect(self._on_size_stepped)
+
+    def _set_up_slider(self, scale: float) -> None:
+        slider = self.text_size
+        slider.setRange(
+            round(100 * SMALLEST_TEXT / TEXT_STEP), round(100 * LARGEST_TEXT / TEXT_STEP)
+        )
+        slider.setPageStep(5)
+        slider.setValue(round(100 * scale / TEXT_STEP))
+        slider.setAccessibleName(tr("Size of the text"))
+        self._show_percent(slider.value())
+
+    def _size_row(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.addWidget(self.text_size, 1)
+        row.addWidget(self.text_percent)
+        self.text_percent.setMinimumWidth(self.fontMetrics().horizontalAdvance("0000 %"))
+        return row
+
+    def _show_percent(self, steps: int) -> None:
+        self.text_percent.setText(f"{steps * TEXT_STEP} %")
+
+    def _on_size_stepped(self) -> None:
+        """A key or a click beside the knob; while it is dragged, the window waits."""
+        if not self.text_size.isSliderDown():
+            self.text_size.setValue(self.text_size.sliderPosition())
+            self.size_chosen.emit()
+
+
+class FoldersPage(QWidget):
+    """Where projects, recordings and logs are kept."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__()
+        self._settings = settings
+        self.paths = {name: ElidedLabel() for name in FOLDERS}
+        self.reset_buttons: dict[FolderName, QPushButton] = {}
+        titles = {
+            "projects": tr("Projects"),
+            "recordings": tr("Recordings"),
+            "logs": tr("Logs of nodes"),
+        }
+        grid = QGridLayout(self)
+        line = self.fontMetrics().height()
+        grid.setContentsMargins(line, line, line, line)
+        grid.setVerticalSpacing(line // 2)
+        grid.setColumnStretch(1, 1)
+        for row, name in enumerate(FOLDERS):
+            grid.addWidget(QLabel(titles[name]), row, 0)
+            grid.addWidget(self.paths[name], row, 1)
+            grid.addLayout(self._buttons(name, titles[name]), row, 2)
+        words = tr("Another folder for logs is used when the network is started the next time.")
+        grid.addWidget(_hint(words), len(FOLDERS), 0, 1, 3)
+        grid.setRowStretch(len(FOLDERS) + 1, 1)
+        self._refresh()
+
+    def choose(self, name: FolderName, folder: Path | None) -> None:
+        """Keep it there from now on; None: where it usually is."""
+        self._settings.set_folder(name, folder)
+        self._refresh()
+
+    def _buttons(self, name: FolderName, title: str) -> QHBoxLayout:
+        row = QHBoxLayout()
+        for words, do in (
+            (tr("Open"), self._on_open),
+            (tr("Change…"), self._on_change),
+            (tr("Reset"), self._on_reset),
+        ):
+            button = QPushButton(words)
+            button.setAutoDefault(False)
+            button.setAccessibleName(f"{title}: {words}")
+            button.clicked.connect(lambda _=False, do=do: do(name))
+            row.addWidget(button)
+        self.reset_buttons[name] = button
+        return row
+
+    def _refresh(self) -> None:
+        for name in FOLDERS:
+            folder = str(self._settings.folder_for(name))
+            self.paths[name].set_words(folder)
+            self.reset_buttons[name].setEnabled(self._settings.chosen_folder(name) is not None)
+
+    def _on_open(self, name: FolderName) -> None:
+        """Show it in the system's own file window; the nearest folder that is there."""
+        folder = self._settings.folder_for(name)
+        there = next(one for one in (folder, *folder.parents) if one.is_dir() or not one.name)
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(there)))
+
+    def _on_change(self, name: FolderName) -> None:
+        dialog = QFileDialog(self, tr("Choose a folder"), str(self._settings.folder_for(name)))
+        dialog.setFileMode(QFileDialog.FileMode.Directory)
+        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(lambda folder: self.choose(name, Path(folder)))
+        dialog.open()
+
+    def _on_reset(self, name: FolderName) -> None:
+        self.choose(name, None)
+
+
+class ShowPage(QWidget):
+    """How show mode goes, and the PIN with which it is left."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__()
+        self._settings = settings
+        chosen = settings.show_options
+        self.at_once = QCheckBox(tr("Run at once"))
+        self.at_once.setChecked(chosen.runs_at_once)
+        self.again = QCheckBox(tr("Begin again when the program has ended"))
+        self.again.setChecked(chosen.again)
+        self.cues = QCheckBox(tr("Show the cue buttons, for an operator"))
+        self.cues.setChecked(chosen.has_cues)
+        self.restarts = QSpinBox()
+        self.restarts.setRange(0, MOST_RESTARTS)
+        self.restarts.setValue(chosen.restarts)
+        self.pin = QLineEdit()
+        self.pin.setEchoMode(QLineEdit.EchoMode.Password)
+        self.pin.setPlaceholderText(tr("A new PIN"))
+        self.pin_button = QPushButton()
+        self.pin_button.setAutoDefault(False)
+        pin = QHBoxLayout()
+        pin.addWidget(self.pin, 1)
+        pin.addWidget(self.pin_button)
+        form = _form(self)
+        for box in (self.at_once, self.again, self.cues):
+            form.addRow(box)
+            box.toggled.connect(self._on_chosen)
+        form.addRow(tr("After errors in a row, begin again at most"), self.restarts)
+        form.addRow(tr("PIN to leave"), pin)
+        form.addRow(_hint(tr("To leave a show, hold Esc or its title for two seconds.")))
+        self.restarts.valueChanged.connect(self._on_chosen)
+        self.pin.textChanged.connect(self._show_pin)
+        self.pin_button.clicked.connect(self._on_pin)
+        self._show_pin()
+
+    def _on_chosen(self) -> None:
+        self._settings.show_options = replace(
+            self._settings.show_options,
+            runs_at_once=self.at_once.isChecked(),
+            again=self.again.isChecked(),
+            has_cues=self.cues.isChecked(),
+            restarts=self.restarts.value(),
+        )
+
+    def _show_pin(self) -> None:
+        has_pin, is_new = self._settings.has_pin, bool(self.pin.text())
+        self.pin_button.setText(tr("Set the PIN") if is_new or not has_pin else tr("Without PIN"))
+        self.pin_button.setEnabled(is_new or has_pin)
+        self.pin.setPlaceholderText(tr("There is a PIN") if has_pin else tr("A new PIN"))
+
+    def _on_pin(self) -> None:
+        self._settings.set_pin(self.pin.text())
+        self.pin.clear()
+        self._show_pin()
+
+
+class NetworkPage(QWidget):
+    """Who else may join the network of the studio."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__()
+        self.original = QCheckBox(tr("Programs of the original NEP may join"))
+        self.original.setChecked(settings.lets_original_join)
+        form = _form(self)
+        form.addRow(self.original)
+        words = tr(
+            "Programs of this computer only, by its ports 7000 and 50000. It counts when the"
+            " network is started the next time."
+        )
+        form.addRow(_hint(words))
+        self.original.toggled.connect(lambda on: setattr(settings, "lets_original_join", on))
+
+
+def _form(page: QWidget) -> QFormLayout:
+    line = page.fontMetrics().height()
+    form = QFormLayout(page)
+    form.setContentsMargins(line, line, line, line)
+    form.setVerticalSpacing(line // 2)
+    form.setHorizontalSpacing(line)
+    form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
+    return form
+
+
+def _hint(words: str) -> QLabel:
+    label = QLabel(words)
+    label.setProperty("role", "hint")
+    label.setWordWrap(True)
+    return label
+
+
+def _choice(words: dict[str, str], chosen: str) -> QComboBox:
+    box = QComboBox()
+    for value, word in words.items():
+        box.addItem(word, value)
+    box.setCurrentIndex(max(0, box.findData(chosen)))
+    return box
+
+
+# Asks for the newest version in a thread of its own; the window never waits for the answer.
+
+LONGEST_MS = 15_000
+"""Longer nobody waits, however slowly somebody answers."""
+
+
+class Asking(QObject):
+    """One question at a time; ``answered`` gives the Newest, or None, in the window's thread."""
+
+    answered = Signal(object)
+    _heard = Signal(int, object)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._number = 0
+        self._heard.connect(self._on_heard, Qt.ConnectionType.QueuedConnection)
+        self._patience = QTimer(self, interval=LONGEST_MS, singleShot=True)
+        self._patience.timeout.connect(lambda: self._on_heard(self._number, None))
+
+    def begin(self, address: str) -> None:
+        """Ask; at the end of the program nobody waits."""
+        self.cancel()
+        self._patience.start()
+        words = (address, self._number)
+        threading.Thread(target=self._ask, args=words, name="updates", daemon=True).start()
+
+    def cancel(self) -> None:
+        """Want no answer any more."""
+        self._number += 1
+        self._patience.stop()
+
+    def _ask(self, address: str, number: int) -> None:
+        newest = ask(address)
+        with suppress(RuntimeError):  # the window has gone meanwhile
+            self._heard.emit(number, newest)
+
+    def _on_heard(self, number: int, newest: Newest | None) -> None:
+        if number == self._number:
+            self.cancel()
+            self.answered.emit(newest)
+
+
+def ask_if_due(window: MainWindow) -> Asking | None:
+    """Ask if the person wants that, and it was not asked today."""
+    choice = UpdateChoice(window.settings)
+    if not choice.is_due(time.time()):
+        return None
+    choice.note_asked()
+    asking = Asking(window)
+    asking.answered.connect(lambda newest: _tell(window, choice, newest))
+    asking.begin(choice.address)
+    return asking
+
+
+def _tell(window: MainWindow, choice: UpdateChoice, newest: Newest | None) -> None:
+    """Tell of a newer version, of each only once."""
+    if newest is None or not newest.is_newer or newest.version == choice.told:
+        return
+    choice.told = newest.version
+    title = tr("There is a new version of NEP Studio: {version}", version=newest.version)
+    sentence = tr("You have {version}. Nothing changes unless you get it.", version=__version__)
+    show = Answer(tr("Show its page"), lambda: show_page(newest.page))
+    window.messages.tell(Message("info", title, sentence, answers=(show,) if newest.page else ()))
+
+
+def show_page(page: str) -> None:
+    """Show a page in the person's browser."""
+    QDesktopServices.openUrl(QUrl(page))
+
+
+# The page of the settings about privacy: what the program never does, and updates if wanted.
+
+
+class PrivacyPage(QWidget):
+    """Updates are looked for only if a person wants that, at the address that stands here."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__()
+        self._choice = UpdateChoice(settings)
+        self.check = QCheckBox(tr("Ask once a day which version of NEP Studio is the newest"))
+        self.address = QLineEdit(self._choice.address)
+        self.address.setPlaceholderText("https://")
+        self.address.setAccessibleName(tr("Address"))
+        self.ask_button = QPushButton(tr("Ask now"))
+        self.ask_button.setAutoDefault(False)
+        self.state = self._words("")
+        hint = tr(
+            "NEP Studio tells its own version there, and nothing else. It never changes itself."
+        )
+        self.hint = self._words(hint, "hint")
+        self.unknown = self._words(
+            tr(
+                "New versions are where you got NEP Studio: it knows no address yet that tells of"
+                " them. If you were given one, write it here."
+            )
+        )
+        self._asking = Asking(self)
+        self._lay_out()
+        self.address.textEdited.connect(self._on_address_edited)
+        self.check.toggled.connect(self._on_toggled)
+        self.ask_button.clicked.connect(self._on_ask)
+        self._asking.answered.connect(self._on_answered)
+        self._show()
+
+    def _lay_out(self) -> None:
+        box = QVBoxLayout(self)
+        line = self.fontMetrics().height()
+        box.setContentsMargins(line, line, line, line)
+        for words in (
+            tr("NEP Studio sends nothing by itself: projects, recordings and logs stay here."),
+            tr("What it does on the network is talking to your robots, watches and nodes."),
+        ):
+            box.addWidget(self._words(words))
+        box.addSpacing(line // 2)
+        box.addWidget(self.check)
+        box.addWidget(self.unknown)
+        row = QHBoxLayout()
+        label = QLabel(tr("Address"))
+        label.setBuddy(self.address)
+        row.addWidget(label)
+        row.addWidget(self.address, 1)
+        row.addWidget(self.ask_button)
+        box.addLayout(row)
+        box.addWidget(self.hint)
+        box.addWidget(self.state)
+        box.addStretch(1)
+
+    def _show(self) -> None:
+        """Where no address is known, there is nothing to choose, and it says so."""
+        has_address = is_usable(self.address.text().strip())
+        self.check.blockSignals(True)
+        self.check.setChecked(has_address and self._choice.is_wanted)
+        self.check.blockSignals(False)
+        for part in (self.check, self.ask_button, self.hint):
+            part.setVisible(has_address)
+        self.unknown.setVisible(not has_address)
+        self.ask_button.setEnabled(has_address)
+        self.state.clear()
+
+    def _on_address_edited(self, words: str) -> None:
+        self._asking.cancel()
+        self._choice.address = words
+        self._show()
+
+    def _on_toggled(self, is_on: bool) -> None:
+        self._choice.is_wanted = is_on
+
+    def _on_ask(self) -> None:
+        self.ask_button.setEnabled(False)
+        self.state.setText(tr("Asking…"))
+        self._choice.note_asked()
+        self._asking.begin(self._choice.address)
+
+    def _on_answered(self, newest: Newest | None) -> None:
+        self.ask_button.setEnabled(True)
+        if newest is None:
+            told = tr("No version is told there. Is the address right, and the internet there?")
+        elif newest.is_newer:
+            told = tr("There is a new version of NEP Studio: {version}", version=newest.version)
+        else:
+            told = tr("This is the newest version.")
+        self.state.setText(told)
+
+    @staticmethod
+    def _words(words: str, role: str = "") -> QLabel:
+        label = QLabel(words)
+        label.setProperty("role", role)
+        label.setWordWrap(True)
+        return label
+
+
+MorePage = Callable[[QWidget], tuple[str, QWidget]]
+"""Makes one more page of the dialog: its title and its widget."""
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """What Cancel gives back."""
+
+    language: str
+    theme: str
+    text_scale: float
+    folders: dict[FolderName, Path | None]
+    show: ShowOptions
+    lets_original_join: bool
+    updates: tuple[bool, str]
+
+
+def _kept(settings: Settings) -> _Kept:
+    updates = UpdateChoice(settings)
+    return _Kept(
+        settings.language,
+        settings.theme,
+        settings.text_scale,
+        {name: settings.chosen_folder(name) for name in FOLDERS},
+        settings.show_options,
+        settings.lets_original_join,
+        (updates.is_wanted, updates.address),
+    )
+
+
+class SettingsDialog(QDialog):
+    """Shows what is chosen, and takes what is chosen anew."""
+
+    def __init__(self, studio: Studio, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._studio = studio
+        self._before = _kept(studio.settings)
+        self._more: list[MorePage] = []
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.reset_button = QPushButton()
+        self.cancel_button = QPushButton()
+        self.close_button = QPushButton()
+        self.pages = QTabWidget()
+        self._lay_out()
+        self._fill()
+        self.cancel_button.clicked.connect(self.reject)
+        self.close_button.clicked.connect(self.accept)
+
+    def add_page(self, make: MorePage) -> None:
+        """Show one more page; it is made again when the language changes."""
+        self._more.append(make)
+        title, page = make(self)
+        self.pages.addTab(page, title)
+
+    def reject(self) -> None:
+        """Take back what was chosen since the dialog was opened."""
+        before, studio, settings = self._before, self._studio, self._studio.settings
+        settings.show_options = before.show
+        settings.lets_original_join = before.lets_original_join
+        updates = UpdateChoice(settings)
+        updates.is_wanted, updates.address = before.updates
+        for name, folder in before.folders.items():
+            settings.set_folder(name, folder)
+        super().reject()
+        if settings.theme != before.theme:
+            studio.choose_theme(before.theme)
+        if settings.text_scale != before.text_scale:
+            studio.choose_text_scale(before.text_scale)
+        if settings.language != before.language:
+            studio.choose_language(before.language)
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.reset_button)
+        buttons.addStretch(1)
+        buttons.addWidget(self.cancel_button)
+        buttons.addWidget(self.close_button)
+        self.close_button.setDefault(True)
+        self.cancel_button.setAutoDefault(False)
+        self.reset_button.setAutoDefault(False)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line)
+        box.addWidget(self.pages, 1)
+        box.addLayout(buttons)
+        self.setMinimumWidth(line * 34)
+
+    def _fill(self) -> None:
+        """Make all that has words in it."""
+        here = self.pages.currentIndex()
+        while self.pages.count():
+            old = self.pages.widget(0)
+            self.pages.removeTab(0)
+            if old is not None:
+                old.deleteLater()
+        self.setWindowTitle(tr("Settings"))
+        self.reset_button.setText(tr("Put the panels back"))
+        self.cancel_button.setText(tr("Cancel"))
+        self.close_button.setText(tr("Done"))
+        settings = self._studio.settings
+        look = LookPage(settings)
+        self.language, self.theme = look.language, look.theme
+        self.text_size: QSlider = look.text_size
+        self.language.activated.connect(self._on_language_chosen)
+        self.theme.activated.connect(self._on_theme_chosen)
+        look.size_chosen.connect(self._on_size_chosen)
+        self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
+        self.privacy = PrivacyPage(settings)
+        self.pages.addTab(look, tr("Look"))
+        self.pages.addTab(self.folders, tr("Folders"))
+        self.pages.addTab(self.show_page, tr("Show mode"))
+        self.network_page = NetworkPage(settings)
+        self.pages.addTab(self.network_page, tr("Network"))
+        self.pages.addTab(self.privacy, tr("Privacy"))
+        for make in self._more:
+            title, page = make(self)
+            self.pages.addTab(page, title)
+        self.pages.setCurrentIndex(max(0, here))
+
+    def _on_language_chosen(self) -> None:
+        self._studio.choose_language(self.language.currentData())
+        self._fill()
+        self.language.setFocus()
+
+    def _on_theme_chosen(self) -> None:
+        self._studio.choose_theme(self.theme.currentData())
+
+    def _on_size_chosen(self) -> None:
+        self._studio.choose_text_scale(self.text_size.value() * TEXT_STEP / 100)

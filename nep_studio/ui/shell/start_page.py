@@ -1,0 +1,251 @@
+"""What the window shows while no project is open: begin, go on, or try an example."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.document_files import Files
+from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
+from nep_studio.ui.widgets.layouts import Flow, begin_where_reading_begins
+from nep_studio.ui.words import tr
+
+from .app import Studio
+from .gallery import Card, Gallery
+
+# The offer of the tour on the start page, until somebody has taken it or wants none.
+
+
+class TourOffer(QFrame):
+    """One line that offers the tour; ``accepted`` begins it."""
+
+    accepted = Signal()
+
+    def __init__(self, studio: Studio, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._studio = studio
+        self.setProperty("kind", "info")
+        line, theme = self.fontMetrics().height(), studio.look.theme
+        box = QHBoxLayout(self)
+        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
+        box.setSpacing(line // 2)
+        sign = QLabel()
+        sign.setPixmap(
+            icon_pixmap("map", theme.colour("text"), line * 1.4, self.devicePixelRatioF())
+        )
+        box.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        words = QVBoxLayout()
+        self.words = QLabel(tr("New here? Five short steps show how a robot gets its behaviour."))
+        self.words.setWordWrap(True)
+        begin_where_reading_begins(self.words)
+        words.addWidget(self.words)
+        words.addLayout(self._answers(line))
+        box.addLayout(words, 1)
+        self.setVisible(not studio.settings.tour_done)
+
+    def _answers(self, line: int) -> Flow:
+        row = Flow(spacing=line // 3)
+        self.take_button = QPushButton(tr("Take the tour"))
+        self.take_button.setIcon(icon("footprints", self._studio.look.theme))
+        self.take_button.clicked.connect(self._on_taken)
+        self.leave_button = QPushButton(tr("Not now"))
+        self.leave_button.setProperty("kind", "quiet")
+        self.leave_button.setToolTip(tr("The tour stays in the Help menu"))
+        self.leave_button.clicked.connect(self._on_left)
+        row.addWidget(self.take_button)
+        row.addWidget(self.leave_button)
+        return row
+
+    def _on_taken(self) -> None:
+        self._on_left()
+        self.accepted.emit()
+
+    def _on_left(self) -> None:
+        self._studio.settings.tour_done = True
+        self.hide()
+
+
+MOST_RECENT = 5
+
+
+class StartPage(QScrollArea):
+    """Three ways to begin, the recent projects, and the examples.
+
+    ``try_requested`` gives the file of an example that is to be opened and run on the simulator;
+    ``tour_requested`` asks for the tour.
+    """
+
+    try_requested = Signal(Path)
+    tour_requested = Signal()
+
+    def __init__(self, studio: Studio, files: Files, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._studio, self._files = studio, files
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.recent_buttons: dict[Path, QPushButton] = {}
+        files.recent_changed.connect(self._on_recent_changed)
+        studio.look.theme_changed.connect(self._on_theme_changed)
+        self._fill()
+
+    @property
+    def cards(self) -> dict[Path, Card]:
+        """The cards of the examples by file."""
+        return self.gallery.cards
+
+    def _fill(self) -> None:
+        line = self.fontMetrics().height()
+        inner = QWidget()
+        inner.setObjectName("start")
+        box = QVBoxLayout(inner)
+        margin = self._margin()
+        box.setContentsMargins(margin, line * 2, margin, line * 2)
+        box.setSpacing(line)
+        box.addLayout(self._header(line))
+        box.addLayout(self._beginnings(line))
+        self.tour_offer = TourOffer(self._studio)
+        self.tour_offer.accepted.connect(self.tour_requested)
+        box.addWidget(self.tour_offer)
+        self._recent = QVBoxLayout()
+        self._recent.setSpacing(line // 6)
+        box.addLayout(self._recent)
+        self._examples_heading = _heading(tr("Examples to try and change"), line)
+        box.addWidget(self._examples_heading)
+        box.addWidget(self._make_gallery())
+        box.addStretch(1)
+        self._fill_recent()
+        self.setWidget(inner)
+        self._fit()
+
+    def _make_gallery(self) -> Gallery:
+        gallery = self.gallery = Gallery(self._studio)
+        gallery.opened.connect(self._files.open_example)
+        gallery.try_requested.connect(self.try_requested)
+        gallery.focus_moved.connect(lambda widget: self.ensureWidgetVisible(widget, 0, 50))
+        return gallery
+
+    def _margin(self) -> int:
+        """Much room at the sides, but not in a narrow window."""
+        line = self.fontMetrics().height()
+        return min(line * 2, max(line // 2, self.viewport().width() // 20))
+
+    def _header(self, line: int) -> QHBoxLayout:
+        row, sign = QHBoxLayout(), QLabel()
+        side = line * 4
+        sign.setPixmap(application_icon().pixmap(QSize(side, side), self.devicePixelRatioF()))
+        row.addWidget(sign)
+        words = QVBoxLayout()
+        words.setSpacing(line // 4)
+        title = QLabel("NEP Studio")
+        title.setStyleSheet(f"font-size: {round(line * 1.7)}px; font-weight: 600;")
+        begin_where_reading_begins(title)
+        words.addStretch(1)
+        words.addWidget(title)
+        about = QLabel(tr("Give a social robot its behaviour with blocks, without programming."))
+        about.setProperty("role", "hint")
+        about.setWordWrap(True)
+        begin_where_reading_begins(about)
+        words.addWidget(about)
+        words.addStretch(1)
+        row.addSpacing(line)
+        row.addLayout(words, 1)
+        return row
+
+    def _beginnings(self, line: int) -> Flow:
+        theme = self._studio.look.theme
+        row = Flow(spacing=line // 2)
+        self.example_button = QPushButton(tr("Try an example"))
+        self.example_button.setProperty("kind", "primary")
+        self.example_button.setIcon(icon("graduation-cap", theme.colour("accent_text")))
+        self.example_button.clicked.connect(self.show_examples)
+        self.new_button = QPushButton(tr("Start empty"))
+        self.new_button.setIcon(icon("file-plus", theme))
+        self.new_button.clicked.connect(self._files.new)
+        self.open_button = QPushButton(tr("Open a project…"))
+        self.open_button.setIcon(icon("folder-open", theme))
+        self.open_button.clicked.connect(self._files.choose)
+        for button in (self.example_button, self.new_button, self.open_button):
+            row.addWidget(button)
+        return row
+
+    def show_examples(self) -> None:
+        """Go to the first example."""
+        first = next(iter(self.gallery.shown), None)
+        inner = self.widget()
+        layout = inner.layout() if inner is not None else None
+        if layout is not None:
+            layout.activate()  # cards that were made just now have a place only then
+        bar = self.verticalScrollBar()
+        bar.setValue(min(bar.maximum(), self._examples_heading.y()))
+        (first or self.gallery.search).setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Put as many cards beside each other as there is room for."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        margin, inner = self._margin(), self.widget()
+        layout = inner.layout() if inner is not None else None
+        if layout is None:
+            return
+        line = self.fontMetrics().height()
+        layout.setContentsMargins(margin, line * 2, margin, line * 2)
+        self.gallery.show_in(self.viewport().width() - 2 * margin)
+
+    def _fill_recent(self) -> None:
+        while (item := self._recent.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.deleteLater()
+        self.recent_buttons = {}
+        recent = self._studio.settings.recent_files[:MOST_RECENT]
+        if recent:
+            self._recent.addWidget(_heading(tr("Go on with"), self.fontMetrics().height()))
+        for path in recent:
+            self._recent.addWidget(self._recent_button(path), 0, Qt.AlignmentFlag.AlignLeading)
+
+    def _recent_button(self, path: Path) -> QPushButton:
+        is_there = path.is_file()
+        words = f"{path.stem}   —   {_short(path.parent)}"
+        button = QPushButton(words if is_there else tr("{name} (not there any more)", name=words))
+        button.setProperty("kind", "quiet")
+        button.setIcon(icon("file-text", self._studio.look.theme))
+        button.setEnabled(is_there)
+        button.setToolTip(str(path))
+        button.clicked.connect(lambda: self._files.open(path))
+        self.recent_buttons[path] = button
+        return button
+
+    def _on_recent_changed(self) -> None:
+        self._fill_recent()
+
+    def _on_theme_changed(self) -> None:
+        self._fill()
+
+
+def _heading(words: str, line: int) -> QLabel:
+    label = QLabel(words)
+    label.setProperty("role", "title")
+    label.setContentsMargins(0, line // 2, 0, 0)
+    begin_where_reading_begins(label)
+    return label
+
+
+def _short(folder: Path) -> str:
+    """A folder as a person calls it."""
+    try:
+        return f"~/{folder.relative_to(Path.home())}"
+    except (ValueError, RuntimeError):
+        return str(folder)

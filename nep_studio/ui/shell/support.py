@@ -1,0 +1,276 @@
+"""The report for support: all that is in it can be read before it is copied or saved."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QProcess, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QMessageBox,
+    QPlainTextEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_core.processes.process import program_command
+from nep_studio import settings
+from nep_studio.settings import usual_folder
+from nep_studio.support import portable, safe_mode
+from nep_studio.support.report import FILE, Report, report_of
+from nep_studio.support.updates import UpdateChoice
+from nep_studio.ui import words
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.theme.look import code_font, load_fonts
+from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.words import count_words, tr
+
+from .dialogs import show_report
+
+if TYPE_CHECKING:
+    from .main_window import MainWindow
+
+
+COLUMNS, LINES = 88, 26
+"""The size of the preview, in letters of code and lines."""
+
+
+class SupportDialog(QDialog):
+    """Lets ``nep-studio doctor`` make the report, in a process of its own, and shows it all."""
+
+    def __init__(self, parent: QWidget | None, folder: Path | None = None) -> None:
+        super().__init__(parent)
+        self._folder = folder or usual_folder("projects")
+        self.report: Report | None = None
+        self.setWindowTitle(tr("Report for support"))
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, parent is not None)
+        self.state = QLabel()
+        self.state.setWordWrap(True)
+        self.preview = QPlainTextEdit()
+        self.preview.setReadOnly(True)
+        self.preview.setAccessibleName(tr("All that is in the report"))
+        self.preview.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.preview.setFont(code_font(self.font().pointSizeF()))
+        self.preview.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        self.copy_button = QPushButton(tr("Copy"))
+        self.save_button = QPushButton(tr("Save…"))
+        self.close_button = QPushButton(tr("Close"))
+        self._lay_out()
+        self.copy_button.clicked.connect(self._on_copy)
+        self.save_button.clicked.connect(self._on_save)
+        self.close_button.clicked.connect(self.reject)
+        self._process = QProcess(self)
+        self._process.finished.connect(self._on_finished)
+        self._process.errorOccurred.connect(self._on_error)
+        self._begin()
+
+    def done(self, result: int) -> None:
+        """End what still looks at the computer; nobody reads it."""
+        with suppress(RuntimeError, TypeError):
+            self._process.finished.disconnect(self._on_finished)
+            self._process.errorOccurred.disconnect(self._on_error)
+        if self._process.state() != QProcess.ProcessState.NotRunning:
+            self._process.kill()
+            self._process.waitForFinished(2000)
+        super().done(result)
+
+    def save(self, path: Path) -> None:
+        """Write the report, and say where it is."""
+        if self.report is None:
+            return
+        try:
+            self.report.save(path)
+        except OSError as error:
+            reason = tr((error.strerror or str(error)).lower())
+            told = tr("{name}: {reason}.", name=path.name, reason=reason)
+            self.state.setText(f"{told} {tr('Choose another folder.')}")
+            return
+        self.state.setText(tr("The report is in “{name}”. Send it yourself.", name=path.name))
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        about = QLabel(
+            tr(
+                "This tells those who help you what they need to know. NEP Studio sends it to"
+                " nobody: read it, then copy or save it, and send it yourself."
+            )
+        )
+        about.setWordWrap(True)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.state, 1)
+        for button in (self.copy_button, self.save_button, self.close_button):
+            button.setAutoDefault(False)
+            buttons.addWidget(button)
+        self.save_button.setProperty("kind", "primary")
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line // 2)
+        box.addWidget(about)
+        box.addWidget(self.preview, 1)
+        box.addLayout(buttons)
+        letter = self.preview.fontMetrics()
+        room = room_around(self.parentWidget())
+        width = min(letter.averageCharWidth() * COLUMNS, room.width())
+        height = min(letter.lineSpacing() * LINES, room.height() * 3 // 4)
+        self.resize(width + 2 * line, height + 6 * line)
+
+    def _begin(self) -> None:
+        self._show_buttons()
+        self.state.setText(tr("Looking at this computer…"))
+        program, *arguments = program_command("doctor", "--json")
+        self._process.start(program, arguments)
+        self._process.closeWriteChannel()
+
+    def _on_finished(self) -> None:
+        try:
+            self.report = report_of(bytes(self._process.readAllStandardOutput().data()))
+        except ValueError:
+            self._tell_failure(
+                bytes(self._process.readAllStandardError().data()).decode(errors="replace")
+            )
+            return
+        self.preview.setPlainText(self.report.text())
+        looks = [one for part in self.report.parts for one in part.findings if one.state == "look"]
+        sound = tr("Nothing of what was checked is wrong.")
+        self.state.setText(
+            count_words(len(looks), "1 thing to look at", "{n} things to look at")
+            if looks
+            else sound
+        )
+        self._show_buttons()
+
+    def _on_error(self, error: QProcess.ProcessError) -> None:
+        if error == QProcess.ProcessError.FailedToStart:
+            self._tell_failure(self._process.errorString())
+
+    def _tell_failure(self, details: str) -> None:
+        from nep_studio.support.anonymous import Anonymous
+
+        self.preview.setPlainText(Anonymous.here().text(details))
+        self.state.setText(tr("The report could not be made. What is shown here may help too."))
+        self.copy_button.setEnabled(True)
+
+    def _show_buttons(self) -> None:
+        for button in (self.copy_button, self.save_button):
+            button.setEnabled(self.report is not None)
+
+    def _on_copy(self) -> None:
+        QGuiApplication.clipboard().setText(self.preview.toPlainText())
+        self.state.setText(tr("The report is copied. Paste it into a message."))
+
+    def _on_save(self) -> None:
+        dialog = QFileDialog(self, tr("Save as"), str(self._folder))
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("zip")
+        dialog.selectFile(FILE)
+        dialog.fileSelected.connect(lambda chosen: self.save(Path(chosen)))
+        dialog.open()
+
+
+# Asks what is to be done when the last start failed, before anything of the person's is read.
+
+
+class AfterACrash(QMessageBox):
+    """Safe mode, a usual start, or a report; it has no look of ours, which may be the reason."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        role = QMessageBox.ButtonRole
+        self.setIcon(QMessageBox.Icon.Warning)
+        self.setWindowTitle("NEP Studio")
+        self.setText(tr("NEP Studio did not get through its last start."))
+        self.setInformativeText(
+            tr(
+                "Safe mode leaves out your settings, snippets and own nodes, and the graphics"
+                " card. Nothing of it is deleted."
+            )
+        )
+        self.safe_button: QPushButton = self._button(tr("Start in safe mode"), role.AcceptRole)
+        self.usual_button: QPushButton = self._button(tr("Start as usual"), role.AcceptRole)
+        self.report_button: QPushButton = self._button(tr("Report for support…"), role.ActionRole)
+        self.close_button: QPushButton = self._button(tr("Close"), role.RejectRole)
+        self.setDefaultButton(self.safe_button)
+        self.setEscapeButton(self.close_button)
+
+    def _button(self, text: str, role: QMessageBox.ButtonRole) -> QPushButton:
+        button = QPushButton(text)
+        self.addButton(button, role)
+        return button
+
+
+def ask() -> bool:
+    """Let the person choose; whether to start, in safe mode when they want it."""
+    words.use_language(settings.system_language(words.available_languages()))
+    load_fonts()  # some computers have no letters of the person's language
+    while True:
+        box = AfterACrash()
+        box.exec()
+        if box.clickedButton() is not box.report_button:
+            break
+
+        SupportDialog(None).exec()
+    if box.clickedButton() is box.safe_button:
+        safe_mode.begin()
+    return box.clickedButton() in (box.safe_button, box.usual_button)
+
+
+# What a window tells after its start: that it runs in safe mode, or that nothing is kept.
+
+
+def tell_how_it_runs(window: MainWindow) -> None:
+    """Tell what is unusual, and look for a newer version if the person wants that."""
+    if safe_mode.is_on():
+        window.messages.tell(_safe_mode(window))
+    if folder := portable.not_kept():
+        window.messages.tell(_nothing_kept(str(folder)))
+    if UpdateChoice(window.settings).is_wanted and not safe_mode.is_on():
+        from .settings_dialog import ask_if_due
+
+        ask_if_due(window)
+
+
+def _safe_mode(window: MainWindow) -> Message:
+    sentence = tr(
+        "Your settings, snippets and own nodes are left out, and settings that you change are"
+        " not kept. Work that was not saved is offered again at the next usual start."
+    )
+    steps = (
+        tr("Does all work here? Then set your settings aside, and start as usual."),
+        tr("If it fails again, send a report to those who help you."),
+    )
+    answers = (
+        Answer(tr("Set the settings aside"), lambda: _set_aside(window)),
+        Answer(tr("Report for support…"), lambda: show_report(window)),
+    )
+    return Message("info", tr("This is safe mode"), sentence, steps, answers=answers)
+
+
+def _set_aside(window: MainWindow) -> None:
+    folder = settings.user_folder()
+    if safe_mode.set_settings_aside(folder):
+        title = tr("The next usual start is as the first one")
+        sentence = tr("Your old settings are in {file}.", file=str(folder / "settings.old.ini"))
+        window.messages.tell(Message("success", title, sentence))
+    else:
+        window.messages.tell(Message("info", tr("There are no settings to set aside")))
+
+
+def _nothing_kept(folder: str) -> Message:
+    sentence = tr(
+        "The program cannot write into {folder}. Settings, logs and unsaved work are gone when"
+        " it ends.",
+        folder=folder,
+    )
+    steps = (
+        tr("Is the stick write-protected, or full?"),
+        tr("Save your projects in another place."),
+    )
+    return Message("warning", tr("Nothing is kept"), sentence, steps)

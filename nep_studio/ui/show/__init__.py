@@ -1,1 +1,0 @@
-"""Show mode: one project, very large, for museums and theatres."""

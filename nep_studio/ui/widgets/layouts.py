@@ -1,0 +1,260 @@
+"""A layout that flows like words in a text, from the side where reading begins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPoint, QRect, QSize, Qt
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLayout,
+    QLayoutItem,
+    QScrollArea,
+    QStyle,
+    QVBoxLayout,
+    QWidget,
+)
+
+
+class Flow(QLayout):
+    """Items beside each other, in the next row where there is no room for them."""
+
+    def __init__(self, parent: QWidget | None = None, *, spacing: int = 6) -> None:
+        super().__init__(parent)
+        self._items: list[QLayoutItem] = []
+        self._heights: dict[int, int] = {}
+        self.setContentsMargins(0, 0, 0, 0)
+        self.setSpacing(spacing)
+
+    def addItem(self, item: QLayoutItem) -> None:
+        """Take an item, the last one."""
+        self._items.append(item)
+        self.invalidate()
+
+    def count(self) -> int:
+        """How many items there are."""
+        return len(self._items)
+
+    def itemAt(self, index: int) -> QLayoutItem | None:
+        """The item, or None."""
+        return self._items[index] if 0 <= index < len(self._items) else None
+
+    def takeAt(self, index: int) -> QLayoutItem | None:
+        """Take an item out."""
+        return self._items.pop(index) if 0 <= index < len(self._items) else None
+
+    def expandingDirections(self) -> Qt.Orientation:
+        """It wants no more room than its items."""
+        return Qt.Orientation(0)
+
+    def hasHeightForWidth(self) -> bool:
+        """A narrow one is high."""
+        return True
+
+    def heightForWidth(self, width: int) -> int:
+        """How high it is when it is so wide."""
+        if width not in self._heights:  # it is asked for again and again
+            self._heights[width] = self._place(QRect(0, 0, width, 0), is_real=False)
+        return self._heights[width]
+
+    def invalidate(self) -> None:
+        """Measure again: something in it has changed."""
+        self._heights.clear()
+        super().invalidate()
+
+    def setGeometry(self, rect: QRect) -> None:
+        """Put the items in their places."""
+        super().setGeometry(rect)
+        self._place(rect, is_real=True)
+
+    def sizeHint(self) -> QSize:
+        """All items in one row."""
+        sizes = [item.sizeHint() for item in self._shown()]
+        wide = sum(size.width() for size in sizes) + self.spacing() * max(0, len(sizes) - 1)
+        return QSize(wide, max((size.height() for size in sizes), default=0))
+
+    def minimumSize(self) -> QSize:
+        """The widest item alone."""
+        sizes = [item.minimumSize() for item in self._shown()]
+        return QSize(
+            max((size.width() for size in sizes), default=0),
+            max((size.height() for size in sizes), default=0),
+        )
+
+    def _shown(self) -> list[QLayoutItem]:
+        return [item for item in self._items if not item.isEmpty()]
+
+    def _place(self, room: QRect, *, is_real: bool) -> int:
+        """Go through the rows; gives how high they are together."""
+        owner = self.parentWidget()
+        direction = owner.layoutDirection() if owner else Qt.LayoutDirection.LeftToRight
+        x, y, row = room.x(), room.y(), 0
+        for item in self._shown():
+            size = item.sizeHint()
+            size.setWidth(min(size.width(), max(room.width(), item.minimumSize().width())))
+            if x > room.x() and x + size.width() > room.right() + 1:
+                x, y, row = room.x(), y + row + self.spacing(), 0
+            if is_real:
+                place = QRect(QPoint(x, y), size)
+                item.setGeometry(QStyle.visualRect(direction, room, place))
+            x += size.width() + self.spacing()
+            row = max(row, size.height())
+        return y + row - room.y()
+
+
+def begin_where_reading_begins(label: QLabel) -> None:
+    """Let a label begin at its side of the window, whatever letters its words begin with."""
+    if label.layoutDirection() == Qt.LayoutDirection.RightToLeft:
+        side = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignAbsolute
+        label.setAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+
+
+# Widgets beside each other, in as many rows as they need.
+
+
+class FlowLayout(Flow):
+    """Asks for no more width than its widest widget: a panel may be narrow."""
+
+    def __init__(self, parent: QWidget | None = None, gap: int = 4) -> None:
+        super().__init__(parent, spacing=gap)
+
+    def sizeHint(self) -> QSize:
+        """As narrow as the widest of them."""
+        return self.minimumSize()
+
+
+# Puts widgets below each other, in as many columns as there is room for.
+
+COLUMN_LINES = 17
+"""A column is at least so wide, in lines of text."""
+MOST_COLUMNS = 5
+
+
+class Columns(QWidget):
+    """Keeps the widgets in their order: down the first column, then down the next.
+
+    Each column is a widget: a layout within a layout is not told that something has grown.
+    """
+
+    def __init__(self, widgets: Sequence[QWidget], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._widgets = list(widgets)
+        self.count = 0
+        line = self.fontMetrics().height()
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(0, 0, 0, 0)
+        self._row.setSpacing(line)
+        self._holders = [QWidget(self) for _ in range(MOST_COLUMNS)]
+        self._columns = [QVBoxLayout(holder) for holder in self._holders]
+        for holder, column in zip(self._holders, self._columns, strict=True):
+            column.setContentsMargins(0, 0, 0, 0)
+            column.setSpacing(line // 4)
+            self._row.addWidget(holder, 1)
+        self.spread(1)
+
+    def spread(self, count: int) -> None:
+        """Use so many columns, about equally high."""
+        if count == self.count:
+            return
+        self.count = count
+        for column in self._columns:
+            while column.count():
+                column.takeAt(0)
+        left = sum(widget.sizeHint().height() for widget in self._widgets)
+        number, filled = 0, 0
+        for widget in self._widgets:
+            height = widget.sizeHint().height()
+            if filled and filled + height / 2 > left / (count - number) and number < count - 1:
+                left, filled, number = left - filled, 0, number + 1
+            self._columns[number].addWidget(widget)
+            filled += height
+        for number, column in enumerate(self._columns):
+            column.addStretch(1)
+            self._holders[number].setVisible(number < count)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Use the room that there is."""
+        super().resizeEvent(event)
+        line = self.fontMetrics().height()
+        fitting = event.size().width() // (COLUMN_LINES * line)
+        self.spread(min(max(fitting, 1), MOST_COLUMNS, len(self._widgets)))
+
+
+# Two parts beside each other where there is room, else one below the other.
+
+
+class Halves(QWidget):
+    """``first`` and ``second`` are columns; ``wide_lines`` is the width, in lines of text, from
+    which on they are beside each other.
+    """
+
+    def __init__(self, wide_lines: float, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._wide_lines = wide_lines
+        self._box = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
+        self._box.setContentsMargins(0, 0, 0, 0)
+        self.first, self.second = self._column(), self._column()
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether they are beside each other."""
+        return self._box.direction() != QBoxLayout.Direction.TopToBottom
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Put them where there is room."""
+        super().resizeEvent(event)
+        line = self.fontMetrics().height()
+        has_room = self.width() >= self._wide_lines * line
+        down, beside = QBoxLayout.Direction.TopToBottom, QBoxLayout.Direction.LeftToRight
+        if has_room != self.is_wide:
+            self._box.setDirection(beside if has_room else down)
+            self._box.setSpacing(line if has_room else -1)
+
+    def add(self, *widgets: QWidget) -> None:
+        """Add widgets to the first column."""
+        for widget in widgets:
+            self.first.addWidget(widget)
+
+    def add_beside(self, *widgets: QWidget) -> None:
+        """Add widgets to the second column."""
+        for widget in widgets:
+            self.second.addWidget(widget)
+
+    def _column(self) -> QVBoxLayout:
+        holder = QWidget()
+        column = QVBoxLayout(holder)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._box.addWidget(holder, 1)
+        return column
+
+
+# Pages that scroll when there is no room for all of them.
+
+
+def scrolled(page: QWidget) -> QScrollArea:
+    """Put a page into an area that scrolls up and down."""
+    area = QScrollArea()
+    area.setWidgetResizable(True)
+    area.setFrameShape(QFrame.Shape.NoFrame)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setWidget(page)
+    return area
+
+
+def show_top(area: QScrollArea, shown: QWidget) -> None:
+    """Scroll so far that something is seen, of what is too high its beginning."""
+    page = area.widget()
+    if page is None or not page.isAncestorOf(shown):
+        return
+    room = area.viewport().height()
+    top = shown.mapTo(page, shown.rect().topLeft()).y()
+    bar, margin = area.verticalScrollBar(), area.fontMetrics().height() // 2
+    bottom = top + shown.height()
+    if top < bar.value() or bottom > bar.value() + room:
+        is_too_high = shown.height() + margin > room
+        bar.setValue(top - margin if is_too_high else bottom + margin - room)

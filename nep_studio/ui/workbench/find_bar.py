@@ -1,0 +1,320 @@
+"""The find bar: looks through the whole program, and shows where a thing is used."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
+from PySide6.QtGui import QKeyEvent, QPainter
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
+
+from nep_studio.blocks.editor import History
+from nep_studio.blocks.edits.content import SetFlag
+from nep_studio.blocks.operations.finding import Subject, definition_of, find, subjects_of, uses_of
+from nep_studio.blocks.procedures import parameters, words
+from nep_studio.blocks.program import Changes, Project
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.painting.overlay import ring
+from nep_studio.ui.canvas.view import PageView
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.words import count_words, tr
+
+# The overlay that marks what was found.
+
+
+class HitOverlay:
+    """A broad line around each found block in view, and a broader one around the current."""
+
+    def __init__(self) -> None:
+        self._ids: frozenset[str] = frozenset()
+        self._current = ""
+
+    def show(self, ids: Sequence[str], current: str) -> None:
+        """Mark these."""
+        self._ids, self._current = frozenset(ids), current
+
+    def paint(self, painter: QPainter, view: PageView) -> None:
+        """Draw the lines; only blocks in view are looked at, however many were found."""
+        if not self._ids:
+            return
+        colour = view.theme.colour("search_hit")
+        pixel = 1 / view.camera.scale
+        shown = [placed.box.block for placed in view.page_layout.boxes(view.visible_page_rect())]
+        for block in shown:
+            if block in self._ids:
+                ring(painter, view, block, colour, 4 * pixel)
+        if self._current in self._ids:
+            ring(painter, view, self._current, view.theme.colour("focus"), 9 * pixel)
+            ring(painter, view, self._current, colour, 5 * pixel)
+
+
+# What the subjects of the find bar are called.
+
+
+def subject_name(project: Project, subject: Subject) -> str:
+    """What a thing is called: variables and own blocks are known by ids."""
+    if subject.kind == "variable":
+        variable = project.variable(subject.name)
+        return variable.name if variable is not None else subject.name
+    own, _, parameter = subject.name.partition(".")
+    procedure = project.procedures.get(own)
+    if subject.kind == "procedure" and procedure is not None:
+        return words(procedure)
+    if subject.kind == "parameter" and procedure is not None:
+        named = {p.id: p.name for p in parameters(procedure)}
+        return named.get(parameter, parameter)
+    return subject.name
+
+
+class FindBar(QFrame):
+    """Finds by words, or shows the uses of a subject; hits are marked on the canvas.
+
+    It is hidden until it is opened, and lives above the canvas.
+    """
+
+    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.canvas = canvas
+        self.hits: tuple[str, ...] = ()
+        self.index = -1
+        self._subject: Subject | None = None
+        self._history: History | None = None
+        self._overlay = HitOverlay()
+        canvas.overlays.append(self._overlay)
+        canvas.page_changed.connect(self._listen)
+        canvas.uses_requested.connect(self.show_uses)
+        self.title = QLabel(self)
+        self.line = QLineEdit(self)
+        self.count = QLabel(self)
+        self.previous, self.next = QToolButton(self), QToolButton(self)
+        self.away = QToolButton(self)
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._arrange()
+        self.refresh()
+        self.hide()
+
+    # Opening
+
+    def refresh(self) -> None:
+        """Take the theme, the words and the project of the canvas."""
+        theme, side = self.canvas.theme, self.fontMetrics().height()
+        self.setAccessibleName(tr("Find"))
+        self.line.setPlaceholderText(tr("Find in the program"))
+        self.line.setAccessibleName(tr("Find in the program"))
+        for button, name, told in (
+            (self.previous, "chevron-up", tr("Previous (Shift+Enter)")),
+            (self.next, "chevron-down", tr("Next (Enter)")),
+            (self.away, "x", tr("Close (Esc)")),
+        ):
+            button.setIcon(icon(name, theme))
+            button.setIconSize(QSize(side, side))
+            button.setToolTip(told)
+            button.setAccessibleName(told)
+        self._listen()
+        if self.isVisible():
+            self._search(is_new=False)
+
+    def open(self, text: str | None = None) -> None:
+        """Ask for words to find."""
+        self._show_subject(None)
+        self._listen()
+        self.show()
+        if text is not None:
+            self.line.setText(text)
+        self.line.selectAll()
+        self.line.setFocus(Qt.FocusReason.ShortcutFocusReason)
+        self._search(is_new=True)
+
+    def show_uses(self, subject: Subject) -> None:
+        """Show all blocks that name a thing."""
+        self._listen()
+        self._show_subject(subject)
+        self.show()
+        self._search(is_new=True)
+        self.next.setFocus(Qt.FocusReason.ShortcutFocusReason)
+
+    def show_uses_of(self, block: str) -> bool:
+        """Show the uses of what a block names first; False when it names nothing."""
+        subject = self._subject_of(block)
+        if subject is None:
+            self.canvas.refused.emit(tr("This block names nothing that is used elsewhere."))
+            return False
+        self.show_uses(subject)
+        return True
+
+    def go_to_definition(self, block: str) -> bool:
+        """Show where what a block names is defined; False when it is nowhere."""
+        editor, subject = self.canvas.editor, self._subject_of(block)
+        found = definition_of(editor.project, editor.language, subject) if subject else None
+        if found is None:
+            self.canvas.refused.emit(tr("What this block names is not defined in this program."))
+            return False
+        self._reveal(found)
+        return True
+
+    def close_bar(self) -> None:
+        """Mark nothing any more, and give the canvas the keyboard."""
+        self.hits, self.index = (), -1
+        self._mark()
+        self.hide()
+        self.canvas.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    # Going
+
+    def find_next(self) -> None:
+        """Go to the next hit; after the last comes the first."""
+        self._step(1)
+
+    def find_previous(self) -> None:
+        """Go to the hit before."""
+        self._step(-1)
+
+    def _step(self, by: int) -> None:
+        if not self.isVisible():
+            self.open()
+            return
+        if self.hits:
+            self._go(0 if self.index < 0 and by > 0 else (self.index + by) % len(self.hits))
+
+    def _go(self, index: int) -> None:
+        self.index = index
+        block = self.hits[index]
+        self._reveal(block)
+        self._tell()
+        self._mark()
+
+    def _reveal(self, block: str) -> None:
+        """Show a block: on its page, and out of the blocks that are folded around it."""
+        canvas = self.canvas
+        project, editor = canvas.editor.project, canvas.editor
+        folded, owner = [], project.parents[block].owner
+        while owner in project.blocks:
+            if project.blocks[owner].collapsed:
+                folded.append(owner)
+            owner = project.parents[owner].owner
+        if folded:
+            with editor.transaction(tr("unfold blocks")):
+                for outer in folded:
+                    editor.apply(SetFlag(outer, "collapsed", False))
+        canvas.show_block(block)
+        canvas.selection.set([block])
+
+    # Searching
+
+    def _search(self, *, is_new: bool) -> None:
+        editor = self.canvas.editor
+        before = self.hits[self.index] if 0 <= self.index < len(self.hits) else ""
+        if self._subject is not None:
+            self.hits = uses_of(editor.project, editor.language, self._subject)
+        else:
+            self.hits = find(editor.project, editor.language, self.line.text())
+        if before in self.hits:
+            self.index = self.hits.index(before)
+        else:
+            self.index = -1
+            if is_new and self.hits:
+                self._go(self._first_hit())
+        self._tell()
+        self._mark()
+
+    def _first_hit(self) -> int:
+        """The first hit on the page that is shown, so that one does not jump away while typing."""
+        project, page = self.canvas.editor.project, self.canvas.page
+        here = {stack.id for stack in project.pages.get(page, [])}
+        on_page = (n for n, b in enumerate(self.hits) if project.stack_of(b).id in here)
+        return next(on_page, 0)
+
+    def _tell(self) -> None:
+        is_asked = bool(self.line.text().strip()) or self._subject is not None
+        if self.hits:
+            number = max(self.index, 0) + 1
+            told = tr("{number} of {count}", number=number, count=len(self.hits))
+        else:
+            told = tr("Nothing found") if is_asked else ""
+        if told != self.count.text():
+            self.count.setText(told)
+            self.canvas.announced.emit(told)
+        wrong = "wrong" if is_asked and not self.hits else ""
+        if self.line.property("state") != wrong:
+            self.line.setProperty("state", wrong)
+            self.line.style().polish(self.line)
+        for button in (self.previous, self.next):
+            button.setEnabled(bool(self.hits))
+        if self._subject is not None:
+            self.title.setText(self._uses_words(self._subject))
+
+    def _mark(self) -> None:
+        current = self.hits[self.index] if 0 <= self.index < len(self.hits) else ""
+        self._overlay.show(self.hits, current)
+        self.canvas.viewport().update()
+
+    # Subjects
+
+    def _subject_of(self, block: str) -> Subject | None:
+        editor = self.canvas.editor
+        if block not in editor.project.blocks:
+            return None
+        return next(iter(subjects_of(editor.project, editor.language, block)), None)
+
+    def _uses_words(self, subject: Subject) -> str:
+        name = subject_name(self.canvas.editor.project, subject)
+        return count_words(len(self.hits), "1 use of {name}", "{n} uses of {name}", name=name)
+
+    def _show_subject(self, subject: Subject | None) -> None:
+        self._subject = subject
+        self.title.setVisible(subject is not None)
+        self.line.setVisible(subject is None)
+
+    # Put together
+
+    def _arrange(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(8, 4, 8, 4)
+        row.addWidget(self.title)
+        row.addWidget(self.line, 1)
+        row.addWidget(self.count)
+        for button in (self.previous, self.next, self.away):
+            row.addWidget(button)
+        for button, pressed in (
+            (self.previous, self.find_previous),
+            (self.next, self.find_next),
+            (self.away, self.close_bar),
+        ):
+            button.setAutoRaise(True)
+            button.clicked.connect(pressed)
+        self.line.textEdited.connect(lambda: self._search(is_new=True))
+        self._later.timeout.connect(lambda: self._search(is_new=False))
+        self.installEventFilter(self)
+        for widget in (self.line, self.previous, self.next, self.away):
+            widget.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Enter and F3 go on, with Shift back; Esc closes."""
+        if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
+            return super().eventFilter(watched, event)
+        key = event.key()
+        is_back = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        if key == Qt.Key.Key_Escape:
+            self.close_bar()
+        elif key == Qt.Key.Key_F3 or (
+            key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and watched is self.line
+        ):
+            self._step(-1 if is_back else 1)
+        else:
+            return super().eventFilter(watched, event)
+        return True
+
+    def _listen(self) -> None:
+        history = self.canvas.editor.history
+        if history is not self._history:
+            if self._history is not None:
+                self._history.unlisten(self._on_changes)
+                self.hits, self.index = (), -1
+            self._history = history
+            history.listen(self._on_changes)
+
+    def _on_changes(self, changes: Changes) -> None:
+        if self.isVisible():
+            blocks = self.canvas.editor.project.blocks
+            self.hits = tuple(hit for hit in self.hits if hit in blocks)
+            self._later.start()

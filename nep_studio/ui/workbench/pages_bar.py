@@ -1,0 +1,257 @@
+"""The tabs of a project's pages: show, add, rename, move, delete."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QEvent, QPoint, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QMenu, QTabBar, QToolButton, QWidget
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.project import AddPage, MovePage, RenamePage
+from nep_studio.blocks.program import PAGES, Changes, Project
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import tr
+
+KIND_ICONS = {"behaviour": "blocks", "robots": "bot", "nodes": "network"}
+
+
+class PagesBar(QWidget):
+    """Shows one page of an editor as chosen; ``page_chosen`` asks to see another.
+
+    ``attempt`` makes a change and tells the person why not when it is refused.
+    """
+
+    page_chosen = Signal(str)
+
+    def __init__(
+        self, editor: Editor, look: Look, attempt: Callable[[Callable[[], object]], bool]
+    ) -> None:
+        super().__init__()
+        self._look, self._attempt = look, attempt
+        self._editor = editor
+        self._page = PAGES[0]
+        self.tabs = PageTabs(self)
+        self.add_button = QToolButton()
+        self.add_button.setToolTip(tr("Add a page"))
+        self.add_button.setAccessibleName(tr("Add a page"))
+        self.add_button.clicked.connect(self.add_page)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        row.addWidget(self.tabs)
+        row.addWidget(self.add_button)
+        row.addStretch(1)
+        self._connect()
+        editor.history.listen(self._on_changes)
+        self._fill()
+
+    def _connect(self) -> None:
+        self.tabs.currentChanged.connect(self._on_current_changed)
+        self.tabs.moved_to.connect(self._on_moved_to)
+        self.tabs.renamed.connect(self.rename_page)
+        self.tabs.customContextMenuRequested.connect(self._on_menu_requested)
+        self._look.theme_changed.connect(self._on_theme_changed)
+
+    def set_editor(self, editor: Editor) -> None:
+        """Show the pages of another project."""
+        self._editor.history.unlisten(self._on_changes)
+        self._editor = editor
+        editor.history.listen(self._on_changes)
+        self._page = PAGES[0]
+        self._fill()
+
+    def show_page(self, page: str) -> None:
+        """Mark the page that is shown now."""
+        self._page = page
+        pages = list(self._editor.project.pages)
+        if page in pages:
+            self.tabs.blockSignals(True)
+            self.tabs.setCurrentIndex(pages.index(page))
+            self.tabs.blockSignals(False)
+
+    def add_page(self) -> None:
+        """Add a page for behaviour behind the last one of those, and show it."""
+        project = self._editor.project
+        kinds = [project.kind_of_page(page) for page in project.pages]
+        position = len(kinds) - kinds[::-1].index("behaviour")
+        page = project.new_id("page")
+        edit = AddPage(page, self._free_title(), position)
+        if self._attempt(lambda: self._editor.apply(edit)):
+            self.page_chosen.emit(page)
+
+    def rename_page(self, index: int, title: str) -> None:
+        """Give a page another title; an empty one is the title it has by itself."""
+        page = list(self._editor.project.pages)[index]
+        if title == page_title(self._editor.project, page):
+            return
+        edit = RenamePage(page, "" if title == own_title(page) else title)
+        self._attempt(lambda: self._editor.apply(edit))
+        self._fill()
+
+    def delete_page(self, index: int) -> None:
+        """Delete a page with all that is on it; it can be undone."""
+        page = list(self._editor.project.pages)[index]
+        self._attempt(lambda: self._editor.delete_page(page))
+
+    def _free_title(self) -> str:
+        project = self._editor.project
+        taken = {page_title(project, page) for page in project.pages}
+        number = 2
+        while (title := tr("Behaviour {number}", number=number)) in taken:
+            number += 1
+        return title
+
+    def _on_changes(self, changes: Changes) -> None:
+        if changes.whole:
+            self._fill()
+
+    def _on_theme_changed(self) -> None:
+        self._fill()
+
+    def _fill(self) -> None:
+        project, theme = self._editor.project, self._look.theme
+        self.add_button.setIcon(icon("plus", theme))
+        self.tabs.blockSignals(True)
+        while self.tabs.count() > len(project.pages):
+            self.tabs.removeTab(self.tabs.count() - 1)
+        for index, page in enumerate(project.pages):
+            if index == self.tabs.count():
+                self.tabs.addTab("")
+            self.tabs.setTabText(index, page_title(project, page).replace("&", "&&"))
+            self.tabs.setTabIcon(index, icon(KIND_ICONS[project.kind_of_page(page)], theme))
+            self.tabs.setTabData(index, page_title(project, page))
+        self.tabs.blockSignals(False)
+        if self._page not in project.pages:
+            self.page_chosen.emit(PAGES[0])
+        else:
+            self.show_page(self._page)
+
+    def _on_current_changed(self, index: int) -> None:
+        pages = list(self._editor.project.pages)
+        if 0 <= index < len(pages):
+            self.page_chosen.emit(pages[index])
+
+    def _on_moved_to(self, page_index: int, position: int) -> None:
+        page = list(self._editor.project.pages)[page_index]
+        self._page = page
+        self._attempt(lambda: self._editor.apply(MovePage(page, position)))
+        self._fill()
+
+    def _on_menu_requested(self, point: QPoint) -> None:
+        index = self.tabs.tabAt(point)
+        if index >= 0:
+            self.menu(index).popup(self.tabs.mapToGlobal(point))
+
+    def menu(self, index: int) -> QMenu:
+        """What can be done with a page."""
+        menu, theme = QMenu(self), self._look.theme
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        pages = list(self._editor.project.pages)
+        rename = menu.addAction(icon("pencil", theme), tr("Rename…"))
+        rename.triggered.connect(lambda: self.tabs.edit_title(index))
+        left = menu.addAction(icon("arrow-left", theme), tr("Move left"))
+        left.setEnabled(index > 0)
+        left.triggered.connect(lambda: self._on_moved_to(index, index - 1))
+        right = menu.addAction(icon("arrow-right", theme), tr("Move right"))
+        right.setEnabled(index < len(pages) - 1)
+        right.triggered.connect(lambda: self._on_moved_to(index, index + 1))
+        menu.addSeparator()
+        delete = menu.addAction(icon("trash-2", theme), tr("Delete the page"))
+        delete.setEnabled(pages[index] not in PAGES)
+        delete.triggered.connect(lambda: self.delete_page(index))
+        return menu
+
+
+class PageTabs(QTabBar):
+    """Tabs that can be dragged, and whose titles can be edited in place."""
+
+    moved_to = Signal(int, int)
+    renamed = Signal(int, str)
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setMovable(True)
+        self.setExpanding(False)
+        self.setUsesScrollButtons(True)
+        self.setAccessibleName(tr("Pages"))
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.title_edit: QLineEdit | None = None
+        self._dragged: list[object] = []
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Remember the order of the tabs: a drag may change it."""
+        self._dragged = self._order()
+        super().mousePressEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Tell where the dragged tab has gone, once, when it is let go."""
+        super().mouseReleaseEvent(event)
+        before, after, self._dragged = self._dragged, self._order(), []
+        current = self.currentIndex()
+        if before and before != after:
+            self.moved_to.emit(before.index(after[current]), current)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Edit the title."""
+        index = self.tabAt(event.position().toPoint())
+        if index >= 0:
+            self.edit_title(index)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """F2 edits the title of the page that is shown."""
+        if event.key() == Qt.Key.Key_F2:
+            self.edit_title(self.currentIndex())
+        else:
+            super().keyPressEvent(event)
+
+    def edit_title(self, index: int) -> None:
+        """Put a line edit over a tab; Enter and leaving it keep the title, Esc does not."""
+        edit = self.title_edit = _TitleEdit(str(self.tabData(index)), self)
+        edit.setGeometry(self.tabRect(index))
+        edit.selectAll()
+        edit.show()
+        edit.setFocus()
+        edit.ended.connect(lambda title: self._on_edited(index, title))
+
+    def _on_edited(self, index: int, title: str) -> None:
+        if self.title_edit is not None:
+            self.title_edit.deleteLater()
+            self.title_edit = None
+            if title:
+                self.renamed.emit(index, title)
+
+    def _order(self) -> list[object]:
+        return [self.tabData(index) for index in range(self.count())]
+
+
+class _TitleEdit(QLineEdit):
+    """``ended`` gives the new title; an empty one when nothing is to change."""
+
+    ended = Signal(str)
+
+    def __init__(self, title: str, parent: QWidget) -> None:
+        super().__init__(title, parent)
+        self.setMaxLength(60)
+        self.setAccessibleName(tr("Title of the page"))
+        self.editingFinished.connect(lambda: self.ended.emit(self.text().strip()))
+
+    def event(self, event: QEvent) -> bool:
+        """Esc leaves the title as it was."""
+        if isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+            self.ended.emit("")
+            return True
+        return super().event(event)
+
+
+def own_title(page: str) -> str:
+    """The title that a page has by itself."""
+    titles = {"behaviour": tr("Behaviour"), "robots": tr("Robots"), "nodes": tr("Nodes")}
+    return titles.get(page, tr("Behaviour"))
+
+
+def page_title(project: Project, page: str) -> str:
+    """What stands on the tab of a page."""
+    return project.page_titles.get(page) or own_title(page)

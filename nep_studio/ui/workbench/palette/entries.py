@@ -1,0 +1,237 @@
+"""What the palette lists: drawers with blocks, buttons, and snippets, one below the other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Literal
+
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.edits.project import AddVariable
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.copying import Clip, copy, python_of
+from nep_studio.blocks.places import NewStack
+from nep_studio.blocks.procedures import CALL
+from nep_studio.blocks.program import Project
+from nep_studio.blocks.slots import FieldValue
+from nep_studio.blocks.text import sentence
+from nep_studio.help.texts import BlockText, block_texts
+from nep_studio.ui.theme.icons import category_icon_name
+from nep_studio.ui.words import language_code, tr
+from nep_studio.ui.workbench.snippets import Snippet
+
+# One sample of every block that the palette offers, in a small project of its own.
+
+READ_VARIABLE = "variable.get"
+
+
+class Stock:
+    """The samples, made from an editor's language, with its variables and own blocks.
+
+    Ids of samples are those of blocks in ``project``, which whatever draws a project can draw.
+    """
+
+    def __init__(self, editor: Editor) -> None:
+        self.language = editor.language
+        self.project = Project("Palette")
+        for number, variable in enumerate(editor.project.variables):
+            AddVariable(variable.id, variable.name, number).apply(self.project)
+        for number, procedure in enumerate(editor.project.procedures.values()):
+            AddProcedure(procedure, number).apply(self.project)
+        self._ids: dict[tuple[object, ...], str] = {}
+
+    def sample(self, block_type: str, **fields: FieldValue) -> str:
+        """The id of the sample of a type; slots for a variable hold the first one there is."""
+        key = (block_type, *fields.items())
+        if key not in self._ids:
+            self._ids[key] = self._new(self.language.definitions[block_type], fields)
+        return self._ids[key]
+
+    def offered(self, category: str) -> Iterable[str]:
+        """The samples of a category, in the order of the palette."""
+        variables = self.project.variables
+        if category == "my":
+            for procedure in self.project.procedures:
+                yield self.sample(CALL + procedure)
+        if category == "variable":
+            for variable in variables:
+                yield self.sample(READ_VARIABLE, variable=variable.id)
+        for definition in self.language.definitions.values():
+            is_own = definition.id.startswith("my.") and definition.id.count(".") > 1
+            is_here = definition.category.id == category and not is_own
+            if is_here and definition.id != READ_VARIABLE:
+                yield self.sample(definition.id)
+
+    def clip(self, sample: str) -> Clip:
+        """A sample as blocks to be put into a program."""
+        return copy(self.project, self.language, [sample])
+
+    def words(self, sample: str) -> str:
+        """What a sample says."""
+        return sentence(self.project, self.language, sample)
+
+    def definition(self, sample: str) -> Definition:
+        """The definition of a sample."""
+        return self.language.definitions[self.project.blocks[sample].type]
+
+    def _new(self, definition: Definition, fields: dict[str, FieldValue]) -> str:
+        block = definition.new_block(self.project.new_id("b"))
+        first = next((variable.id for variable in self.project.variables), "")
+        for key, slot in definition.keys(block.groups):
+            if slot.kind.name == "variable" and first:
+                block.fields[key] = first
+        block.fields.update(fields)
+        stacks = self.project.pages[definition.page]
+        place = NewStack(definition.page, self.project.new_id("s"), 0.0, 0.0, len(stacks))
+        CreateBlocks((block.id,), (block,), place).apply(self.project)
+        return block.id
+
+
+RECENT, SNIPPETS = "recent", "snippets"
+MAKE_BLOCK, NEW_VARIABLE, KEEP_SNIPPET, IMPORT_SNIPPET = "block", "variable", "keep", "import"
+
+EntryKind = Literal["heading", "block", "button", "snippet", "words"]
+
+
+@dataclass(frozen=True, slots=True)
+class Drawer:
+    """A part of the palette; ``colour`` names the colours of its blocks, if it has its own."""
+
+    id: str
+    title: str
+    icon: str
+    colour: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One thing in the list.
+
+    ``text`` is its label, and what a screen reader says; ``sample`` the block of the stock;
+    ``action`` what a button does.
+    """
+
+    kind: EntryKind
+    drawer: Drawer
+    text: str
+    sample: str = ""
+    action: str = ""
+    snippet: Snippet | None = None
+
+    @property
+    def is_choosable(self) -> bool:
+        """Whether the keyboard stops at it."""
+        return self.kind in ("block", "button", "snippet")
+
+
+def recent_drawer() -> Drawer:
+    """The drawer with what was used last."""
+    return Drawer(RECENT, tr("Recently used"), "history")
+
+
+def drawers_of(editor: Editor, kind: str, *, has_recent: bool) -> list[Drawer]:
+    """The drawers for a kind of page: what was used last, the categories, the snippets."""
+    drawers = [recent_drawer()] if has_recent else []
+    for category in editor.language.categories:
+        if category.page == kind:
+            icon = category_icon_name(category.colour, category.id)
+            drawers.append(Drawer(category.id, category.title, icon, category.colour))
+    return [*drawers, Drawer(SNIPPETS, tr("My snippets"), "star")]
+
+
+def entries_of(
+    stock: Stock, drawers: Iterable[Drawer], recent: Sequence[str], snippets: Sequence[Snippet]
+) -> list[Entry]:
+    """The whole list: for each drawer its title and what is in it; empty categories are left out.
+
+    ``recent`` are types of blocks.
+    """
+    entries: list[Entry] = []
+    for drawer in drawers:
+        inside = list(_inside(stock, drawer, recent, snippets))
+        if inside:
+            entries += [Entry("heading", drawer, drawer.title), *inside]
+    return entries
+
+
+def found_entries(stock: Stock, samples: Iterable[str], typed: str) -> list[Entry]:
+    """The list of a search: what was found, or that there is nothing."""
+    drawer = Drawer("found", tr("Found"), "search")
+    found = [_block(stock, drawer, sample) for sample in samples]
+    if found:
+        return found
+    words = tr("No block says “{typed}”. Try another word.", typed=typed)
+    return [Entry("words", drawer, words)]
+
+
+def _inside(
+    stock: Stock, drawer: Drawer, recent: Sequence[str], snippets: Sequence[Snippet]
+) -> Iterator[Entry]:
+    if drawer.id == RECENT:
+        for block_type in recent:
+            yield _block(stock, drawer, stock.sample(block_type))
+        return
+    if drawer.id == SNIPPETS:
+        yield from _snippets(drawer, snippets)
+        return
+    if drawer.id == "my":
+        yield Entry("button", drawer, tr("Make a block…"), action=MAKE_BLOCK)
+    if drawer.id == "variable":
+        yield Entry("button", drawer, tr("New variable…"), action=NEW_VARIABLE)
+    for sample in stock.offered(drawer.id):
+        yield _block(stock, drawer, sample)
+
+
+def _snippets(drawer: Drawer, snippets: Sequence[Snippet]) -> Iterator[Entry]:
+    if not snippets:
+        words = tr(
+            "Keep blocks here to use them in any project: select some, then press the button below."
+        )
+        yield Entry("words", drawer, words)
+    for snippet in snippets:
+        yield Entry("snippet", drawer, snippet.name, snippet=snippet)
+    yield Entry("button", drawer, tr("Keep the selection…"), action=KEEP_SNIPPET)
+    yield Entry("button", drawer, tr("Import a snippet…"), action=IMPORT_SNIPPET)
+
+
+def _block(stock: Stock, drawer: Drawer, sample: str) -> Entry:
+    return Entry("block", drawer, stock.words(sample), sample=sample)
+
+
+# What a block of the palette does, in a few lines: its sentence, its help, its Python.
+
+LONGEST_CODE = 400
+
+
+def tip(stock: Stock, sample: str) -> str:
+    """The tool tip of a sample, as rich text."""
+    parts = [f"<b>{escape(stock.words(sample))}</b>"]
+    parts += [f"<p>{escape(text)}</p>" for text in does(stock.definition(sample)) if text]
+    code = python(stock.project, stock.language, sample)
+    if code:
+        parts.append(f"<p>{escape(tr('In Python:'))}</p><pre>{escape(code)}</pre>")
+    return "".join(parts)
+
+
+def python(project: Project, language: Language, block: str) -> str:
+    """The Python of a block; empty when it makes none by itself."""
+    try:
+        code = python_of(project, language, [block]).strip()
+    except BlocksError:
+        return ""
+    return code if len(code) <= LONGEST_CODE else code[:LONGEST_CODE].rstrip() + " …"
+
+
+def does(definition: Definition) -> list[str]:
+    """What the blocks of a definition do, in sentences; some may be empty."""
+    told = [block_texts(language_code()).get(definition.id, BlockText()).about]
+    if "takes_time" in definition.flags:
+        told.append(tr("The program waits here until it is done."))
+    if "needs_real_robot" in definition.flags:
+        told.append(tr("Needs a real robot: the one on the screen cannot do it."))
+    return told

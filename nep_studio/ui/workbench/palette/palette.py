@@ -1,0 +1,457 @@
+"""The palette: a search box, a column of categories, and the list of blocks beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QLineEdit,
+    QMenu,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.editor import Editor, History
+from nep_studio.blocks.edits import Edit
+from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.copying import copy
+from nep_studio.blocks.operations.finding import folded
+from nep_studio.blocks.program import Changes, Project
+from nep_studio.blocks.typing_in.suggesting import suggestions
+from nep_studio.settings import Settings
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.questions import Asking
+from nep_studio.ui.words import tr
+from nep_studio.ui.workbench.placing import insert_clip
+from nep_studio.ui.workbench.snippets import ENDING, Snippet, Snippets, file_stem, write_out
+
+from . import entries
+from .categories import CategoryColumn, add_delete_area, is_taking
+from .entries import Drawer, Entry, Stock
+from .make_block import Making
+from .shelf import Shelf
+
+# The blocks that a person used last, newest first.
+
+MOST_RECENT = 8
+
+
+def recent_types(settings: Settings, language: Language, kind: str) -> list[str]:
+    """The types used last that belong on a kind of page and that there still are."""
+    known = (language.definitions.get(name) for name in settings.recent_blocks)
+    return [one.id for one in known if one is not None and one.page == kind][:MOST_RECENT]
+
+
+def remember_types(settings: Settings, types: Iterable[str]) -> bool:
+    """Put types of blocks first; own blocks belong to one project only and are left out.
+
+    Gives whether the list is another one now.
+    """
+    before = settings.recent_blocks
+    used = [name for name in dict.fromkeys(types) if name.count(".") == 1]
+    after = [*used, *(name for name in before if name not in used)][: 3 * MOST_RECENT]
+    if after == before:
+        return False
+    settings.recent_blocks = after
+    return True
+
+
+# Find blocks of the palette by what a person types.
+
+MOST_FOUND = 60
+
+
+def found_samples(stock: Stock, samples: Iterable[str], typed: str, project: Project) -> list[str]:
+    """The samples that fit what is typed, the best first.
+
+    First those whose sentences are meant, also by other words and with a letter wrong; then
+    those that have all the words anywhere: in a choice, in the name of the category.
+    """
+    meant = suggestions(typed, stock.language, project, limit=MOST_FOUND)
+    rank: dict[str, int] = {}
+    for suggestion in meant:
+        rank.setdefault(suggestion.block_type, len(rank))
+    words = folded(typed).split()
+    ranked = []
+    for number, sample in enumerate(dict.fromkeys(samples)):
+        place = rank.get(stock.project.blocks[sample].type)
+        if place is not None:
+            ranked.append((place, number, sample))
+        elif all(word in _said(stock, sample) for word in words):
+            ranked.append((MOST_FOUND, number, sample))
+    return [sample for _place, _number, sample in sorted(ranked)]
+
+
+def _said(stock: Stock, sample: str) -> str:
+    return folded(f"{stock.words(sample)} {stock.definition(sample).category.title}")
+
+
+# What a person does with snippets in the palette: keep, rename, delete, export, import.
+
+
+class SnippetMenu(QObject):
+    """The menu of a snippet, and the questions that go with it."""
+
+    def __init__(self, palette: Palette) -> None:
+        super().__init__(palette)
+        self._palette = palette
+        self.menu: QMenu | None = None
+        self.asking: Asking | None = None
+        palette.canvas.menu_sections.append(self._section)
+
+    def open(self, entry: Entry, place: QPoint) -> None:
+        """Open the menu of an entry, when it is a snippet."""
+        snippet = entry.snippet
+        if snippet is None:
+            return
+        palette, theme = self._palette, self._palette.canvas.theme
+        if self.menu is not None:
+            self.menu.deleteLater()
+        self.menu = QMenu(palette)
+        insert = self.menu.addAction(icon("plus", theme), tr("Insert"))
+        insert.triggered.connect(lambda: palette.use(entry))
+        rename = self.menu.addAction(icon("pencil", theme), tr("Rename…"))
+        rename.triggered.connect(lambda: self.ask_to_rename(snippet))
+        export = self.menu.addAction(icon("upload", theme), tr("Export…"))
+        export.triggered.connect(lambda: self.ask_to_export(snippet))
+        self.menu.addSeparator()
+        delete = self.menu.addAction(icon("trash-2", theme), tr("Delete…"))
+        delete.triggered.connect(lambda: self.ask_to_delete(snippet))
+        self.menu.popup(place)
+
+    def _section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+        """What the menu of a block offers besides."""
+        if place.hit is None:
+            return []
+        return [MenuEntry("keep", tr("Keep as a snippet…"), self.ask_to_keep, "star")]
+
+    def ask_to_keep(self) -> None:
+        """Ask for a name for the selected blocks."""
+        canvas = self._palette.canvas
+        if not canvas.selection.ids:
+            canvas.refused.emit(tr("No blocks are selected. Select those that you want to keep."))
+            return
+        self._ask(tr("Name of the snippet"), tr("Keep"), self.keep, "")
+
+    def keep(self, name: str) -> None:
+        """Keep the selected blocks under a name; raises EditRefused."""
+        palette, canvas = self._palette, self._palette.canvas
+        ids = canvas.selection.ids
+        clip = copy(canvas.editor.project, canvas.editor.language, ids, canvas.corners(ids))
+        palette.snippets.keep(name, clip)
+        palette.fill()
+        canvas.announced.emit(tr("kept as {name}", name=name.strip()))
+
+    def ask_to_rename(self, snippet: Snippet) -> None:
+        """Ask for another name."""
+        self._ask(
+            tr("New name"), tr("Rename"), lambda name: self._rename(snippet, name), snippet.name
+        )
+
+    def ask_to_delete(self, snippet: Snippet) -> None:
+        """Ask whether to delete a snippet: that cannot be taken back."""
+        words = tr("Delete the snippet “{name}”? It cannot be brought back.", name=snippet.name)
+        self._ask(words, tr("Delete"), lambda _name: self._delete(snippet), None)
+
+    def ask_to_export(self, snippet: Snippet) -> None:
+        """Ask for a file to write a snippet into."""
+        start = str(self._palette.settings.last_folder / f"{file_stem(snippet.name)}{ENDING}")
+        name, _filter = QFileDialog.getSaveFileName(
+            self._palette, tr("Export a snippet"), start, _filters()
+        )
+        if name:
+            self._palette.canvas.attempt(lambda: write_out(snippet, Path(name)))
+
+    def ask_to_import(self) -> None:
+        """Ask for a file to take a snippet from."""
+        start = str(self._palette.settings.last_folder)
+        name, _filter = QFileDialog.getOpenFileName(
+            self._palette, tr("Import a snippet"), start, _filters()
+        )
+        if name:
+            self.take_in(Path(name))
+
+    def take_in(self, path: Path) -> None:
+        """Take a snippet from a file."""
+        palette = self._palette
+        language = palette.canvas.editor.language
+        if palette.canvas.attempt(lambda: palette.snippets.take_in(path, language)):
+            palette.fill()
+
+    def _rename(self, snippet: Snippet, name: str) -> None:
+        self._palette.snippets.rename(snippet, name)
+        self._palette.fill()
+
+    def _delete(self, snippet: Snippet) -> None:
+        self._palette.snippets.delete(snippet)
+        self._palette.fill()
+
+    def _ask(self, words: str, yes: str, answer: object, name: str | None) -> None:
+        palette = self._palette
+        assert callable(answer)
+        self.asking = Asking(palette, palette.canvas.theme, words, yes, answer, name)
+        self.asking.show_at(palette.mapToGlobal(QPoint(palette.width() // 3, 60)))
+
+
+def _filters() -> str:
+    return tr("Snippets") + f" (*{ENDING} *.nep)"
+
+
+WIDEST = 16_777_215
+"""What Qt takes for no limit."""
+
+
+SHELF_LINES = 13.5
+"""How wide the list of blocks wants to be, in lines of text."""
+
+LEAST_SHELF_LINES = 8.5
+"""Where the list would be narrower, the categories leave their names away."""
+
+
+class Palette(QWidget):
+    """All blocks that belong on the page of a canvas.
+
+    ``narrowed`` says that it became a narrow column of signs, or wide again.
+    """
+
+    narrowed = Signal(bool)
+
+    def __init__(
+        self,
+        canvas: Canvas,
+        settings: Settings,
+        snippets: Snippets | None = None,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.canvas = canvas
+        self.settings = settings
+        self.snippets = snippets or Snippets(settings.folder / "snippets")
+        self.search = QLineEdit(self)
+        self._sign = QAction(self.search)
+        self.fold = QToolButton(self)
+        self.categories = CategoryColumn(self)
+        self.shelf = Shelf(canvas, self)
+        self.making = Making(self)
+        self.snippet_menu = SnippetMenu(self)
+        self.is_narrow = False
+        self._drawers: list[Drawer] = []
+        self._history: History | None = None
+        self._goes_to_top = False
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._arrange()
+        self._connect()
+        add_delete_area(canvas, self)
+        self.refresh()
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Take the theme, the words, the direction and the project of the canvas."""
+        self.setAccessibleName(tr("Palette"))
+        self.search.setPlaceholderText(tr("Search blocks"))
+        self.search.setAccessibleName(tr("Search blocks"))
+        self._sign.setIcon(icon("search", self.canvas.theme))
+        self._show_fold()
+        self._listen()
+        self.shelf.refresh()
+        self.fill()
+
+    def fill(self, *, to_top: bool = False) -> None:
+        """Show the blocks for the page, or those that are searched for, when somebody looks."""
+        editor = self.canvas.editor
+        kind = editor.project.kind_of_page(self.canvas.page)
+        recent = recent_types(self.settings, editor.language, kind)
+        self._drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
+        self.categories.show_drawers(self._drawers, self.canvas.theme)
+        self._fit()
+        self._goes_to_top |= to_top
+        self.shelf.fill_later(partial(self._fill_shelf, editor, recent))
+
+    def _fill_shelf(self, editor: Editor, recent: Sequence[str]) -> None:
+        stock = Stock(editor)
+        typed = self.search.text().strip()
+        if typed:
+            samples = [s for drawer in self._drawers for s in stock.offered(drawer.id)]
+            shown = entries.found_entries(
+                stock, found_samples(stock, samples, typed, editor.project), typed
+            )
+        else:
+            kept = self.snippets.all(editor.language)
+            shown = entries.entries_of(stock, self._drawers, recent, kept)
+        self.shelf.show_entries(stock, shown, to_top=self._goes_to_top or bool(typed))
+        self._goes_to_top = False
+
+    def open_drawer(self, drawer: str) -> None:
+        """Show a category; a narrow palette becomes wide."""
+        self.set_narrow(False)
+        if self.search.text():
+            self.search.clear()
+        self.shelf.show_drawer(drawer)
+        self.categories.mark(drawer)
+
+    def set_narrow(self, is_narrow: bool) -> None:
+        """Become a narrow column of signs, or wide again."""
+        if is_narrow == self.is_narrow:
+            return
+        self.is_narrow = is_narrow
+        self.search.setVisible(not is_narrow)
+        self.shelf.setVisible(not is_narrow)
+        self._fit()
+        self._show_fold()
+        self.narrowed.emit(is_narrow)
+
+    def sizeHint(self) -> QSize:
+        """Room for the categories and most blocks."""
+        line = self.fontMetrics().height()
+        wide = 0 if self.is_narrow else round(SHELF_LINES * line)
+        column = self.categories
+        return QSize(
+            (column.maximumWidth() if self.is_narrow else column.wide_width) + wide, 30 * line
+        )
+
+    # What it does
+
+    def use(self, entry: Entry) -> None:
+        """Insert the blocks of an entry, or do what a button says."""
+        if entry.kind == "button":
+            self._press(entry.action)
+            return
+        clip = self.shelf.clip_of(entry)
+        if clip is not None:
+            insert_clip(self.canvas, clip)
+
+    def start_search(self, letter: str = "") -> None:
+        """Give the search box the keyboard, and a first letter."""
+        self.set_narrow(False)
+        self.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
+        if letter:
+            self.search.setText(letter)
+        else:
+            self.search.selectAll()
+
+    def _press(self, action: str) -> None:
+        if action == entries.MAKE_BLOCK:
+            self.making.ask_for_block()
+        elif action == entries.NEW_VARIABLE:
+            self.making.ask_for_variable()
+        elif action == entries.KEEP_SNIPPET:
+            self.snippet_menu.ask_to_keep()
+        else:
+            self.snippet_menu.ask_to_import()
+
+    # Put together
+
+    def _arrange(self) -> None:
+        self.fold.setAutoRaise(True)
+        self.search.setClearButtonEnabled(True)
+        self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
+        top = QHBoxLayout()
+        top.setContentsMargins(4, 4, 4, 2)
+        top.addWidget(self.fold)
+        top.addWidget(self.search, 1)
+        below = QHBoxLayout()
+        below.setSpacing(0)
+        below.addWidget(self.categories)
+        below.addWidget(self.shelf, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(top)
+        column.addLayout(below, 1)
+
+    def _connect(self) -> None:
+        canvas = self.canvas
+        self.search.textChanged.connect(self._on_search_changed)
+        self.search.installEventFilter(self)
+        self.fold.clicked.connect(lambda: self.set_narrow(not self.is_narrow))
+        self.categories.opened.connect(self.open_drawer)
+        self.shelf.chosen.connect(self.use)
+        self.shelf.typed.connect(self.start_search)
+        self.shelf.left_upwards.connect(self.search.setFocus)
+        self.shelf.drawer_shown.connect(lambda drawer: self.categories.mark(drawer.id))
+        self.shelf.menu_asked.connect(self.snippet_menu.open)
+        canvas.page_changed.connect(self._on_page_changed)
+        canvas.delete_area_entered.connect(self._on_delete_area_entered)
+        self._later.timeout.connect(self.fill)
+
+    def _on_search_changed(self, text: str) -> None:
+        self.fill(to_top=True)
+
+    def _fit(self) -> None:
+        """Be no wider than the signs while the palette is narrow; give the list its room."""
+        least = self.categories.wide_width + LEAST_SHELF_LINES * self.fontMetrics().height()
+        self.categories.set_narrow(self.is_narrow or self.width() < least)
+        self.setMaximumWidth(self.categories.maximumWidth() + 4 if self.is_narrow else WIDEST)
+
+    def _show_fold(self) -> None:
+        is_wide = not self.is_narrow
+        side = self.fontMetrics().height()
+        self.fold.setIcon(icon("panel-left", self.canvas.theme))
+        self.fold.setIconSize(QSize(side, side))
+        words = tr("Make the palette narrow") if is_wide else tr("Show the blocks")
+        self.fold.setToolTip(words)
+        self.fold.setAccessibleName(words)
+
+    def _listen(self) -> None:
+        """Hear of the changes of the project that the canvas shows now."""
+        history = self.canvas.editor.history
+        if history is self._history:
+            return
+        if self._history is not None:
+            self._history.unlisten(self._on_changes)
+            self._history.unrecord(self._on_edits)
+        self._history = history
+        history.listen(self._on_changes)
+        history.record(self._on_edits)
+
+    def _on_changes(self, changes: Changes) -> None:
+        if changes.whole:
+            self._later.start()
+
+    def _on_edits(self, edits: tuple[Edit, ...]) -> None:
+        """Remember what was used: the first block of what was made."""
+        made = [edit for edit in edits if isinstance(edit, CreateBlocks)]
+        types = [b.type for edit in made for b in edit.blocks if b.id == edit.roots[0]]
+        if types and remember_types(self.settings, types):
+            self._later.start()
+
+    def _on_page_changed(self, page: str) -> None:
+        self._listen()
+        self.fill(to_top=True)
+
+    def _on_delete_area_entered(self, is_over: bool) -> None:
+        self.shelf.set_delete(is_over and is_taking(self.canvas, self))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show the names of the categories where there is room for them."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """In the search box, Down goes to the list, Enter inserts the first, Esc clears."""
+        if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
+            return super().eventFilter(watched, event)
+        key = event.key()
+        if key == Qt.Key.Key_Down:
+            self.shelf.setFocus(Qt.FocusReason.OtherFocusReason)
+            self.shelf.choose_first()
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.search.text():
+            self.shelf.choose_first()
+            if self.shelf.current is not None:
+                self.use(self.shelf.current)
+        elif key == Qt.Key.Key_Escape and self.search.text():
+            self.search.clear()
+        else:
+            return super().eventFilter(watched, event)
+        return True

@@ -1,0 +1,212 @@
+"""The list of problems below the canvas: each with what to try, and a button where one helps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QStyle,
+    QStyleOption,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.blocks.checks.problem import Problem
+from nep_studio.ui.message_cards import ChecklistStep, MessageText
+from nep_studio.ui.messages import KIND_ICONS, Message
+from nep_studio.ui.theme.icons import icon_pixmap
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.words import count_words, tr
+from nep_studio.ui.workbench.problem_style import fix_button, severity_word
+
+MOST_ROWS = 50
+"""More problems than a person reads at once are counted, not shown."""
+
+
+class ProblemsPanel(QScrollArea):
+    """Shows problems; ``opened`` asks to see the place of one, ``fix_asked`` to put it right."""
+
+    opened = Signal(object)
+    fix_asked = Signal(object)
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self._problems: Sequence[Problem] = ()
+        self.rows: list[ProblemRow] = []
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setAccessibleName(tr("Problems"))
+        look.theme_changed.connect(self._fill)
+        self._fill()
+
+    def show_problems(self, problems: Sequence[Problem]) -> None:
+        """Show these; nothing is drawn again when they are the same."""
+        if list(problems) != list(self._problems):
+            self._problems = tuple(problems)
+            self._fill()
+
+    def sizeHint(self) -> QSize:
+        """Room for three problems."""
+        line = self.fontMetrics().height()
+        return QSize(line * 20, line * 8)
+
+    def _fill(self) -> None:
+        inner = QWidget()
+        box = QVBoxLayout(inner)
+        shown = self._problems[:MOST_ROWS]
+        self.rows = [ProblemRow(problem, self._look, self) for problem in shown]
+        for row in self.rows:
+            box.addWidget(row)
+        hidden = len(self._problems) - len(shown)
+        if hidden:
+            box.addWidget(_hint(count_words(hidden, "and 1 more", "and {n} more")))
+        if not self._problems:
+            box.addWidget(_all_well(self._look))
+        box.addStretch(1)
+        self.setWidget(inner)
+
+
+class ProblemRow(QFrame):
+    """One problem. A click or Enter shows its block."""
+
+    def __init__(self, problem: Problem, look: Look, panel: ProblemsPanel) -> None:
+        super().__init__(panel)
+        self.problem, self._panel = problem, panel
+        self.setProperty("kind", problem.severity)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        sentence = tr(problem.sentence)
+        self.setAccessibleName(f"{severity_word(problem)}: {sentence}")
+        row = QHBoxLayout(self)
+        row.addWidget(_sign(problem, look, self), 0, Qt.AlignmentFlag.AlignTop)
+        words = QVBoxLayout()
+        words.addWidget(_words(sentence))
+        for step in problem.checklist:
+            words.addWidget(ChecklistStep(tr(step)))
+        row.addLayout(words, 1)
+        self.fix_button: QPushButton | None = fix_button(problem)
+        if self.fix_button is not None:
+            self.fix_button.clicked.connect(lambda: panel.fix_asked.emit(problem))
+            row.addWidget(self.fix_button, 0, Qt.AlignmentFlag.AlignVCenter)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Show the block."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._panel.opened.emit(self.problem)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter and Space show the block."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Space):
+            self._panel.opened.emit(self.problem)
+        else:
+            super().keyPressEvent(event)
+
+
+def _sign(problem: Problem, look: Look, widget: QWidget) -> QLabel:
+    label, size = QLabel(), round(widget.fontMetrics().height() * 1.2)
+    colour, ratio = look.theme.colour(problem.severity), widget.devicePixelRatioF()
+    label.setPixmap(icon_pixmap(KIND_ICONS[problem.severity], colour, size, ratio))
+    label.setToolTip(severity_word(problem))
+    return label
+
+
+def _words(text: str) -> QLabel:
+    label = QLabel(text)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    label.setWordWrap(True)
+    label.setProperty("role", "heading")
+    return label
+
+
+def _hint(text: str) -> QLabel:
+    label = QLabel(text)
+    label.setProperty("role", "hint")
+    label.setWordWrap(True)
+    return label
+
+
+def _all_well(look: Look) -> QWidget:
+    """What stands here when there is no problem."""
+    row = QWidget()
+    box = QHBoxLayout(row)
+    sign, size = QLabel(), round(row.fontMetrics().height() * 1.3)
+    sign.setPixmap(icon_pixmap("circle-check", look.theme.colour("success"), size))
+    box.addWidget(sign)
+    box.addWidget(_hint(tr("Nothing to correct. The program is checked while you work.")), 1)
+    return row
+
+
+# The bubble at a block's badge: what is not right there, what to try, a button that helps.
+
+WIDTH_LETTERS = 38
+
+
+class ProblemBubble(QFrame):
+    """Shows the problems of one block; a click elsewhere or Esc takes it away."""
+
+    fix_asked = Signal(object)
+
+    def __init__(self, problems: list[Problem], parent: QWidget) -> None:
+        super().__init__(parent, Qt.WindowType.Popup)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setAttribute(Qt.WidgetAttribute.WA_TranslucentBackground)
+        self.setProperty("kind", problems[0].severity)
+        self.setAccessibleName(" ".join(tr(problem.sentence) for problem in problems))
+        self.setFixedWidth(self.fontMetrics().averageCharWidth() * WIDTH_LETTERS)
+        self.buttons: list[QPushButton] = []
+        box = self._box = QVBoxLayout(self)
+        for problem in problems:
+            checklist = tuple(map(tr, problem.checklist))
+            box.addWidget(
+                MessageText(Message(problem.severity, tr(problem.sentence), "", checklist))
+            )
+            self._add_fix(problem, box)
+
+    def show_at(self, badge: QRect) -> None:
+        """Show it below a badge, given on the screen, but never outside of the screen."""
+        width = self.width()
+        height = max(self._box.totalHeightForWidth(width), self.minimumSizeHint().height())
+        self.resize(width, height)
+        room = room_around(self.parentWidget())
+        x = min(max(badge.left(), room.left()), room.right() - width)
+        below, above = badge.bottom() + 6, badge.top() - height - 6
+        self.move(QPoint(x, below if below + height <= room.bottom() else above))
+        self.show()
+        (self.buttons[0] if self.buttons else self).setFocus(Qt.FocusReason.PopupFocusReason)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the rounded panel: Qt leaves it out of a window whose corners are see-through."""
+        option = QStyleOption()
+        option.initFrom(self)
+        with QPainter(self) as painter:
+            self.style().drawPrimitive(QStyle.PrimitiveElement.PE_Widget, option, painter, self)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc takes it away."""
+        if event.key() == Qt.Key.Key_Escape:
+            self.close()
+        else:
+            super().keyPressEvent(event)
+
+    def _add_fix(self, problem: Problem, box: QVBoxLayout) -> None:
+        button = fix_button(problem)
+        if button is None:
+            return
+        button.clicked.connect(self.close)
+        button.clicked.connect(lambda: self.fix_asked.emit(problem))
+        self.buttons.append(button)
+        row = QHBoxLayout()
+        row.addWidget(button)
+        row.addStretch(1)
+        box.addLayout(row)

@@ -1,0 +1,299 @@
+"""The workbench: the canvas with its pages, the code, the problems, all of one project."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QRect, QSignalBlocker, Signal
+from PySide6.QtGui import QFont, QFontInfo
+from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
+
+from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.operations.fixes import apply_fix
+from nep_studio.blocks.program import Project
+from nep_studio.settings import Settings
+from nep_studio.ui.canvas.accessibility import make_accessible
+from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.painting.overlay import badge_rect
+from nep_studio.ui.documents import Document
+from nep_studio.ui.messages import Messages, announce
+from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.shell.menus import is_minimap_shown
+from nep_studio.ui.theme.look import text_font
+from nep_studio.ui.words import is_right_to_left, tr
+
+from .code import CodePane
+from .find_bar import FindBar
+from .help_card import BlockOpening
+from .insert_bar import InsertBar
+from .live_checks import LiveChecks
+from .minimap import MARGIN, EmptyHint, Minimap
+from .outline import Outline
+from .pages_bar import PagesBar
+from .palette.palette import Palette
+from .problems import ProblemBubble, ProblemsPanel
+from .side_panels import AreaName, Panel, Panels
+from .trash import TrashButton
+
+# What helps on the canvas: finding, inserting by typing, the minimap, the trash.
+
+
+class CanvasHelpers(QObject):
+    """The helpers of one canvas; they follow what it shows when they are refreshed."""
+
+    def __init__(self, canvas: Canvas, settings: Settings) -> None:
+        super().__init__(canvas)
+        self._settings = settings
+        self.palette = Palette(canvas, settings)
+        self.find_bar = FindBar(canvas)
+        self.opening = BlockOpening(canvas, self.find_bar)
+        self.insert_bar = InsertBar(canvas, settings)
+        self.minimap = Minimap(canvas)
+        self.trash = TrashButton(canvas)
+        self.empty_hint = EmptyHint(canvas)
+        canvas.layout_changed.connect(canvas.update_scroll_bars)
+        self.find_bar.hide()
+        self._stack_corner()
+        self.minimap.setVisible(is_minimap_shown(settings))
+
+    def show_minimap(self, is_shown: bool) -> None:
+        """Show or hide the minimap."""
+        self._settings.set_shown("Minimap", is_shown)
+        self.minimap.setVisible(is_shown)
+        self.minimap.refresh()
+
+    def refresh(self) -> None:
+        """Take the theme, the words and the project that the canvas has now."""
+        helpers = (self.palette, self.find_bar, self.insert_bar, self.trash, self.empty_hint)
+        for helper in helpers:
+            helper.refresh()
+        self._stack_corner()
+
+    def _stack_corner(self) -> None:
+        """The minimap is above the trash."""
+        self.minimap.below = self.trash.height() + MARGIN
+        self.minimap.refresh()
+
+
+BLOCK_FONT_PIXELS = 14
+WIDEST = 16777215  # Qt's own
+LEAST_LINES = 60
+"""In a window that is narrower, in lines of text, not all panels have room at first."""
+
+NARROW_PALETTE = "NarrowPalette"
+
+
+class Workbench(QWidget):
+    """Where a project is worked on. ``problems_found`` gives what is not right yet."""
+
+    problems_found = Signal(list)
+
+    def __init__(self, studio: Studio, messages: Messages, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._studio, self._messages = studio, messages
+        editor = Editor(Project(), studio.language)
+        self.canvas = Canvas(
+            editor, studio.look.theme, font=block_font(studio), is_mirrored=is_right_to_left()
+        )
+        make_accessible(self.canvas)
+        self.pages_bar = PagesBar(editor, studio.look, self.canvas.attempt)
+        self.code = CodePane(editor, studio.look)
+        self.outline = Outline(self.canvas)
+        self.problems = ProblemsPanel(studio.look)
+        self.checks = LiveChecks(self)
+        self.helpers = CanvasHelpers(self.canvas, studio.settings)
+        self.bubble: ProblemBubble | None = None
+        self._run_problem: Problem | None = None
+        self._usual_scale = usual_scale(studio)
+        self.panels = Panels(self._middle(), studio.look, studio.settings, self)
+        self.add_side_panel(self.helpers.palette, tr("Blocks"), "blocks", "left")
+        self.add_side_panel(self.code, tr("Code"), "code", "right")
+        self.add_side_panel(self.outline, tr("Outline"), "list-tree", "right")
+        self.add_side_panel(self.problems, tr("Problems"), "circle-check", "bottom", is_shown=False)
+        self._connect()
+
+    def _middle(self) -> QWidget:
+        middle = QFrame()
+        box = QVBoxLayout(middle)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(0)
+        box.addWidget(self.pages_bar)
+        box.addWidget(self.helpers.find_bar)
+        box.addWidget(self.canvas, 1)
+        return middle
+
+    def _connect(self) -> None:
+        canvas = self.canvas
+        self.pages_bar.page_chosen.connect(canvas.show_page)
+        canvas.page_changed.connect(self.pages_bar.show_page)
+        canvas.page_changed.connect(self.code.show_page)
+        canvas.selection.changed.connect(self._on_selection_changed)
+        canvas.refused.connect(self._messages.refuse)
+        canvas.announced.connect(self._on_announced)
+        canvas.problem_opened.connect(self.open_bubble)
+        canvas.layout_changed.connect(self._messages.clear_passing)
+        self.code.block_asked.connect(self.show_block)
+        self.checks.found.connect(self._on_problems_found)
+        self.problems.opened.connect(self._on_problem_opened)
+        self.problems.fix_asked.connect(self.fix)
+        self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
+        self._studio.look.theme_changed.connect(self._on_theme_changed)
+
+    def add_side_panel(
+        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
+    ) -> Panel:
+        """Add a panel beside the canvas: left, right or at the bottom."""
+        return self.panels.add(widget, title, icon_name, area, is_shown=is_shown)
+
+    def show_document(self, document: Document | None) -> None:
+        """Work on another project; on none, the canvas is empty."""
+        self._run_problem = None
+        editor = self._no_editor() if document is None else document.editor
+        folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
+        self._set_editor(editor)
+        self.show_folder(document)
+        self.checks.follow(None if document is None else editor, folder)
+
+    def show_folder(self, document: Document | None) -> None:
+        """Choose files from where the project is now; it has a folder once it is saved."""
+        is_saved = document is not None and document.path is not None
+        self.canvas.fields.project_folder = document.folder if document and is_saved else None
+
+    def restore(self, line: int) -> None:
+        """Lay the panels out as the person left them; ``line`` is a line of text.
+
+        A narrow window that nobody has arranged yet leaves the room to the page.
+        """
+        palette, is_small = self.helpers.palette, self.window().width() < LEAST_LINES * line
+        palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
+        if is_small:
+            self.panels.hide_at_first("right")
+        self.panels.restore(line)
+        palette.narrowed.connect(self._on_palette_chosen)
+
+    def retire(self) -> None:
+        """Let go of the project, before this workbench is thrown away."""
+        with QSignalBlocker(self.checks):  # what is not checked any more is not without problems
+            self.show_document(None)
+        self.checks.cancel()
+
+    def _no_editor(self) -> Editor:
+        return Editor(Project(), self._studio.language)
+
+    def _set_editor(self, editor: Editor) -> None:
+        self.canvas.set_editor(editor)
+        self.pages_bar.set_editor(editor)
+        self.code.set_editor(editor)
+        self.outline.refresh()
+        self.helpers.refresh()
+        self._show_corner()
+
+    def zoom_usual(self) -> None:
+        """Show the blocks with words as large as those of the window."""
+        self.canvas.zoom(usual_scale(self._studio))
+
+    def _show_corner(self) -> None:
+        """Look at the corner of the page where reading begins, at the usual size."""
+        self.zoom_usual()
+        self.canvas.show_beginning()
+
+    # Blocks and problems
+
+    def show_block(self, block: str) -> None:
+        """Show a block and select it."""
+        self.canvas.show_block(block)
+        if block in self.canvas.editor.project.blocks:
+            self.canvas.selection.set([block])
+
+    def fix(self, problem: Problem) -> None:
+        """Put a problem right as far as the program can, and show what it did."""
+        changed: list[str] = []
+        try:
+            changed.append(apply_fix(self.canvas.editor, problem))
+        except EditRefused as refusal:
+            self._messages.refuse(refusal.sentence, refusal.checklist)
+            return
+        self.show_block(changed[0])
+        self.checks.start()
+
+    def show_run_problem(self, problem: Problem | None) -> None:
+        """Show at its block why the program stopped, until it is run again or changed there."""
+        self._run_problem = problem
+        self._show_problems()
+
+    def open_bubble(self, block: str) -> None:
+        """Show what is not right at a block, beside its badge."""
+        there = [problem for problem in self._all_problems() if problem.block == block]
+        placed = self.canvas.page_layout.placed(block)
+        if not there or placed is None:
+            return
+        rect = badge_rect(placed, self.canvas)
+        camera, viewport = self.canvas.camera, self.canvas.viewport()
+        corner = camera.to_view(rect.x(), rect.y()).toPoint()
+        size = (rect.size() * camera.scale).toSize()
+        bubble = self.bubble = ProblemBubble(there, self)
+        bubble.fix_asked.connect(self.fix)
+        bubble.show_at(QRect(viewport.mapToGlobal(corner), size))
+
+    def _on_problems_found(self, problems: list[Problem]) -> None:
+        self._show_problems()
+        self.problems_found.emit(problems)
+
+    def _all_problems(self) -> list[Problem]:
+        """What is not right, and why the program stopped."""
+        stopped = self._run_problem
+        if stopped is None or stopped.block not in self.canvas.editor.project.blocks:
+            return self.checks.problems
+        return [stopped, *self.checks.problems]
+
+    def _show_problems(self) -> None:
+        problems = self._all_problems()
+        self.problems.show_problems(problems)
+        before = self.canvas.problems.problems
+        self.canvas.problems.show(problems)
+        if self.canvas.problems.problems != before:
+            self.canvas.viewport().update()
+
+    def _on_problem_opened(self, problem: Problem) -> None:
+        if problem.block:
+            self.show_block(problem.block)
+        elif problem.page in self.canvas.editor.project.pages:
+            self.canvas.show_page(problem.page)
+
+    def _on_selection_changed(self) -> None:
+        self.code.mark_blocks(self.canvas.selection.ids)
+
+    def _on_announced(self, words: str) -> None:
+        announce(self.canvas, words)
+
+    def _on_theme_changed(self) -> None:
+        self.canvas.set_look(
+            self._studio.look.theme, block_font(self._studio), is_mirrored=is_right_to_left()
+        )
+        scale = usual_scale(self._studio)
+        if scale != self._usual_scale:
+            self.canvas.zoom(self.canvas.camera.scale * scale / self._usual_scale)
+            self._usual_scale = scale
+        self.outline.refresh()
+        self.helpers.refresh()
+
+    def _on_palette_narrowed(self, is_narrow: bool) -> None:
+        width = self.helpers.palette.maximumWidth() if is_narrow else WIDEST
+        self.panels.areas["left"].setMaximumWidth(width)
+
+    def _on_palette_chosen(self, is_narrow: bool) -> None:
+        self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
+
+
+def block_font(studio: Studio) -> QFont:
+    """The font of the blocks, the same for everybody: places on a page are in its units."""
+    dots_per_inch = studio.app.primaryScreen().logicalDotsPerInchY()
+    return text_font(BLOCK_FONT_PIXELS * 72 / dots_per_inch, QFont.Weight.Medium)
+
+
+def usual_scale(studio: Studio) -> float:
+    """The zoom at which the words on blocks are as large as those of the window."""
+    return QFontInfo(studio.app.font()).pixelSize() / BLOCK_FONT_PIXELS

@@ -1,0 +1,259 @@
+"""The threads of a program, and the lines of its file that each of them is in."""
+
+from __future__ import annotations
+
+import ast
+import math
+import threading
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from nep_core.program.tasks import Task, current_task
+
+MOST_CALLS = 50
+"""So many calls of a thread are told."""
+
+
+@dataclass(eq=False)
+class ProgramThread:
+    """A thread that is in the program's file; ``frames`` are its calls there, outermost first."""
+
+    name: str
+    task: Task
+    frames: list[FrameType] = field(default_factory=list)
+    is_stepped: bool = False
+    """Whether it runs one line more of a paused program."""
+    is_cancelled: bool = False
+    """Whether it has been told, by Cancelled, to end."""
+
+    def lines(self) -> list[int]:
+        """The lines that it is in; of very many calls the outermost and the innermost."""
+        frames = list(self.frames)
+        if len(frames) > MOST_CALLS:
+            frames = frames[: MOST_CALLS // 2] + frames[-MOST_CALLS // 2 :]
+        return [frame.f_lineno or 0 for frame in frames]
+
+
+class ProgramThreads:
+    """Who is where; each thread notes its own calls, any thread may look."""
+
+    def __init__(self) -> None:
+        self._threads: dict[int, ProgramThread] = {}
+
+    def enter(self, frame: FrameType) -> None:
+        """Note that this thread calls a function of the file."""
+        thread = self._threads.get(threading.get_ident())
+        if thread is None:
+            thread = ProgramThread(threading.current_thread().name, current_task())
+            self._threads[threading.get_ident()] = thread
+        thread.frames.append(frame)
+
+    def leave(self, frame: FrameType) -> None:
+        """Note that a call has ended, and those that it made."""
+        thread = self._threads.get(threading.get_ident())
+        if thread is None:
+            return
+        if thread.frames[-1] is frame:
+            thread.frames.pop()
+        elif frame in thread.frames:  # those that it made have ended unseen
+            del thread.frames[thread.frames.index(frame) :]
+        if not thread.frames:
+            self.forget()
+
+    def forget(self) -> None:
+        """Note that this thread is in the file no more."""
+        self._threads.pop(threading.get_ident(), None)
+
+    def this(self) -> ProgramThread | None:
+        """The thread that asks."""
+        return self._threads.get(threading.get_ident())
+
+    def frames(self) -> list[FrameType]:
+        """All calls that have not ended yet."""
+        return [frame for thread in list(self._threads.values()) for frame in list(thread.frames)]
+
+    def lines(self) -> dict[str, list[int]]:
+        """The lines that each thread is in now, the outermost call first."""
+        lines = {thread.name: thread.lines() for thread in list(self._threads.values())}
+        return {name: stack for name, stack in lines.items() if stack}
+
+
+# What the text of a program tells before it runs: its variables, and which lines are no step.
+
+_FRAMEWORKS = {"Behavior", "robot_behaviors"}
+_Block = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+_SILENT = (ast.Global, ast.Nonlocal, ast.Import, ast.ImportFrom)
+
+
+@dataclass(frozen=True)
+class ProgramSource:
+    """What is known of a program before it runs; lines count from 1.
+
+    ``variables`` are the names that it gives values to. ``quiet_lines`` are no steps of it: heads
+    of functions, imports and, where rules are the program, all that makes them. ``moved`` tells
+    for the head of a rule or of an own block the line where its body begins.
+    """
+
+    variables: frozenset[str] = frozenset()
+    quiet_lines: frozenset[int] = frozenset()
+    moved: dict[int, int] = field(default_factory=dict)
+
+
+def read_source(file: Path) -> ProgramSource:
+    """Read a program; one that is not Python has nothing, as it will not run either."""
+    try:
+        tree = ast.parse(file.read_bytes())
+    except (OSError, SyntaxError, ValueError, RecursionError):
+        return ProgramSource()
+    return ProgramSource(_variables(tree), frozenset(_quiet_lines(tree)), _moved(tree))
+
+
+def _variables(tree: ast.Module) -> frozenset[str]:
+    return frozenset(
+        node.id
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    )
+
+
+def _quiet_lines(tree: ast.Module) -> Iterator[int]:
+    for node in ast.walk(tree):
+        if isinstance(node, _Block):
+            yield from _head(node)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            yield from range(node.lineno, (node.end_lineno or node.lineno) + 1)
+    if _has_rules(tree):
+        for statement in tree.body:
+            if not isinstance(statement, _Block):
+                yield from range(statement.lineno, (statement.end_lineno or 0) + 1)
+
+
+def _has_rules(tree: ast.Module) -> bool:
+    """Whether functions are the program, and the lines beside them only make rules of them."""
+    return any(
+        isinstance(statement, ast.Assign)
+        and isinstance(statement.value, ast.Call)
+        and isinstance(statement.value.func, ast.Name)
+        and statement.value.func.id in _FRAMEWORKS
+        for statement in tree.body
+    )
+
+
+def _moved(tree: ast.Module) -> dict[int, int]:
+    return {
+        line: _first_step(node)
+        for node in tree.body
+        if isinstance(node, ast.FunctionDef)
+        for line in _head(node)
+    }
+
+
+def _head(node: _Block) -> range:
+    """The lines of decorators and of the def itself."""
+    first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+    return range(first, max(node.body[0].lineno, node.lineno + 1))
+
+
+def _first_step(node: ast.FunctionDef) -> int:
+    """The first line of a function's body at which Python stops by."""
+    for statement in node.body:
+        is_text = isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+        if not is_text and not isinstance(statement, _SILENT):
+            return statement.lineno
+    return node.body[-1].lineno
+
+
+# What the variables of a program hold, as short texts, and which have changed.
+
+LONGEST = 60
+"""Letters of a value that are shown."""
+MOST_DIGITS = 40
+MOST_REPORTS = 2000
+"""So many places of a program tell what they gave last."""
+
+CUT = "…"
+_ENDS: dict[type, str] = {list: "[]", tuple: "()", set: "{}", frozenset: "{}", dict: "{}"}
+_DEEPEST = 3
+
+
+def is_plain(value: object) -> bool:
+    """Whether a value is a number, a text, true or false, nothing, or a collection of values."""
+    return value is None or type(value) in (bool, int, float, str) or type(value) in _ENDS
+
+
+def shown(value: object, depth: int = 0) -> str:
+    """A plain value as Python, clipped; no code of the program is run for it."""
+    if type(value) is str:
+        return repr(value) if len(value) < LONGEST else repr(value[: LONGEST - 2]) + CUT
+    if type(value) is int:
+        return _whole(value)
+    if value is None or type(value) in (bool, float):
+        return repr(value)
+    if type(value) in _ENDS and depth < _DEEPEST:
+        return _collection(value, depth)
+    return CUT
+
+
+def _whole(value: int) -> str:
+    digits = int(value.bit_length() * math.log10(2))
+    if digits <= MOST_DIGITS:
+        return repr(value)
+    return f"{'-' if value < 0 else ''}1e+{digits}"  # to write all digits could take minutes
+
+
+def _collection(value: Any, depth: int) -> str:
+    kind = type(value)
+    opening, closing = _ENDS[kind][0], _ENDS[kind][1]
+    text = ""
+    for item in islice(value.items() if kind is dict else value, LONGEST):
+        told = _pair(item, depth) if kind is dict else shown(item, depth + 1)
+        text += f", {told}" if text else told
+        if len(text) > LONGEST - 2:
+            return f"{opening}{text[: LONGEST - 3]}{CUT}{closing}"
+    if kind in (set, frozenset) and not text:
+        return f"{kind.__name__}()"
+    return f"{opening}{text}{',' if kind is tuple and len(value) == 1 else ''}{closing}"
+
+
+def _pair(item: tuple[object, object], depth: int) -> str:
+    return f"{shown(item[0], depth + 1)}: {shown(item[1], depth + 1)}"
+
+
+class ProgramValues:
+    """The variables of a program, and what the calls in its lines gave last.
+
+    ``namespace`` is where the program keeps its variables, once it has begun.
+    """
+
+    def __init__(self, names: frozenset[str]) -> None:
+        self._names = sorted(names)
+        self._told: dict[str, str] = {}
+        self._reports: dict[str, object] = {}
+        self.namespace: Mapping[str, object] = {}
+
+    def report(self, place: str, value: object) -> None:
+        """Note what the call at a place of the file gave."""
+        if is_plain(value) and (place in self._reports or len(self._reports) < MOST_REPORTS):
+            self._reports[place] = value
+
+    def changed(self) -> dict[str, str]:
+        """The values that are not as they were when this was asked last."""
+        try:
+            now = self._now()
+        except RuntimeError:  # a collection grew while it was read: the next time will tell
+            return {}
+        changed = {name: text for name, text in now.items() if self._told.get(name) != text}
+        self._told |= changed
+        return changed
+
+    def _now(self) -> dict[str, str]:
+        now = {place: shown(value) for place, value in self._reports.copy().items()}
+        for name in self._names:
+            value = self.namespace.get(name, self)
+            if value is not self and (is_plain(value) or name in self._told):
+                now[name] = shown(value)
+        return now

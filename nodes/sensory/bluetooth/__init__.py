@@ -1,1 +1,0 @@
-"""Bluetooth devices that measure motion, each described by a file."""

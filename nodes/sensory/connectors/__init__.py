@@ -1,0 +1,82 @@
+"""The ways that a watch or phone can reach the node: what each needs, and how one is made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .connector import Settings, Way
+
+
+@dataclass(frozen=True)
+class WayKind:
+    """One way, as a person chooses it; ``port`` is its usual one.
+
+    ``needs_address``: the phone is the server, and its address must be given.
+    """
+
+    title: str
+    port: int
+    needs_address: bool
+    make: Callable[[Settings], Way]
+
+
+def _phone_page(settings: Settings) -> Way:
+    from nodes.sensory.phone_page.server import PhonePageWay
+
+    return PhonePageWay(settings)
+
+
+def _sensor_logger(settings: Settings) -> Way:
+    from .sensor_logger import SensorLoggerWay
+
+    return SensorLoggerWay(settings)
+
+
+def _udp(settings: Settings) -> Way:
+    from .lines import UdpWay
+
+    return UdpWay(settings)
+
+
+def _tcp(settings: Settings) -> Way:
+    from .lines import TcpWay
+
+    return TcpWay(settings)
+
+
+def _paper_watch(settings: Settings) -> Way:
+    from .lines import PaperWatchWay
+
+    return PaperWatchWay(settings)
+
+
+def _phyphox(settings: Settings) -> Way:
+    from .phyphox import PhyphoxWay
+
+    return PhyphoxWay(settings)
+
+
+def _sensor_server(settings: Settings) -> Way:
+    from .sensor_server import SensorServerWay
+
+    return SensorServerWay(settings)
+
+
+def _bluetooth(settings: Settings) -> Way:
+    from .bluetooth import BluetoothWay
+
+    return BluetoothWay(settings)
+
+
+WAYS: dict[str, WayKind] = {
+    "phone_page": WayKind("A page in the phone's browser", 8443, False, _phone_page),
+    "sensor_logger": WayKind("The app Sensor Logger", 8000, False, _sensor_logger),
+    "phyphox": WayKind("The app phyphox", 8080, True, _phyphox),
+    "sensor_server": WayKind("The app SensorServer", 8080, True, _sensor_server),
+    "udp": WayKind("Lines by UDP", 8085, False, _udp),
+    "tcp": WayKind("Lines by TCP", 8086, False, _tcp),
+    "paper_watch": WayKind("The watch of the NEP paper", 8080, False, _paper_watch),
+    "bluetooth": WayKind("A sensor with Bluetooth", 0, True, _bluetooth),
+}
+"""The easiest for a novice first."""

@@ -1,0 +1,184 @@
+"""One robot that acts: takes requests, lets its driver play them, and tells how each one goes."""
+
+from __future__ import annotations
+
+from faults import Fault, Words, fault_of
+from nep_core.errors import ActionFailed
+from nep_core.wire.messages import (
+    ActionRequest,
+    ActionResult,
+    ActionState,
+    HumanBehavior,
+    SenseRequest,
+    described,
+)
+
+from .actions import (
+    Approach,
+    LookAtSeen,
+    SetAngles,
+    Stop,
+    StopMoving,
+    Target,
+    WalkFreely,
+    read_action,
+)
+from .driver import NOTHING, Driver
+from .limbs import MOVING, Limb
+from .schedule import Command, Schedule
+
+REMEMBERED_REQUESTS = 500
+FOLLOWING = "following"
+"""The command by which the head follows what it tracks; nobody has asked for it."""
+APPROACHING = "approaching"
+"""The commands by which limbs go where their joints were set to; nobody waits for them."""
+FINAL: frozenset[ActionState] = frozenset({"done", "failed", "cancelled"})
+
+
+class Actor:
+    """Requests in, results out; every accepted request ends in one of done, failed, cancelled."""
+
+    def __init__(self, robot: str, driver: Driver) -> None:
+        self.robot = robot
+        self.driver = driver
+        self.schedule = Schedule()
+        self._last_result: dict[str, ActionResult] = {}
+        self._now_s = 0.0
+        self._asked_s: dict[str, float] = {}
+        """When each walk was asked for last that stops unless it is asked for again."""
+
+    def is_asked(self, request: ActionRequest) -> bool:
+        """Whether a request is for this robot: by its name, or for all robots."""
+        return not request.robots or "all" in request.robots or self.robot in request.robots
+
+    def request(self, request: ActionRequest) -> list[ActionResult]:
+        """Take a request; one that is known already is not played again, only answered."""
+        if known := self._last_result.get(request.id):
+            if request.id in self._asked_s:
+                self._asked_s[request.id] = self._now_s
+            return [self._result(request.id, known.state, known.fault)]
+        try:
+            action = read_action(request.action, request.args)
+            if isinstance(action, Stop):
+                return [*self.stop(action.request), self._result(request.id, "done")]
+            if isinstance(action, StopMoving):
+                return [*self._stop_moving(), self._result(request.id, "done")]
+            limbs = self.driver.limbs(action)
+        except ActionFailed as problem:
+            return [self._result(request.id, "failed", problem.fault)]
+        ended = self._end_free_walk() if Limb.LEGS in limbs else []
+        if isinstance(action, SetAngles):
+            self._aim(action)
+            return [*ended, self._result(request.id, "done")]
+        self.schedule.add(Command(request.id, action, limbs, request.priority))
+        if isinstance(action, WalkFreely) and action.unless_asked_s:
+            self._asked_s[request.id] = self._now_s
+        return [*ended, self._result(request.id, "accepted")]
+
+    def _aim(self, action: SetAngles) -> None:
+        """Change where joints go; limbs that are not on their way begin when it is their turn."""
+        for joint, angle in action.angles.items():
+            (limb,) = self.driver.limbs(SetAngles({joint: angle}))
+            approach = self._approaches().get(limb)
+            if approach is None:
+                approach = Approach(limb, {})
+                self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
+            approach.targets[joint] = Target(angle, action.speed)
+
+    def _approaches(self) -> dict[Limb, Approach]:
+        actions = [command.action for command in self._commands()]
+        return {action.limb: action for action in actions if isinstance(action, Approach)}
+
+    def is_meant(self, request: SenseRequest) -> bool:
+        """Whether a robot is told to sense something: by its name, or all robots."""
+        return request.robot in ("", "all", self.robot)
+
+    def sense(self, request: SenseRequest) -> list[HumanBehavior]:
+        """Let the robot sense something, and follow it if it tracks that."""
+        states = self.driver.sense(request)
+        state = self.driver.state()
+        if state and request.value > 0 and state.settings.get("tracking") == request.sense:
+            self._follow(request.sense)
+        return [HumanBehavior(human_state=state, source=self.robot) for state in states]
+
+    def _follow(self, thing: str) -> None:
+        command = Command(FOLLOWING, LookAtSeen(thing), frozenset({Limb.HEAD}))
+        if all(known.id != FOLLOWING for known in self.schedule.waiting):
+            if any(known.id == FOLLOWING for known in self.schedule.running):
+                self.stop(FOLLOWING)
+            self.schedule.add(command)
+
+    def stop(self, only: str = "") -> list[ActionResult]:
+        """End what is running and what waits, at once; or one request of these."""
+        stopped = [command.id for command in self._commands() if only in ("", command.id)]
+        results = self._end(stopped, "cancelled", "stopped")
+        if not only:
+            self.driver.halt()
+        return results
+
+    def noticed(self) -> list[HumanBehavior]:
+        """Return what the robot has noticed by itself since the last call."""
+        states = self.driver.noticed()
+        return [HumanBehavior(human_state=state, source=self.robot) for state in states]
+
+    def _stop_moving(self) -> list[ActionResult]:
+        moving = [command.id for command in self._commands() if command.limbs & MOVING]
+        return self._end(moving, "cancelled", "stopped")
+
+    def _end_free_walk(self) -> list[ActionResult]:
+        """A walk without an end makes way for what else the legs are asked."""
+        free = [one.id for one in self._commands() if isinstance(one.action, WalkFreely)]
+        return self._end(free, "done", "")
+
+    def _end_forsaken(self) -> list[ActionResult]:
+        """A walk that is not asked for any more stops: who drove the robot may be gone."""
+        if not self._asked_s:
+            return []
+        walks = {one.id: one.action for one in self._commands()}
+        self._asked_s = {id: s for id, s in self._asked_s.items() if id in walks}
+        forsaken = [
+            id
+            for id, asked_s in self._asked_s.items()
+            if isinstance(walk := walks[id], WalkFreely)
+            and self._now_s - asked_s > walk.unless_asked_s
+        ]
+        return self._end(forsaken, "cancelled", "nobody asked for it any more")
+
+    def _commands(self) -> list[Command]:
+        return [*self.schedule.running, *self.schedule.waiting]
+
+    def _end(self, command_ids: list[str], state: ActionState, words: Words) -> list[ActionResult]:
+        self.driver.stop(command_ids)
+        for command_id in command_ids:
+            self.schedule.end(command_id)
+        return [self._result(one, state, fault_of(words)) for one in command_ids]
+
+    def step(self, now_s: float) -> list[ActionResult]:
+        """Go on to a time, and return what was started and what ended on the way."""
+        self._now_s = now_s
+        results = [*self._end_forsaken(), *self._start_ready()]
+        while ended := self.driver.step(now_s):
+            for command_id, state, fault in ended:
+                self.schedule.end(command_id)
+                results.append(self._result(command_id, state, fault))
+            results += self._start_ready()
+        return results
+
+    def _start_ready(self) -> list[ActionResult]:
+        ready = self.schedule.start_ready()
+        for command in ready:
+            self.driver.start(command.id, command.action)
+        return [self._result(command.id, "started") for command in ready]
+
+    def _result(self, request_id: str, state: ActionState, fault: Fault = NOTHING) -> ActionResult:
+        result = ActionResult(id=request_id, robot=self.robot, state=state, **described(fault))
+        self._last_result[request_id] = result
+        self._forget_oldest()
+        return result
+
+    def _forget_oldest(self) -> None:
+        surplus = len(self._last_result) - REMEMBERED_REQUESTS
+        if surplus > 0:
+            ended = (id for id, result in self._last_result.items() if result.state in FINAL)
+            for request_id in [id for id, _ in zip(ended, range(surplus), strict=False)]:
+                del self._last_result[request_id]

@@ -1,0 +1,433 @@
+"""A robot's body as it was built: joints with their limits and speeds, head shell, postures."""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping
+from functools import cached_property
+from pathlib import Path
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from nep_core.errors import ActionFailed, NodeStartError
+from nodes.resources import resource_folder
+
+from .limbs import Limb
+
+Angles = NDArray[np.float64]
+"""Rad in the body's joint order (hands 0 to 1), or rows of them, one every tick."""
+Vector = tuple[float, float, float]
+
+CLAMP_TOLERANCE_RAD = 1e-6
+
+
+class Joint(msgspec.Struct, frozen=True):
+    """One joint: what it may do. Hands count 0 (closed) to 1 (open) instead of rad.
+
+    It turns its link ``child`` about an ``axis`` at ``origin_m`` of its link ``parent``, where
+    ``turn_rad`` (roll, pitch, yaw) is how the link is turned at rest; a hand has no links.
+    """
+
+    name: str
+    limb: Limb
+    min_rad: float
+    max_rad: float
+    max_speed_rad_s: float
+    parent: str = ""
+    child: str = ""
+    origin_m: Vector = (0.0, 0.0, 0.0)
+    turn_rad: Vector = (0.0, 0.0, 0.0)
+    axis: Vector = (0.0, 0.0, 1.0)
+
+
+class Link(msgspec.Struct, frozen=True):
+    """One stiff part of the body: its mass, and how far out it reaches, in its joint's frame.
+
+    ``hull_m`` are round shapes: x, y, z and radius. ``sole_m`` is the outline of a foot's sole.
+    """
+
+    mass_kg: float = 0.0
+    centre_m: Vector = (0.0, 0.0, 0.0)
+    hull_m: tuple[tuple[float, float, float, float], ...] = ()
+    sole_m: tuple[Vector, ...] = ()
+
+
+class ShellLimit(msgspec.Struct, frozen=True):
+    """How far the head can nod (degrees) when it is turned by ``yaw`` degrees to either side."""
+
+    yaw: float
+    min_pitch: float
+    max_pitch: float
+
+
+class Posture(msgspec.Struct, frozen=True):
+    """A named pose; ``next`` are the postures that can be reached from it in one move.
+
+    ``down``: about which way is down, in the torso's frame.
+    """
+
+    family: str
+    next: tuple[str, ...]
+    angles: tuple[float, ...]
+    down: Vector = (0.0, 0.0, -1.0)
+
+
+class KeyPose(msgspec.Struct, frozen=True):
+    """A pose on the way between two postures; ``down`` is which way is down there."""
+
+    down: Vector
+    angles: tuple[float, ...]
+
+
+class Way(msgspec.Struct, frozen=True):
+    """The key poses through which a robot gets from one posture to another, and back."""
+
+    between: tuple[str, str]
+    through: tuple[str, ...]
+
+
+class Camera(msgspec.Struct, frozen=True):
+    """A camera in the head: where it is in the head's frame (m), how far down it looks (rad)."""
+
+    at_m: Vector
+    down_rad: float = 0.0
+
+
+class Sonar(msgspec.Struct, frozen=True):
+    """A sonar: where it is in the frame of a link (m), and how far to the left it points (rad)."""
+
+    link: str
+    at_m: Vector
+    yaw_rad: float = 0.0
+
+
+class _BodyFile(msgspec.Struct, frozen=True):
+    joints: tuple[Joint, ...]
+    same_motor: dict[str, str]
+    head_shell_deg: tuple[ShellLimit, ...]
+    postures: dict[str, Posture]
+    links: dict[str, Link] = {}
+    key_poses: dict[str, KeyPose] = {}
+    ways: tuple[Way, ...] = ()
+    cameras: tuple[Camera, ...] = ()
+    sonars: dict[str, Sonar] = {}
+
+
+class Body:
+    """The joint table and postures of one kind of robot.
+
+    ``names``, ``min``, ``max`` and ``max_speed`` are in the same order: the body's joint order.
+    """
+
+    def __init__(self, file: _BodyFile) -> None:
+        self.joints = file.joints
+        self.names = tuple(joint.name for joint in file.joints)
+        self.index = {name: i for i, name in enumerate(self.names)}
+        self.min = np.array([joint.min_rad for joint in file.joints])
+        self.max = np.array([joint.max_rad for joint in file.joints])
+        self.max_speed = np.array([joint.max_speed_rad_s for joint in file.joints])
+        self.same_motor = file.same_motor
+        self.postures = file.postures
+        self.links = file.links
+        self.cameras, self.sonars = file.cameras, file.sonars
+        self._key_poses = file.key_poses
+        self._ways = {way.between: way.through for way in file.ways}
+        self._shell = np.radians([(s.yaw, s.min_pitch, s.max_pitch) for s in file.head_shell_deg]).T
+
+    @cached_property
+    def head(self) -> tuple[int, int]:
+        """Where the head's yaw and pitch are in the joint order."""
+        return self.index["HeadYaw"], self.index["HeadPitch"]
+
+    def posture_angles(self, name: str) -> Angles:
+        """Return the angles of a posture, in joint order."""
+        return np.array(self.postures[name].angles)
+
+    def key_poses(self, start: str, goal: str) -> list[KeyPose]:
+        """Return the poses between two postures that are next to each other."""
+        names = self._ways.get((start, goal)) or self._ways.get((goal, start), ())[::-1]
+        return [self._key_poses[name] for name in names]
+
+    def origin_m(self, joint: str) -> Vector:
+        """Return where a joint is in the frame of the link before it (m)."""
+        return self.joints[self.index[joint]].origin_m
+
+    def columns(self, limbs: Iterable[Limb]) -> list[int]:
+        """Return where the joints of some limbs are in the joint order."""
+        wanted = frozenset(limbs)
+        return [i for i, joint in enumerate(self.joints) if joint.limb in wanted]
+
+    def limbs_of(self, joint_names: Iterable[str]) -> frozenset[Limb]:
+        """Return the limbs that some joints belong to."""
+        return frozenset(self.joints[self.index[name]].limb for name in joint_names)
+
+    def clamped(self, angles: Angles) -> tuple[Angles, list[str]]:
+        """Return angles that the joints can have, and the names of the joints that were clamped.
+
+        Angles: (joints,) or (ticks, joints). Coupled joints get the angle of their motor.
+        """
+        allowed = np.clip(angles, self.min, self.max)
+        for follower, leader in self.same_motor.items():
+            allowed[..., self.index[follower]] = allowed[..., self.index[leader]]
+        yaw, pitch = self.head
+        low, high = self.pitch_limits(allowed[..., yaw])
+        allowed[..., pitch] = np.clip(allowed[..., pitch], low, high)
+        wrong = np.atleast_2d(np.abs(allowed - angles) > CLAMP_TOLERANCE_RAD).any(axis=0)
+        return allowed, [self.names[i] for i in np.flatnonzero(wrong)]
+
+    def pitch_limits(self, yaw: Angles) -> tuple[Angles, Angles]:
+        """Return the lowest and highest head pitch that the shell allows at each yaw (rad)."""
+        turn = np.abs(yaw)
+        yaws, lows, highs = self._shell
+        return np.interp(turn, yaws, lows), np.interp(turn, yaws, highs)
+
+
+def load_body(folder: Path) -> Body:
+    """Read ``body.json`` of a robot's folder. Raises NodeStartError when it cannot be used."""
+    path = folder / "body.json"
+    try:
+        return Body(msgspec.json.decode(path.read_bytes(), type=_BodyFile))
+    except (OSError, msgspec.DecodeError) as error:
+        raise NodeStartError(
+            "The description of the robot's body, {path}, cannot be read.",
+            checklist=("Install NEP Studio again: this file comes with it.",),
+            details=str(error),
+            path=path,
+        ) from error
+
+
+# A robot's lights: which groups there are, and what a colour's text means.
+
+OFF = 0x000000
+WHITE = 0xFFFFFF
+Colouring = Callable[[int], int]
+"""Which colour comes when: the number of the change, 0xRRGGBB."""
+
+GROUPS: dict[str, tuple[str, ...]] = {
+    "LeftFaceLeds": ("LeftFaceLeds",),
+    "RightFaceLeds": ("RightFaceLeds",),
+    "FaceLeds": ("LeftFaceLeds", "RightFaceLeds"),
+    "LeftEarLeds": ("LeftEarLeds",),
+    "RightEarLeds": ("RightEarLeds",),
+    "EarLeds": ("LeftEarLeds", "RightEarLeds"),
+    "BrainLeds": ("BrainLeds",),
+    "ChestLeds": ("ChestLeds",),
+    "LeftFootLeds": ("LeftFootLeds",),
+    "RightFootLeds": ("RightFootLeds",),
+    "FeetLeds": ("LeftFootLeds", "RightFootLeds"),
+}
+GROUPS["AllLeds"] = tuple(name for name, parts in GROUPS.items() if parts == (name,))
+"""NAOqi's names of groups, each with the lights that it is made of."""
+
+LAMPS: dict[str, tuple[str, ...]] = {
+    "LeftFaceLeds": tuple(f"FaceLedLeft{number}" for number in range(8)),
+    "RightFaceLeds": tuple(f"FaceLedRight{number}" for number in range(8)),
+    "LeftEarLeds": tuple(f"LeftEarLed{number}" for number in range(1, 11)),
+    "RightEarLeds": tuple(f"RightEarLed{number}" for number in range(1, 11)),
+    "BrainLeds": tuple(f"Brain{number}" for number in range(12)),
+}
+"""The single lamps of the lights that have several; those round an eye begin at its top."""
+LIGHT_OF_LAMP = {lamp: light for light, lamps in LAMPS.items() for lamp in lamps}
+
+AT_START: dict[str, int] = {light: OFF for light in GROUPS["AllLeds"]} | {
+    "LeftFaceLeds": 0xFFFFFF,
+    "RightFaceLeds": 0xFFFFFF,
+    "LeftEarLeds": 0x0000FF,
+    "RightEarLeds": 0x0000FF,
+}
+
+
+def lights(group: str) -> tuple[str, ...]:
+    """Return the lights of a group, or the one lamp that is called so. Raises ActionFailed."""
+    if group in LIGHT_OF_LAMP:
+        return (group,)
+    if group not in GROUPS:
+        known = ", ".join(sorted(GROUPS))
+        raise ActionFailed(
+            'There are no lights called "{group}". Possible: {known}.', group=group, known=known
+        )
+    return GROUPS[group]
+
+
+def shining(leds: Mapping[str, int], light: str) -> int:
+    """Return the colour of a light; a lamp shines as its light does unless it was lit by itself."""
+    return leds[light] if light in leds else leds[LIGHT_OF_LAMP[light]]
+
+
+def shine(leds: dict[str, int], light: str, colour: int) -> None:
+    """Let a light shine in a colour, with all of its lamps; or one lamp."""
+    for lamp in LAMPS.get(light, ()):
+        leds.pop(lamp, None)
+    leds[light] = colour
+
+
+def at_start(light: str) -> int:
+    """Return the colour of a light or lamp when the robot starts."""
+    return AT_START[LIGHT_OF_LAMP.get(light, light)]
+
+
+def colour_number(colour: str) -> int:
+    """Return 0xRRGGBB for text such as ``#ff8000``. Raises ActionFailed for other text."""
+    if not re.fullmatch(r"#[0-9a-fA-F]{6}", colour):
+        raise ActionFailed(
+            '"{colour}" is not a colour. Write one like #ff8000: red, green, blue.', colour=colour
+        )
+    return int(colour[1:], 16)
+
+
+def mixed(start: int, end: int, part: float) -> int:
+    """Return the colour that is ``part`` (0 to 1) of the way from one colour to another."""
+    colour = 0
+    for shift in (16, 8, 0):
+        first, last = (start >> shift) & 0xFF, (end >> shift) & 0xFF
+        colour |= round(first + (last - first) * part) << shift
+    return colour
+
+
+def brightest(colour: int) -> int:
+    """Return a colour with the same hue, as bright as it can be."""
+    parts = [(colour >> shift) & 0xFF for shift in (16, 8, 0)]
+    most = max(parts) or 255
+    red, green, blue = (round(part * 255 / most) for part in parts)
+    return red << 16 | green << 8 | blue
+
+
+# Which robots there are: each is a folder with its body, its animations and its looks.
+
+NAO = "nao"
+BODY_FILE = "body.json"
+
+
+def robot_folder(model: str) -> Path:
+    """Return the folder of a model, one of those that come with us or a path to one's own.
+
+    Raises NodeStartError with the models that there are.
+    """
+    robots = resource_folder() / "robots"
+    known = sorted(path.parent.name for path in robots.glob(f"*/{BODY_FILE}"))
+    if model in known:
+        return robots / model
+    if model and (Path(model) / BODY_FILE).is_file():
+        return Path(model)
+    raise NodeStartError(
+        'There is no robot model "{model}".',
+        checklist=(
+            "Choose one of these: {known}.",
+            "Or name a folder with a {body_file} in it, such as a changed copy of one of them.",
+        ),
+        model=model,
+        known=", ".join(known),
+        body_file=BODY_FILE,
+    )
+
+
+def model_of(folder: Path) -> str:
+    """Return how RobotState names the model in a folder: "" a NAO, a name, or the folder's path."""
+    shipped = resource_folder() / "robots"
+    if folder.parent != shipped:
+        return str(folder.resolve())
+    return "" if folder.name == NAO else folder.name
+
+
+# Which posture a word means, and by which postures a robot gets from one to another.
+
+
+def posture_name(body: Body, word: str) -> str:
+    """Return the posture that a word such as ``posture_stand`` or ``StandInit`` means.
+
+    Raises ActionFailed with the words that are possible.
+    """
+    plain = _plain(word)
+    for name in body.postures:
+        if _plain(name) == plain:
+            return name
+    known = ", ".join(_word(name) for name in body.postures)
+    raise ActionFailed(
+        'There is no posture "{word}". Possible postures: {known}.', word=word, known=known
+    )
+
+
+def posture_path(body: Body, start: str, goal: str) -> list[str]:
+    """Return the postures to pass after ``start``, the goal last: the way with the fewest moves."""
+    came_from: dict[str, str | None] = {start: None}
+    waiting = deque([start])
+    while waiting:
+        here = waiting.popleft()
+        if here == goal:
+            return _way_back(came_from, goal)
+        for neighbour in body.postures[here].next:
+            if neighbour not in came_from:
+                came_from[neighbour] = here
+                waiting.append(neighbour)
+    raise ActionFailed("There is no way from {start} to {goal}.", start=start, goal=goal)
+
+
+def _way_back(came_from: dict[str, str | None], goal: str) -> list[str]:
+    path = []
+    here: str | None = goal
+    while here is not None:
+        path.append(here)
+        here = came_from[here]
+    path.reverse()
+    return path[1:] or [goal]
+
+
+def _word(name: str) -> str:
+    return "posture" + "".join(f"_{c.lower()}" if c.isupper() else c for c in name)
+
+
+def _plain(word: str) -> str:
+    letters = "".join(letter for letter in word if letter.isalnum()).casefold()
+    return letters.removeprefix("posture")
+
+
+# The parts of NAO's body that can be locked and released, with the joints of each.
+
+PART_OF_LIMB = {Limb.HEAD: "head", Limb.LEFT_ARM: "left_arm", Limb.RIGHT_ARM: "right_arm"}
+SINGLE_PARTS = ("head", "left_arm", "right_arm", "left_leg", "right_leg")
+PARTS: dict[str, tuple[str, ...]] = {part: (part,) for part in SINGLE_PARTS} | {
+    "arms": ("left_arm", "right_arm"),
+    "legs": ("left_leg", "right_leg"),
+    "body": SINGLE_PARTS,
+}
+PLAIN_NAMES = {
+    "head": "head",
+    "left_arm": "left arm",
+    "right_arm": "right arm",
+    "left_leg": "left leg",
+    "right_leg": "right leg",
+}
+
+
+def part_of(body: Body, joint: str) -> str:
+    """Return the single part that a joint is in."""
+    limb = body.joints[body.index[joint]].limb
+    if limb is Limb.LEGS:
+        return "left_leg" if joint.startswith("L") else "right_leg"
+    return PART_OF_LIMB[limb]
+
+
+def single_parts(part: str) -> tuple[str, ...]:
+    """Return the single parts of a part. Raises ActionFailed with the parts that there are."""
+    if part not in PARTS:
+        raise ActionFailed(
+            'There is no part "{part}" of the body. Possible: {parts}.',
+            part=part,
+            parts=", ".join(PARTS),
+        )
+    return PARTS[part]
+
+
+def limbs_of_part(part: str) -> frozenset[Limb]:
+    """Return the limbs that a part is made of."""
+    limbs = {name: limb for limb, name in PART_OF_LIMB.items()}
+    return frozenset(limbs.get(name, Limb.LEGS) for name in single_parts(part))
+
+
+def parts_of_limbs(limbs: frozenset[Limb]) -> frozenset[str]:
+    """Return the single parts that some limbs move."""
+    parts = {PART_OF_LIMB[limb] for limb in limbs if limb in PART_OF_LIMB}
+    return frozenset(parts | ({"left_leg", "right_leg"} if Limb.LEGS in limbs else set()))

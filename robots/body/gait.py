@@ -1,0 +1,377 @@
+"""NAO's walk as a movement of its legs and a path of its torso over the floor.
+
+Standing feet stay where they are. The centre of mass sways so that the zero moment point, where
+the floor carries the robot, is under a standing foot while the other one swings.
+Source: S. Kajita et al., Biped walking pattern generation by using preview control of zero-moment
+point, ICRA 2003: the mass at a constant height; its exact solution is a filter (see _swayed).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .body import Angles, Body
+from .keyframes import minimum_jerk, ticks
+from .kinematics import Frames, Points, Skeleton, leg_sizes, turned, write_legs
+from .limbs import Limb
+from .motion import TICK_S, Motion
+from .pose import VirtualRobot
+from .stance import Carried
+
+STEP_S = 0.42
+"""Time of a step at NAO's highest step frequency. With the step lengths below: 0.095 m/s forward,
+0.071 m/s sideways, 0.48 rad/s turning. Source: NAO documentation, ALMotion walk parameters."""
+STEP_FORWARD_M = 0.04
+STEP_LEFT_M = 0.03
+STEP_TURN_RAD = 0.2
+_LONGEST_STEP = np.array([STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD])
+
+FOOT_LIFT_M = 0.02
+BOTH_FEET_PART = 0.3
+"""Part of a step in which both feet stand and the weight goes over to the other one."""
+LEAVING_S = 0.45
+"""Before the first step the weight goes to one foot, after the last one back between both."""
+SOLE_MIDDLE_M = 0.02
+"""So far in front of the ankle is the middle of the sole."""
+INWARD_M = 0.012
+"""So far from the middle of a sole towards the other foot the weight is carried."""
+GRAVITY_M_S2 = 9.81
+FASTEST_PART = 0.93
+"""Steps for which a joint would have to be faster than this part of its top speed take longer."""
+TRIES = 6
+CORRECTIONS = 3
+FILTER_S = 1.5
+SETTLING_S = 0.3
+
+
+@dataclass(frozen=True)
+class Walk:
+    """A walk: for each tick the legs' movement, and x m, y m, theta rad of feet and torso.
+
+    ``base`` (ticks, 3) is the middle between the feet, ``torso`` (ticks, 3) where the torso is;
+    both are relative to where the walk starts, x pointing forward. ``lean`` (3, 3) is how the
+    torso leans while it walks. ``weight`` (ticks, 2) is where the floor is to carry the robot.
+    """
+
+    legs: Motion
+    base: Angles
+    torso: Angles
+    lean: Frames
+    weight: Angles
+
+
+@dataclass(frozen=True)
+class _Feet:
+    """Where the ankles are at every tick (ticks, 3), m, and how they are turned (ticks,), rad."""
+
+    places: dict[str, Points]
+    yaws: dict[str, Angles]
+    weight: Points
+
+    @property
+    def yaw(self) -> Angles:
+        """How the base is turned: as the feet are, on the mean."""
+        return (self.yaws["L"] + self.yaws["R"]) / 2.0
+
+
+def plan_walk(
+    body: Body,
+    standing: Angles,
+    forward_m: float,
+    left_m: float,
+    turn: float,
+    *,
+    at_least_steps: int = 1,
+) -> Walk:
+    """Return the walk by so many m forward and left, turning ``turn`` rad evenly on the way.
+
+    ``standing``: the angles of every joint in the posture that it starts and ends in, feet flat.
+    """
+    way = np.array([forward_m, left_m, turn])
+    steps = max(at_least_steps, math.ceil(float(np.max(np.abs(way) / _LONGEST_STEP)) - 1e-9))
+    step_s = STEP_S
+    for _ in range(TRIES):
+        angles, walk = _walk(body, standing, way, steps, step_s)
+        part = _fastest_part(body, standing, angles)
+        if part <= FASTEST_PART:
+            break
+        step_s *= part / FASTEST_PART
+    return walk
+
+
+def _walk(
+    body: Body, standing: Angles, way: Angles, steps: int, step_s: float
+) -> tuple[Angles, Walk]:
+    """Return a walk of so many steps, and the angles of every joint in it."""
+    skeleton = Skeleton(body)
+    lean = skeleton.resting_turn(standing)
+    feet = _feet(way / steps, steps, step_s, leg_sizes(body).hip_left)
+    frames = skeleton.transforms(standing)
+    middle = lean @ skeleton.feet_middle(frames)
+    offset = lean @ skeleton.mass_centre(frames)
+    base = _base(feet, way)
+    ends = base[[0, -1], :2] + _turned(base[[0, -1], 2], np.tile((offset - middle)[:2], (2, 1)))
+    wanted = _swayed(feet.weight, float(offset[2] - middle[2]), ends)
+    angles = np.repeat(standing[None, :], len(base), axis=0)
+    path = _Path(dict(feet.yaws), wanted - _turned(feet.yaw, np.tile(offset[:2], (len(base), 1))))
+    for _ in range(CORRECTIONS):
+        _pose_legs(body, angles, feet, path, lean, -float(middle[2]))
+        path.correct(skeleton.transforms(angles), skeleton, lean, feet, wanted)
+    _pose_legs(body, angles, feet, path, lean, -float(middle[2]))
+    columns = tuple(i for i, joint in enumerate(body.joints) if joint.limb == "legs")
+    angles, _ = body.clamped(angles)
+    torso = np.column_stack([path.torso, path.yaw])
+    return angles, Walk(Motion(columns, angles[:, columns]), base, torso, lean, feet.weight)
+
+
+@dataclass
+class _Path:
+    """Where the torso is (ticks, 2), m, and how its feet are asked to be turned (ticks,), rad."""
+
+    yaws: dict[str, Angles]
+    torso: Points
+
+    @property
+    def yaw(self) -> Angles:
+        """How the torso is turned: as the feet, on the mean."""
+        return (self.yaws["L"] + self.yaws["R"]) / 2.0
+
+    def correct(
+        self, frames: Frames, skeleton: Skeleton, lean: Frames, feet: _Feet, wanted: Points
+    ) -> None:
+        """Come nearer to where mass and feet are wanted: legs weigh, and turn as they bend."""
+        masses = skeleton.mass_centre(frames) @ lean.T
+        there = self.torso + _turned(self.yaw, masses[:, :2])
+        yaw = self.yaw
+        for link in skeleton.soles:
+            heading = frames[:, skeleton.index[link], :3, 0] @ lean.T
+            turned = yaw + np.arctan2(heading[:, 1], heading[:, 0])
+            self.yaws[link[0]] = self.yaws[link[0]] - (turned - feet.yaws[link[0]])
+        self.torso = self.torso - _from_rest(there - wanted)
+
+
+def _fastest_part(body: Body, standing: Angles, angles: Angles) -> float:
+    """Return how fast the fastest joint moves, as a part of its top speed."""
+    steps = np.abs(np.diff(angles, axis=0, prepend=standing[None]))
+    return float((steps / TICK_S / body.max_speed).max())
+
+
+def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
+    swings = steps + 1
+    times_s = ticks(2.0 * LEAVING_S + swings * step_s, TICK_S)
+    swing_s = step_s * (1.0 - BOTH_FEET_PART)
+    begins_s = LEAVING_S + step_s * np.arange(swings)
+    places, yaws, stands = {}, {}, {}
+    for side, sign, first in (("L", 1.0, 0), ("R", -1.0, 1)):
+        gone, height = np.zeros_like(times_s), np.zeros_like(times_s)
+        here = 0.0
+        for swing in range(first, swings, 2):
+            s = np.clip((times_s - begins_s[swing]) / swing_s, 0.0, 1.0)
+            landing = float(min(swing + 1, steps))
+            gone += (landing - here) * minimum_jerk(s)
+            height += np.sin(np.pi * s) ** 2 * FOOT_LIFT_M
+            here = landing
+        places[side], yaws[side] = _foot(gone, step, sign * hip_left_m, height), gone * step[2]
+        middle, _ = _foot(gone, step, sign * (hip_left_m - INWARD_M), height), None
+        stands[side] = middle[:, :2] + SOLE_MIDDLE_M * _heading(yaws[side])
+    return _Feet(places, yaws, _weight(times_s, stands, swings, step_s))
+
+
+def _foot(gone: Angles, step: Angles, left_m: float, height: Angles) -> Points:
+    """Return where a foot is that has gone so many steps, ``left_m`` beside the way."""
+    yaw = gone * step[2]
+    x, y = gone * step[0] - left_m * np.sin(yaw), gone * step[1] + left_m * np.cos(yaw)
+    return np.column_stack([x, y, height])
+
+
+def _weight(times_s: Angles, stands: dict[str, Points], swings: int, step_s: float) -> Points:
+    """Return where the weight is carried: between the feet, then on each standing one in turn."""
+    changing_s = step_s * BOTH_FEET_PART
+    on_left, before = np.full_like(times_s, 0.5), 0.5
+    for swing in range(swings + 1):
+        after = 0.5 if swing == swings else float(swing % 2 == 1)
+        # the first and the last change have more time than those between steps
+        begin_s = LEAVING_S + swing * step_s - (2.0 if swing == 0 else 1.0) * changing_s
+        lasting_s = changing_s * (2.0 if swing in (0, swings) else 1.0)
+        part = minimum_jerk(np.clip((times_s - begin_s) / lasting_s, 0.0, 1.0))
+        on_left += (after - before) * part
+        before = after
+    share = on_left[:, None]
+    weight: Points = share * stands["L"] + (1.0 - share) * stands["R"]
+    return weight
+
+
+def _swayed(weight: Points, height_m: float, ends: Points) -> Points:
+    """Return how the centre of mass moves (ticks, 2) so that the floor carries it at ``weight``.
+
+    The mass m at the height h obeys weight = x - h/g x''. Of its solutions, this is the one that
+    does not run away: the weight's path filtered by k/2 exp(-k |t|), k = sqrt(g/h).
+    ``ends`` (2, 2): where it rests before and after.
+    """
+    k = math.sqrt(GRAVITY_M_S2 / height_m)
+    count = round(FILTER_S / TICK_S)
+    kernel = np.exp(-k * TICK_S * np.abs(np.arange(-count, count + 1)))
+    kernel /= kernel.sum()
+    padded = np.vstack([np.repeat(weight[:1], count, 0), weight, np.repeat(weight[-1:], count, 0)])
+    swayed = np.column_stack(
+        [np.convolve(padded[:, axis], kernel, mode="valid") for axis in (0, 1)]
+    )
+    before = _fading(len(swayed))
+    missing = ends - swayed[[0, -1]]
+    rested: Points = swayed + before * missing[0] + before[::-1] * missing[1]
+    return rested
+
+
+def _fading(count: int) -> Points:
+    """Return rows (count, 1) that begin with 1 and soon become 0."""
+    part: Points = 1.0 - minimum_jerk(np.clip(np.arange(count) * TICK_S / SETTLING_S, 0.0, 1.0))
+    return part[:, None]
+
+
+def _from_rest(correction: Points) -> Points:
+    """Return a correction that is 0 at the beginning and at the end."""
+    at_rest = _fading(len(correction))
+    return correction * np.minimum(1.0 - at_rest, 1.0 - at_rest[::-1])
+
+
+def _pose_legs(
+    body: Body, angles: Angles, feet: _Feet, path: _Path, lean: Frames, height_m: float
+) -> None:
+    ankles = {}
+    for side, places in feet.places.items():
+        level = _turned(-path.yaw, places[:, :2] - path.torso)
+        seen = np.column_stack([level, places[:, 2] - height_m])
+        ankles[side] = seen @ lean
+    write_legs(body, angles, ankles, lean[2], path.yaws["L"] - path.yaws["R"])
+
+
+def _base(feet: _Feet, way: Angles) -> Angles:
+    middle = (feet.places["L"] + feet.places["R"])[:, :2] / 2.0
+    base = np.column_stack([middle, feet.yaw])
+    base[-1] = way
+    return base
+
+
+def _heading(yaw: Angles) -> Points:
+    return np.column_stack([np.cos(yaw), np.sin(yaw)])
+
+
+def _turned(yaw: Angles, vectors: Points) -> Points:
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    x, y = vectors[:, 0], vectors[:, 1]
+    return np.column_stack([x * cosine - y * sine, x * sine + y * cosine])
+
+
+# How NAO ends a walk in the middle of a step: it puts its feet side by side.
+
+JOINING_S = 0.5
+JOINING_FASTEST_PART = 0.9
+JOINING_TRIES = 4
+SIDES = {"L": 1.0, "R": -1.0}
+SOLE_DOWN_M = 0.04511
+BESIDE_M = 0.005
+"""Feet that are so near to where they belong need not be lifted."""
+
+
+@dataclass(frozen=True)
+class Joining:
+    """The legs' movement, where the torso is meanwhile, and the base at the end."""
+
+    legs: Motion
+    guides: list[Carried]
+    base: Angles
+
+
+@dataclass(frozen=True)
+class _Foot:
+    place: Points
+    heading: float
+
+
+def plan_joining(robot: VirtualRobot, standing: Angles) -> Joining:
+    """Return how a walking robot comes to stand. ``standing``: every joint when it stands still."""
+    feet = {side: _foot_at(robot, side) for side in SIDES}
+    firm = min(feet, key=lambda side: _looseness(robot, feet[side]))
+    there = _Foot(feet[firm].place, feet[firm].heading)
+    middle = there.place + turned(there.heading) @ [
+        0.0,
+        -SIDES[firm] * leg_sizes(robot.body).hip_left,
+        0.0,
+    ]
+    base = np.array([middle[0], middle[1], there.heading])
+    seconds = JOINING_S
+    for _ in range(JOINING_TRIES):
+        angles, guides = _planned(robot, standing, feet, firm, base, seconds)
+        steps = np.abs(np.diff(angles, axis=0, prepend=robot.angles[None]))
+        part = float((steps / TICK_S / robot.body.max_speed).max())
+        if part <= JOINING_FASTEST_PART:
+            break
+        seconds *= part / JOINING_FASTEST_PART
+    columns = robot.body.columns({Limb.LEGS})
+    return Joining(Motion(tuple(columns), angles[:, columns]), guides, base)
+
+
+def _planned(
+    robot: VirtualRobot,
+    standing: Angles,
+    feet: dict[str, _Foot],
+    firm: str,
+    base: Angles,
+    seconds: float,
+) -> tuple[Angles, list[Carried]]:
+    skeleton, stance = robot.stance.skeleton, robot.stance
+    part = minimum_jerk(ticks(seconds, TICK_S) / seconds)
+    lean = skeleton.resting_turn(standing)
+    heading = math.atan2(stance.turn[1, 0], stance.turn[0, 0])
+    yaw = heading + part * math.remainder(base[2] - heading, 2.0 * math.pi)
+    feet_middle = lean @ skeleton.feet_middle(skeleton.transforms(standing))
+    goal = np.array([*base[:2], SOLE_DOWN_M]) - turned(float(base[2])) @ feet_middle
+    torso = stance.place + part[:, None] * (goal - stance.place)
+    ankles, yaws = {}, {}
+    for side, sign in SIDES.items():
+        aside_m = sign * leg_sizes(robot.body).hip_left
+        places, yaws[side] = _way(feet[side], base, aside_m, part)
+        ankles[side] = _level(places - torso, yaw) @ lean
+    angles = np.repeat(standing[None, :], len(part), axis=0)
+    write_legs(robot.body, angles, ankles, lean[2], yaws["L"] - yaws["R"])
+    first = angles[0].copy()
+    angles += (1.0 - part)[:, None] * (robot.angles - first)
+    guides = [
+        Carried(turned(float(turn)) @ lean, float(x), float(y))
+        for turn, (x, y, _) in zip(yaw, torso, strict=True)
+    ]
+    return robot.body.clamped(angles)[0], guides
+
+
+def _foot_at(robot: VirtualRobot, side: str) -> _Foot:
+    link = f"{side}_ankle"
+    turn = robot.stance.link_turn(link)
+    return _Foot(robot.stance.link_place(link), math.atan2(turn[1, 0], turn[0, 0]))
+
+
+def _looseness(robot: VirtualRobot, foot: _Foot) -> float:
+    """Return how little a foot carries: the higher it is, or the farther from below the mass."""
+    away_m = float(np.linalg.norm(foot.place[:2] - robot.stance.centre_of_mass[:2]))
+    return float(foot.place[2]) + 0.01 * away_m
+
+
+def _way(foot: _Foot, base: Angles, aside_m: float, part: Angles) -> tuple[Points, Angles]:
+    """Return where a foot is while it comes to its side of the base, and how it is turned."""
+    goal = np.array([*base[:2], SOLE_DOWN_M])
+    goal += turned(float(base[2])) @ [0.0, aside_m, 0.0]
+    way = goal - foot.place
+    places = foot.place + part[:, None] * way
+    if float(np.hypot(*way[:2])) > BESIDE_M:
+        places[:, 2] += np.sin(np.pi * part) ** 2 * FOOT_LIFT_M
+    turn = math.remainder(base[2] - foot.heading, 2.0 * math.pi)
+    return places, foot.heading + part * turn
+
+
+def _level(vectors: Points, yaw: Angles) -> Points:
+    """Return vectors (ticks, 3) of the room as something sees them that is turned by ``yaw``."""
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    x, y, z = vectors.T
+    return np.column_stack([x * cosine + y * sine, y * cosine - x * sine, z])

@@ -1,0 +1,204 @@
+"""Inverse kinematics: the joint angles that bring points of the body to places, within limits.
+
+Damped least squares with joints that stop at their limits. Source: S. R. Buss and J.-S. Kim,
+Selectively damped least squares for inverse kinematics, J. Graphics Tools 10, 2005.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .body import Angles
+from .kinematics import TORSO, Frames, Points, Skeleton
+
+STEPS = 12
+DAMPING = 0.012
+"""In m per rad: what a joint may turn to come nearer by this much less."""
+LARGEST_TURN_RAD = 0.35
+"""In one step; a joint's way is straight for no longer."""
+LEAST_GAIN = 1e-3
+"""A step that brings it nearer by less than this part is the last one."""
+NEAR_M = 5e-4
+NEAR_RAD = 0.005
+TURN_WEIGHT_M = 0.06
+"""What a rad in the wrong direction weighs, in m."""
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A point of a link (m, in its frame) that is to come to a place (m, in the torso's frame).
+
+    ``turn``: how the link is to be turned (3, 3, in the torso's frame), None where that is free.
+    """
+
+    link: str
+    point: tuple[float, float, float]
+    place: Points
+    turn: Frames | None = None
+
+
+class Reach:
+    """Moves the joints of one skeleton so that points of its links come to places."""
+
+    def __init__(self, skeleton: Skeleton) -> None:
+        self.skeleton, self.body = skeleton, skeleton.body
+        turning = [(i, joint) for i, joint in enumerate(self.body.joints) if joint.child]
+        self._joint_of = {joint.child: i for i, joint in turning}
+        self._parent = {joint.child: joint.parent for _, joint in turning}
+        axes = {joint.child: np.array(joint.axis) for _, joint in turning}
+        self._axes = {link: axis / np.linalg.norm(axis) for link, axis in axes.items()}
+        followers = self.body.same_motor
+        self._shared = {self.body.index[n] for pair in followers.items() for n in pair}
+
+    def columns(self, link: str) -> list[int]:
+        """Where the joints between the torso and a link are in the body's joint order.
+
+        Joints that share a motor with another limb's are left out: they would move that one too.
+        """
+        return [c for _, c in self._chain(link) if c not in self._shared]
+
+    def place(self, angles: Angles, link: str, point: Sequence[float]) -> Points:
+        """Where a point of a link is, in the torso's frame."""
+        frame = self.skeleton.transforms(angles)[self.skeleton.index[link]]
+        place: Points = frame[:3, :3] @ np.asarray(point) + frame[:3, 3]
+        return place
+
+    def reached(self, angles: Angles, *goals: Goal, steps: int = STEPS) -> Angles:
+        """Return angles that bring the points as near to their places as the joints allow.
+
+        Other joints stay. The angles are always such as the body can have.
+        """
+        columns = sorted({c for goal in goals for c in self.columns(goal.link)})
+        best = now = self.body.clamped(angles)[0]
+        least = np.inf
+        for _ in range(steps + 1):
+            frames = self.skeleton.transforms(now)
+            wrong = np.concatenate([self._wrong(frames, goal) for goal in goals])
+            size = float(wrong @ wrong)
+            gained = least - size
+            if gained > 0.0:
+                best, least = now, size
+            if gained < LEAST_GAIN * size or self._is_near(wrong, goals):
+                break
+            jacobian = np.vstack([self._jacobian(frames, goal, columns) for goal in goals])
+            now = self._stepped(now, columns, jacobian, wrong)
+        return best
+
+    def _chain(self, link: str) -> list[tuple[str, int]]:
+        """The links from the torso to one, each with the column of the joint that turns it."""
+        found: list[tuple[str, int]] = []
+        while link != TORSO:
+            found.append((link, self._joint_of[link]))
+            link = self._parent[link]
+        return found[::-1]
+
+    def _wrong(self, frames: Frames, goal: Goal) -> Points:
+        """What is missing to a goal: m, and where the turn counts rad, weighted."""
+        frame = frames[self.skeleton.index[goal.link]]
+        way = goal.place - frame[:3, :3] @ np.asarray(goal.point) - frame[:3, 3]
+        if goal.turn is None:
+            return np.asarray(way)
+        return np.append(way, TURN_WEIGHT_M * turn_between(frame[:3, :3], goal.turn))
+
+    def _jacobian(self, frames: Frames, goal: Goal, columns: list[int]) -> Points:
+        """How the point (and the turn) move for each of the joints: (3 or 6, columns)."""
+        index = self.skeleton.index
+        frame = frames[index[goal.link]]
+        point = frame[:3, :3] @ np.asarray(goal.point) + frame[:3, 3]
+        rows = np.zeros((3 if goal.turn is None else 6, len(columns)))
+        for link, column in self._chain(goal.link):
+            if column not in columns:
+                continue
+            own = frames[index[link]]
+            axis = own[:3, :3] @ self._axes[link]
+            at = columns.index(column)
+            rows[:3, at] = _crossed(axis, point - own[:3, 3])
+            if goal.turn is not None:
+                rows[3:, at] = TURN_WEIGHT_M * axis
+        return rows
+
+    def _stepped(
+        self, angles: Angles, columns: list[int], jacobian: Points, wrong: Points
+    ) -> Angles:
+        """One step; a joint at its limit that would go beyond it lets the others do it."""
+        free = list(range(len(columns)))
+        low, high = self._limits(angles, columns)
+        now = angles[columns]
+        change = np.zeros(len(columns))
+        while free:
+            part = jacobian[:, free]
+            square = part @ part.T + DAMPING**2 * np.eye(len(wrong))
+            change[:] = 0.0
+            change[free] = part.T @ np.linalg.solve(square, wrong)
+            change *= min(1.0, LARGEST_TURN_RAD / max(float(np.abs(change).max()), 1e-12))
+            beyond = [
+                i
+                for i in free
+                if (now[i] >= high[i] - 1e-9 and change[i] > 0.0)
+                or (now[i] <= low[i] + 1e-9 and change[i] < 0.0)
+            ]
+            if not beyond:
+                break
+            free = [i for i in free if i not in beyond]
+        result = angles.copy()
+        result[columns] = np.clip(now + change, low, high) if free else now
+        return self.body.clamped(result)[0]
+
+    def _limits(self, angles: Angles, columns: list[int]) -> tuple[Angles, Angles]:
+        """The limits of some joints; the head nods as far as the shell lets it as it is turned."""
+        low, high = self.body.min[columns], self.body.max[columns]
+        yaw, pitch = self.body.head
+        if pitch in columns:
+            at = columns.index(pitch)
+            least, most = self.body.pitch_limits(angles[yaw])
+            low[at], high[at] = max(low[at], float(least)), min(high[at], float(most))
+        return low, high
+
+    @staticmethod
+    def _is_near(wrong: Points, goals: Sequence[Goal]) -> bool:
+        at = 0
+        for goal in goals:
+            if np.linalg.norm(wrong[at : at + 3]) > NEAR_M:
+                return False
+            at += 3
+            if goal.turn is not None:
+                if np.linalg.norm(wrong[at : at + 3]) > NEAR_RAD * TURN_WEIGHT_M:
+                    return False
+                at += 3
+        return True
+
+
+def turn_between(now: Frames, goal: Frames) -> Points:
+    """Return the turn (axis times rad, in the outer frame) that brings one rotation to another."""
+    between = goal @ now.T
+    axis = np.array(
+        [
+            between[2, 1] - between[1, 2],
+            between[0, 2] - between[2, 0],
+            between[1, 0] - between[0, 1],
+        ]
+    )
+    sine, cosine = float(np.linalg.norm(axis)) / 2.0, (float(np.trace(between)) - 1.0) / 2.0
+    if sine < 1e-9:
+        return np.zeros(3) if cosine > 0.0 else np.array([np.pi, 0.0, 0.0])
+    turn: Points = axis / (2.0 * sine) * np.arctan2(sine, cosine)
+    return turn
+
+
+def mirrored_pose(angles: dict[str, float]) -> dict[str, float]:
+    """Return angles for the other side of the body, as in a mirror; the head's stay."""
+    found = {}
+    for name, angle in angles.items():
+        if name[:1] in "LR" and not name.startswith("Head"):
+            sign = -1.0 if name.endswith(("Roll", "Yaw")) else 1.0
+            found[{"L": "R", "R": "L"}[name[0]] + name[1:]] = sign * angle
+    return found
+
+
+def _crossed(a: Points, b: Points) -> Points:
+    return np.array(
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    )

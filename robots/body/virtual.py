@@ -1,0 +1,319 @@
+"""The driver of the NAO on the screen: a body in numpy that moves on a clock of its own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from faults import Text, fault_of
+from nep_core.program.human import plain, state_of_thing, state_of_word
+from nep_core.wire.messages import RobotState, SenseRequest, Thing
+
+from .actions import Action
+from .body import SINGLE_PARTS
+from .driver import Connection, Ended
+from .falling import Sagging, fall, fallen_sentence, gives_way, sink, steadily, sunk_sentence
+from .gaze import from_world, to_world
+from .idling import Idling
+from .limbs import MOVING, TOUCH_SENSORS, Limb
+from .motion import TICK_S
+from .pose import TOLD, VirtualRobot
+from .repertoire import limbs_of, task_of
+from .schedule import Running, Task, advance
+from .sensors import measured, turning_rad_s
+from .surroundings import Notice, distance_word
+from .walking import come_to_rest
+
+# What hands do to a virtual robot: they push it, and put it somewhere else.
+
+Place = tuple[float, float, float]
+
+
+def push(robot: VirtualRobot, towards: Place) -> None:
+    """Push a robot towards a place (x, y m from its feet) so hard that it tips over."""
+    x, y, _ = towards
+    if math.isfinite(x) and math.isfinite(y):
+        robot.stance.push(float(robot.base[2]) + math.atan2(y, x))
+
+
+def put(robot: VirtualRobot, place: Place) -> None:
+    """Put a robot down at a place (x m, y m, theta rad on the floor), in the posture it is in."""
+    if all(math.isfinite(value) for value in place):
+        robot.base[:] = place
+        robot.stance.put_down(
+            robot.angles, np.array(place), robot.body.postures[robot.posture].down
+        )
+
+
+# What a virtual robot is told to feel, see and hear, and what that says about the person.
+
+THINGS = ("face", "ball", "sound", "mark")
+HANDLED = {"push": push, "place": put}
+
+
+def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
+    """Take in what the robot is told to sense; return the human states that follow from it."""
+    if request.sense == "word":
+        return [state_of_word(request.name)] if plain(request.name) else []
+    if request.sense in THINGS:
+        return _see(robot, request)
+    if request.sense == "usual":
+        robot.felt.clear()
+        return []
+    if request.sense in HANDLED:
+        HANDLED[request.sense](robot, request.place)
+        return []
+    was_touched = robot.felt.get(request.sense, 0.0) > 0.0
+    robot.felt[request.sense] = request.value
+    if request.sense in TOUCH_SENSORS and request.value > 0.0 and not was_touched:
+        return _touched(request.sense)
+    return []
+
+
+def _see(robot: VirtualRobot, request: SenseRequest) -> list[str]:
+    name = plain(request.name)
+    if request.sense == "face":
+        name = robot.faces.name_of(TOLD + name, name)
+    things = [request.sense, *([f"{request.sense}_{name}"] if name else [])]
+    new = [thing for thing in things if thing not in robot.sees]
+    if request.value <= 0.0:
+        for thing in things:
+            robot.sees.pop(thing, None)
+        return []
+    place = to_world(robot, request.place)
+    robot.sees |= dict.fromkeys(things, place)
+    states = [state_of_thing(thing) for thing in reversed(new)]
+    if request.sense == "face":
+        states.append(f"person_{distance_word(request.place)}")
+    return states
+
+
+def _touched(sensor: str) -> list[str]:
+    """The sensor by itself, then the part of the body that it is on."""
+    part = sensor.partition("_")[0]
+    return [f"touched_{sensor}", f"touched_{part}"]
+
+
+LOOKING_S = 0.1
+BATTERY_S = 90.0 * 60.0
+"""So long a full battery lasts. Source: NAO documentation, in normal use."""
+TICKS_IN_TIME, MOST_TICKS_A_LOOK = 4, 8
+"""A robot that lives faster looks less often how it stands: so many ticks at once are in time."""
+MOST_TICKS = 1000
+FELL = "robot_fell"
+"""What is told when the robot has lost its balance."""
+
+
+class VirtualDriver:
+    """Plays actions on a virtual robot, one tick (TICK_S) after the other.
+
+    ``now_s`` may run faster than real time; nothing here reads a clock.
+    """
+
+    def __init__(self, robot: VirtualRobot, now_s: float = 0.0) -> None:
+        self.robot = robot
+        self.connection = Connection("disconnected")
+        self._clock_s = now_s
+        self._running: dict[str, Running] = {}
+        self._held_up: dict[str, Running] = {}  # until limbs that brake have come to rest
+        self._braking: list[Running] = []
+        self._joint_speed = np.zeros(len(robot.body.names))
+        self._turning = np.zeros(3)
+        self._idling = Idling(robot)
+        self._sagging = Sagging(robot)
+        self._notice = Notice(robot)
+        self._noticed: list[str] = []
+        self._next_look_s = now_s
+        self._ticks_a_look = 1
+        self._ticks_since_look = 0
+
+    @property
+    def moving(self) -> bool:
+        """Whether the robot does something, if only by itself."""
+        return self.is_busy or self._idling.is_active or self._sagging.is_active
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether the robot does something that it was asked for, or falls."""
+        return bool(self._running or self._held_up or self._braking or not self._is_steady)
+
+    @property
+    def _is_steady(self) -> bool:
+        return self.robot.stance.is_steady
+
+    def connect(self) -> None:
+        """Be connected at once: the robot is in this process."""
+        words = fault_of("virtual NAO, {family}", family=Text(self.robot.family))
+        self.connection = Connection("connected", words)
+
+    def disconnect(self) -> None:
+        """Let the robot be."""
+        self.stop({*self._running, *self._held_up})
+        self.connection = Connection("disconnected")
+
+    def limbs(self, action: Action) -> frozenset[Limb]:
+        """Return the limbs that an action needs. Raises ActionFailed if a name is unknown."""
+        return limbs_of(self.robot, action)
+
+    def start(self, command_id: str, action: Action) -> None:
+        """Begin an action; ``step`` tells when it has ended."""
+        limbs = self.limbs(action)
+        task = task_of(self.robot, action)
+        if limbs & MOVING:
+            task = steadily(self.robot, task)
+        started = self._held_up if self._braking else self._running
+        started[command_id] = Running(task, limbs)
+
+    def stop(self, command_ids: Collection[str]) -> None:
+        """End some actions: their joints brake, which holds up later actions for a moment."""
+        limbs: set[Limb] = set()
+        for command_id in command_ids:
+            self._held_up.pop(command_id, None)
+            if stopped := self._running.pop(command_id, None):
+                stopped.task.close()
+                limbs |= stopped.limbs
+        if limbs & MOVING:
+            rest = come_to_rest(self.robot, limbs, self._joint_speed)
+            self._braking.append(Running(rest, frozenset(limbs)))
+
+    def surroundings(self, things: Sequence[Thing]) -> None:
+        """Take in what stands around the robot; it notices by itself what is in sight."""
+        self.robot.things = tuple(things)
+        self._next_look_s = self._clock_s
+
+    def step(self, now_s: float) -> list[Ended]:
+        """Go on to a time, or to the first tick in which a command ends.
+
+        A time that is too far off is not reached at once: the robot lives slower for a moment.
+        """
+        self._look_around(now_s)
+        hurry = int((now_s - self._clock_s) / TICK_S) // TICKS_IN_TIME
+        self._ticks_a_look = min(max(hurry, 1), MOST_TICKS_A_LOOK)
+        for _ in range(MOST_TICKS):
+            if not self.moving or self._clock_s + TICK_S > now_s:
+                break
+            self._clock_s += TICK_S
+            if ended := self._tick():
+                return ended
+        if self._ticks_since_look:
+            self._follow(must=True)
+        if not self.moving:
+            self._use_battery(now_s - self._clock_s)
+            self._clock_s = now_s
+        return []
+
+    def state(self) -> RobotState:
+        """Return where the robot's body is."""
+        robot = self.robot
+        x, y, theta = (float(value) for value in robot.base)
+        return RobotState(
+            robot=robot.name,
+            model=robot.model,
+            joints=dict(zip(robot.body.names, robot.angles.round(5).tolist(), strict=True)),
+            base=(x, y, theta),
+            torso=robot.stance.pose,
+            fallen=robot.fallen,
+            posture=robot.posture,
+            leds=dict(robot.leds),
+            saying=robot.saying,
+            moving=self.moves_joints,
+            battery=round(robot.felt.get("battery", robot.battery), 3),
+            sensors=measured(robot, self._joint_speed, self._turning),
+            sees={thing: from_world(robot, place) for thing, place in robot.seen.items()},
+            settings=self._settings(),
+            listening=list(robot.listening),
+        )
+
+    def sense(self, request: SenseRequest) -> list[str]:
+        """Feel, see or hear something; return the human states that follow from it."""
+        return sense(self.robot, request)
+
+    def expect(self, words: Sequence[str]) -> None:
+        """Do nothing: it hears every word."""
+
+    def noticed(self) -> list[str]:
+        """Return the human states that the robot has noticed by itself since the last call."""
+        noticed, self._noticed = self._noticed, []
+        return noticed
+
+    def halt(self) -> None:
+        """Do nothing: ``stop`` has ended all that this robot does."""
+
+    @property
+    def moves_joints(self) -> bool:
+        """Whether joints move, or are about to."""
+        running = [*self._running.values(), *self._held_up.values()]
+        return bool(self._braking or any(one.limbs & MOVING for one in running))
+
+    def _settings(self) -> dict[str, bool | float | str]:
+        robot = self.robot
+        locked = {f"locked_{part}": part not in robot.released for part in SINGLE_PARTS}
+        awake = not robot.released and robot.posture != "Rest"
+        return {**robot.settings, "awake": awake, **locked}
+
+    def _tick(self) -> list[Ended]:
+        angles = self.robot.angles.copy()
+        self._use_battery(TICK_S)
+        self._braking = [one for one in self._braking if not _is_over(one.task)]
+        ended = [end for name in tuple(self._running) if (end := advance(self._running, name))]
+        if not self._braking:
+            self._running |= self._held_up
+            self._held_up.clear()
+        self._idling.step(self._used_limbs(), self._clock_s)
+        self._sagging.step()
+        self._ticks_since_look += 1
+        self._follow(must=bool(ended))
+        self._joint_speed = (self.robot.angles - angles) / TICK_S
+        if self.robot.stance.has_lost_balance and not self.robot.fallen:
+            ended += self._fall()
+        elif gives_way(self.robot):
+            sentence = sunk_sentence(self.robot)
+            ended += self._instead(sink(self.robot), sentence, frozenset({Limb.LEGS}))
+        self._look_around(self._clock_s)
+        return ended
+
+    def _follow(self, *, must: bool) -> None:
+        """Let the body stand on the floor as its joints are now; not at each tick in a hurry."""
+        if must or self._ticks_since_look >= self._ticks_a_look:
+            seconds, before = TICK_S * self._ticks_since_look, self.robot.stance.turn
+            self.robot.stance.follow(self.robot.angles, seconds)
+            self._turning = turning_rad_s(before, self.robot.stance.turn, seconds)
+            self._ticks_since_look = 0
+
+    def _used_limbs(self) -> frozenset[Limb]:
+        """Return the limbs that move for a command, or come to rest."""
+        running = [*self._running.values(), *self._held_up.values(), *self._braking]
+        return frozenset(limb for one in running for limb in one.limbs)
+
+    def _look_around(self, now_s: float) -> None:
+        """Notice what is in sight, some times a second."""
+        if now_s >= self._next_look_s:
+            self._next_look_s = now_s + LOOKING_S
+            self._noticed += self._notice.look(now_s)
+
+    def _use_battery(self, seconds: float) -> None:
+        self.robot.battery = max(0.0, self.robot.battery - seconds / BATTERY_S)
+
+    def _fall(self) -> list[Ended]:
+        """Fall down; what moved the body has failed."""
+        self._noticed.append(FELL)
+        return self._instead(fall(self.robot), fallen_sentence(self.robot), MOVING)
+
+    def _instead(self, task: Task, why: Text, limbs: frozenset[Limb]) -> list[Ended]:
+        """Do something instead of all that uses some limbs, which has failed."""
+        moving = [name for name, one in self._running.items() if one.limbs & limbs]
+        for name in moving:
+            self._running.pop(name).task.close()
+        self._braking = [Running(task, limbs)]
+        return [Ended(name, "failed", fault_of(why)) for name in moving]
+
+
+def _is_over(task: Task) -> bool:
+    """Advance a task by one tick, and return whether that was its end."""
+    try:
+        next(task)
+    except StopIteration:
+        return True
+    return False

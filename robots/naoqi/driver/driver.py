@@ -1,0 +1,297 @@
+"""The driver of a real NAO: plays actions over NAOqi, and says true things about the robot."""
+
+from __future__ import annotations
+
+import logging
+import math
+import queue
+from collections.abc import Callable, Collection, Sequence
+from typing import Any
+
+from faults import fault_of
+from nep_core.errors import ActionFailed
+from nep_core.wire.messages import RobotState, SenseRequest, Thing
+from robots.body import actions as a
+from robots.body import actions as b
+from robots.body import actions as m
+from robots.body import actions as s
+from robots.body import repertoire as virtual
+from robots.body.actions import Action, Listen
+from robots.body.body import SINGLE_PARTS
+from robots.body.driver import Connection, Ended
+from robots.body.gaze import from_world
+from robots.body.limbs import MOVING, Limb
+from robots.body.pose import VirtualRobot
+from robots.body.schedule import Running, Task, advance
+from robots.naoqi.discovery import read_address
+
+from . import link, media, moving, speech, walking
+from .calls import Calls, waited
+from .link import Heard, Link, Reached, reach
+from .noticing import Noticing
+from .real import RealRobot
+from .speech import Hearing
+from .watching import Watching
+
+log = logging.getLogger(__name__)
+
+
+# Which limbs each action needs, and the task by which a real robot does it.
+
+LIMBS: dict[type[a.Action], frozenset[Limb]] = {
+    s.TakePicture: frozenset(),
+    s.RecordVideo: frozenset(),
+}
+"""What the virtual robot cannot do needs these; all else needs what it needs there."""
+ANY_MOTORS = (
+    a.Do,
+    b.WakeUp,
+    b.Rest,
+    b.Stiffness,
+    m.SetStiffness,
+    m.Approach,
+)
+"""What is done with motors that are off as well."""
+
+TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
+    a.Say: speech.say,
+    a.Do: moving.posture_task,
+    a.Imitate: speech.imitate,
+    a.Play: speech.play_changed,
+    a.Walk: lambda robot, it: walking.walk(
+        robot, it.forward_m, it.left_m, math.radians(it.turn_deg)
+    ),
+    a.Turn: lambda robot, it: walking.walk(robot, 0.0, 0.0, math.radians(it.degrees)),
+    a.Look: lambda robot, it: walking.look(
+        robot, math.radians(it.yaw_deg), math.radians(it.pitch_deg)
+    ),
+    a.Leds: media.light,
+    b.Hand: moving.move_hands,
+    b.MoveJoint: moving.move_joint,
+    b.Stiffness: lambda robot, it: moving.lock(robot, it.part, on=it.on),
+    b.WakeUp: lambda robot, _: moving.wake_up(robot),
+    b.Rest: lambda robot, _: moving.rest(robot),
+    b.Awareness: moving.set_life,
+    b.Breathing: moving.set_life,
+    b.WalkFreely: walking.walk_freely,
+    b.LookAt: lambda robot, it: walking.look_at(robot, (it.x_m, it.y_m, it.z_m), it.frame),
+    b.LookAtSeen: lambda robot, it: walking.look_at_seen(robot, it.thing),
+    b.PointAt: walking.point_at,
+    b.Track: walking.track,
+    m.Approach: moving.approach,
+    m.ReachAngles: moving.reach_angles,
+    m.MoveThrough: moving.move_through,
+    m.SetStiffness: moving.set_stiffness,
+    m.Silence: lambda _, it: waited(it.seconds),
+    s.Volume: speech.set_volume,
+    s.SetLanguage: speech.set_language,
+    s.Intensity: media.set_intensity,
+    s.ResetLeds: media.reset,
+    s.RandomEyes: media.play_of_colours,
+    s.RotateEyes: media.play_of_colours,
+    s.LearnFace: media.learn_face,
+    s.ForgetFace: media.forget_face,
+    s.TakePicture: media.take_picture,
+    s.RecordVideo: media.record_video,
+    s.PlaySound: media.play_sound,
+}
+"""How a real robot does each action; a test sees that none is missing."""
+
+
+def limbs_of(robot: RealRobot, action: a.Action) -> frozenset[Limb]:
+    """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
+    known = LIMBS.get(type(action))
+    return virtual.limbs_of(robot.known, action) if known is None else known
+
+
+def task_of(robot: RealRobot, action: a.Action) -> Task:
+    """Return the task that does an action; what it moves must be locked."""
+    task = TASKS[type(action)](robot, action)
+    limbs = limbs_of(robot, action)
+    if isinstance(action, ANY_MOTORS) or not limbs & MOVING:
+        return task
+    return _moving(robot, limbs, task)
+
+
+def _moving(robot: RealRobot, limbs: frozenset[Limb], task: Task) -> Task:
+    yield from robot.take_over()
+    robot.check_locked(limbs)
+    return (yield from task)
+
+
+class NaoqiDriver:
+    """Plays actions on a robot that speaks NAOqi. Nothing here waits; threads only bring news."""
+
+    def __init__(self, known: VirtualRobot, address: str) -> None:
+        """``known``: a body like the robot's, which becomes a picture of it."""
+        self._address = read_address(address)
+        self._heard: Heard = queue.SimpleQueue()
+        self._link = Link(known.name, self._address, self._reach)
+        self._robot = RealRobot(known, Calls(known.name, {}))
+        self._noticing = Noticing(self._robot)
+        self._watching = Watching(self._robot)
+        self._hearing = Hearing(self._robot)
+        self._running: dict[str, Running] = {}
+        self._noticed: list[str] = []
+        self._has_met_before = False
+
+    @property
+    def connection(self) -> Connection:
+        """How the link to the robot is, and what a person should look at."""
+        return self._link.connection
+
+    @property
+    def moving(self) -> bool:
+        """Whether the robot does something."""
+        return bool(self._running)
+
+    def connect(self) -> None:
+        """Begin to connect, and keep trying until ``disconnect``."""
+        self._link.connect()
+
+    def disconnect(self) -> None:
+        """Stop what the robot does, and give it up."""
+        self.stop(list(self._running))
+        self._robot.calls.wait_for_stops()
+        self._link.disconnect()
+
+    def limbs(self, action: Action) -> frozenset[Limb]:
+        """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
+        if self._link.state != "ready" or not self._watching.has_met:
+            raise ActionFailed.of(self._link.connection.fault)
+        return limbs_of(self._robot, action)
+
+    def start(self, command_id: str, action: Action) -> None:
+        """Begin an action; ``step`` tells when it has ended."""
+        if isinstance(action, Listen):
+            task = self._hearing.listen(action)
+        else:
+            task = task_of(self._robot, action)
+        task = self._robot.calls.after_stops(task)
+        self._running[command_id] = Running(task, limbs_of(self._robot, action))
+
+    def stop(self, command_ids: Collection[str]) -> None:
+        """End some actions at once: each ends what it has begun on the robot."""
+        for command_id in command_ids:
+            if stopped := self._running.pop(command_id, None):
+                stopped.task.close()
+
+    def halt(self) -> None:
+        """Stop motion, posture, speech and following, whoever began them."""
+        self._robot.calls.stop_all()
+        self._robot.known.settings["tracking"] = ""
+
+    def step(self, now_s: float) -> list[Ended]:
+        """Take in what has come from the robot; return what has ended."""
+        if reached := self._link.step():
+            self._arrive(reached)
+        if self._link.state != "ready":
+            return self._fail_all()  # also what has waited for its limbs, and begins only now
+        self._watching.step(is_moving=self.moving)
+        if self._watching.is_frozen:
+            self._link.freeze()
+            return self._fail_all()
+        self._notice()
+        if self._watching.has_met:
+            self._tell_condition()
+            self._hearing.step()
+        return [end for name in tuple(self._running) if (end := self._advance(name))]
+
+    def expect(self, words: Sequence[str]) -> None:
+        """Listen for the words that rules wait for, from now on, also after a lost link."""
+        self._hearing.expected = tuple(words)
+
+    def noticed(self) -> list[str]:
+        """Return the human states that the robot has noticed by itself since the last call."""
+        noticed, self._noticed = self._noticed, []
+        return noticed
+
+    def state(self) -> RobotState | None:
+        """Return where the robot's body is, or None when that is not known."""
+        if self._link.state != "ready" or not self._watching.has_met:
+            return None
+        known = self._robot.known
+        x, y, theta = (float(value) for value in known.base)
+        return RobotState(
+            robot=known.name,
+            model=known.model,
+            joints=dict(zip(known.body.names, known.angles.round(5).tolist(), strict=True)),
+            base=(x, y, theta),
+            torso=self._robot.torso or known.stance.pose,
+            fallen=self._robot.has_fallen,
+            posture=known.posture,
+            leds=dict(known.leds),
+            saying=known.saying,
+            moving=any(one.limbs & MOVING for one in self._running.values()),
+            battery=self._robot.battery,
+            sensors=self._robot.sensors | self._noticing.touched,
+            sees={thing: from_world(known, place) for thing, place in known.sees.items()},
+            settings=self._settings(),
+            listening=list(known.listening),
+        )
+
+    def sense(self, request: SenseRequest) -> list[str]:
+        """Return nothing: a real robot senses by itself."""
+        return []
+
+    def surroundings(self, things: Sequence[Thing]) -> None:
+        """Do nothing: a real robot sees by itself what stands around it."""
+
+    def _reach(self, on_lost: Callable[[str], None]) -> Reached:
+        return reach(self._address, self._heard, on_lost)
+
+    def _arrive(self, reached: Reached) -> None:
+        """The link is there: begin with what is true of a robot that was just met."""
+        known = self._robot.known
+        self._robot = RealRobot(known, Calls(known.name, reached.services))
+        self._noticing = Noticing(self._robot)
+        self._watching = Watching(self._robot)
+        self._hearing = Hearing(self._robot, self._hearing.expected)
+        if self._has_met_before:  # what went on while nobody could stop it ends now
+            self.halt()
+        self._has_met_before = True
+        known.saying, known.listening = "", ()
+        known.sees.clear()
+
+    def _fail_all(self) -> list[Ended]:
+        """The robot is gone: what it was doing has failed, with the reason."""
+        ended = [Ended(name, "failed", self._link.connection.fault) for name in self._running]
+        running, self._running = self._running, {}
+        for one in running.values():
+            one.task.close()
+        return ended
+
+    def _notice(self) -> None:
+        while not self._heard.empty():
+            self._noticed += self._noticing.hear(*self._heard.get())
+        self._noticing.forget()
+
+    def _tell_condition(self) -> None:
+        """Warn of what keeps the robot from acting soon; tell when that is over."""
+        known, place = self._robot.known, self._link.place
+        joint, heat = self._watching.hottest
+        warning = None
+        if self._robot.battery < link.LOWEST_BATTERY:
+            warning = link.low_battery(known.name, self._robot.battery)
+        elif heat >= link.HOTTEST_C:
+            warning = link.too_hot(known.name, joint, heat)
+        elif known.released >= set(self._robot.parts) and not self._running:
+            warning = link.asleep(known.name)
+        if warning is None:
+            words = fault_of("{name} at {place} is connected.", name=known.name, place=place)
+            self._link.connection = Connection("connected", words)
+        else:
+            self._link.connection = Connection("warning", warning)
+
+    def _settings(self) -> dict[str, bool | float | str]:
+        known = self._robot.known
+        locked = {f"locked_{part}": part not in known.released for part in SINGLE_PARTS}
+        return {**known.settings, **locked}
+
+    def _advance(self, command_id: str) -> Ended | None:
+        try:
+            return advance(self._running, command_id)
+        except (TypeError, ValueError, LookupError, ArithmeticError):
+            log.exception("what the robot answered to %s", command_id)
+            del self._running[command_id]
+            return Ended(command_id, "failed", link.strange_answer(self._robot.name))

@@ -1,0 +1,420 @@
+"""The link to a robot: made in a thread of its own, made anew when it breaks, told in sentences.
+
+offline -> connecting -> ready -> lost -> connecting ...; a try that fails is followed by the next
+one after a pause that grows.
+"""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import queue
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from msgspec.structs import replace
+
+from faults import Fault, fault_of
+from robots.body.driver import Connection
+from robots.naoqi.client.session import Session
+from robots.naoqi.discovery import NAOQI_PORT, TLS_PORT, Address, plain_address, saved_login
+from robots.naoqi.wire.errors import (
+    LoginRefused,
+    NaoqiError,
+    NeedsTls,
+    NoAnswer,
+    NotNaoqi,
+    Refused,
+    StrangeCertificate,
+)
+from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.remote import RemoteObject
+
+from .noticing import EVENTS, EXTRACTORS
+
+log = logging.getLogger(__name__)
+
+
+# How the link to a NAOqi robot is, in sentences, with a checklist of what to try.
+
+Event = Literal["connecting", "connected", "connection_failed", "disconnected", "warning"]
+
+LOWEST_BATTERY = 0.15
+HOTTEST_C = 75.0
+"""Motors of NAO slow down from about here on, and stop not much later."""
+
+
+def no_answer(robot: str, place: str) -> Fault:
+    """Nobody answers at the address."""
+    return fault_of(
+        "{robot} does not answer: the program could not reach it at {place}.",
+        code="no_answer",
+        checklist=(
+            "Is {robot} switched on? Its chest button should glow.",
+            "Is this computer on the same network as {robot}?",
+            "Press {robot}'s chest button once: it says its address. Is it {place}?",
+            "Try the program on the robot on your screen first.",
+        ),
+        robot=robot,
+        place=place,
+    )
+
+
+def not_naoqi(robot: str, place: str) -> Fault:
+    """Something answers, but not as a NAO does."""
+    return fault_of(
+        "What answers at {place} is not a NAOqi robot.",
+        code="not_naoqi",
+        checklist=(
+            "Press {robot}'s chest button once: it says its address. Is it {place}?",
+            "Leave the port out of the address: 9559 is the usual one.",
+            "Has the robot just been switched on? It needs about two minutes to wake up.",
+        ),
+        place=place,
+        robot=robot,
+    )
+
+
+def login_refused(robot: str, place: str) -> Fault:
+    """User or password are wrong, or there are none."""
+    return fault_of(
+        "{robot} at {place} does not let this program in: user and password do not fit.",
+        code="login_refused",
+        checklist=(
+            'Open "Connect a robot" on the Robots page and write user and password anew.',
+            "The user is mostly nao. The password is the one of the robot's own web page.",
+        ),
+        robot=robot,
+        place=place,
+    )
+
+
+def needs_tls(robot: str, place: str) -> Fault:
+    """The robot talks only over a secure connection."""
+    return fault_of(
+        "{robot} at {place} asks for a secure connection, with user and password.",
+        code="needs_tls",
+        checklist=(
+            'Open "Connect a robot" on the Robots page and write user and password.',
+            "Write the address without a port: the secure one, 9503, is tried by itself.",
+        ),
+        robot=robot,
+        place=place,
+    )
+
+
+def frozen(robot: str, place: str) -> Fault:
+    """The link is there, but nothing comes over it."""
+    return fault_of(
+        "{robot} does not answer any more: nothing has come from {place} for a while.",
+        code="frozen",
+        checklist=(
+            "Is {robot} still switched on, and in reach of the network?",
+            "The program looks for it again by itself.",
+            "If that goes on, switch the robot off and on again.",
+        ),
+        robot=robot,
+        place=place,
+    )
+
+
+def lost(robot: str, place: str) -> Fault:
+    """The link has ended."""
+    return fault_of(
+        "The connection to {robot} at {place} has ended.",
+        code="lost",
+        checklist=(
+            "Is {robot} still switched on, and in reach of the network?",
+            "The program looks for it again by itself.",
+        ),
+        robot=robot,
+        place=place,
+    )
+
+
+def low_battery(robot: str, battery: float) -> Fault:
+    """The battery will soon be empty."""
+    return fault_of(
+        "{robot}'s battery is nearly empty: {battery} %.",
+        code="low_battery",
+        checklist=("Plug {robot} in. It should sit or rest meanwhile.",),
+        robot=robot,
+        battery=f"{battery * 100:.0f}",
+    )
+
+
+def too_hot(robot: str, joint: str, celsius: float) -> Fault:
+    """A motor is hot; it will soon have no strength."""
+    return fault_of(
+        "{robot} is hot: the motor of {joint} has {celsius} °C.",
+        code="too_hot",
+        checklist=(
+            "Let {robot} rest for some minutes.",
+            "Let it sit between what it does standing.",
+        ),
+        robot=robot,
+        joint=joint,
+        celsius=f"{celsius:.0f}",
+    )
+
+
+def asleep(robot: str) -> Fault:
+    """The motors are off."""
+    return fault_of(
+        "{robot} is asleep: its motors are off, it can speak but not move.",
+        code="asleep",
+        checklist=(
+            'Put the block "{robot} wakes up" before what moves it.',
+            "Or press its chest button twice.",
+        ),
+        robot=robot,
+    )
+
+
+def strange_answer(robot: str) -> Fault:
+    """The robot has answered something that nobody understands."""
+    return fault_of(
+        "{robot} gave an answer that this program does not understand. Try it again; if that goes "
+        "on, switch the robot off and on.",
+        code="strange_answer",
+        robot=robot,
+    )
+
+
+State = Literal["offline", "connecting", "ready", "lost"]
+TRY_S = 2.6
+"""Who has not answered by then is told as not answering; a late answer still counts."""
+FIRST_PAUSE_S = 1.0
+LONGEST_PAUSE_S = 15.0
+
+
+@dataclass
+class Reached:
+    """What a try that has succeeded brings: the session, and what was asked in its thread."""
+
+    session: Session
+    services: dict[str, RemoteObject]
+    found: dict[str, Any] = field(default_factory=dict)
+
+
+Connect = Callable[[Callable[[str], None]], Reached]
+"""Connects and looks around; may wait. Its argument is to be called when the link is lost."""
+
+
+class Link:
+    """Keeps the link to one robot; ``step`` never waits."""
+
+    def __init__(self, robot: str, address: Address, connect: Connect) -> None:
+        self.robot = robot
+        self.place = plain_address(address)
+        self.state: State = "offline"
+        self.connection = Connection("disconnected")
+        self.reached: Reached | None = None
+        self._connect = connect
+        self._news: queue.SimpleQueue[tuple[int, Reached | NaoqiError | str]] = queue.SimpleQueue()
+        self._numbers = itertools.count(1)
+        self._try = 0
+        self._try_until_s = 0.0
+        self._next_s = 0.0
+        self._pause_s = FIRST_PAUSE_S
+
+    def connect(self) -> None:
+        """Begin to look for the robot."""
+        looking = fault_of("Looking for {robot} at {place}.", robot=self.robot, place=self.place)
+        self.connection = Connection("connecting", looking)
+        self._begin()
+
+    def disconnect(self) -> None:
+        """Give the robot up; a try that is under way ends by itself."""
+        self._drop()
+        self.state = "offline"
+        self.connection = Connection("disconnected")
+
+    def step(self) -> Reached | None:
+        """Take in what has happened; return the link when it has just been made."""
+        while not self._news.empty():
+            number, what = self._news.get()
+            if number != self._try:  # an older try: what it brings is not wanted any more
+                _close(what)
+            elif isinstance(what, Reached):
+                return self._arrive(what)
+            elif isinstance(what, NaoqiError):
+                self._fail(self._told(what))
+            else:
+                self.lose(lost(self.robot, self.place))
+        now_s = time.monotonic()
+        if self.state == "connecting" and now_s > self._try_until_s:
+            self._try_until_s = float("inf")
+            self.connection = Connection("connection_failed", no_answer(self.robot, self.place))
+        elif self.state == "lost" and now_s >= self._next_s:
+            self._begin()
+        return None
+
+    def lose(self, why: Fault) -> None:
+        """The link is gone, or no use any more; look for the robot again soon."""
+        self._drop()
+        self.connection = Connection("disconnected", why)
+        self._pause_s = FIRST_PAUSE_S
+        self._wait()
+
+    def freeze(self) -> None:
+        """Nothing comes over the link any more."""
+        self.lose(frozen(self.robot, self.place))
+
+    def _begin(self) -> None:
+        self.state = "connecting"
+        self._try = next(self._numbers)
+        self._try_until_s = time.monotonic() + TRY_S
+        threading.Thread(target=self._run, args=(self._try,), daemon=True).start()
+
+    def _run(self, number: int) -> None:
+        """One try, in a thread of its own."""
+        try:
+            self._news.put((number, self._connect(lambda why: self._news.put((number, why)))))
+        except NaoqiError as problem:
+            self._news.put((number, problem))
+        except Exception as error:  # a fault of this program must not end the tries
+            log.exception("connecting to %s", self.robot)
+            self._news.put((number, NaoqiError(str(error))))
+
+    def _arrive(self, reached: Reached) -> Reached:
+        self.state, self.reached = "ready", reached
+        self._pause_s = FIRST_PAUSE_S
+        return reached
+
+    def _fail(self, why: Fault) -> None:
+        self.connection = Connection("connection_failed", why)
+        self._wait()
+
+    def _wait(self) -> None:
+        self.state = "lost"
+        self._next_s = time.monotonic() + self._pause_s
+        self._pause_s = min(2.0 * self._pause_s, LONGEST_PAUSE_S)
+
+    def _drop(self) -> None:
+        self._try = next(self._numbers)
+        if self.reached is not None:
+            _close(self.reached)
+        self.reached = None
+
+    def _told(self, problem: NaoqiError) -> Fault:
+        match problem:
+            case NotNaoqi():
+                return not_naoqi(self.robot, self.place)
+            case LoginRefused():
+                return login_refused(self.robot, self.place)
+            case NeedsTls():
+                return needs_tls(self.robot, self.place)
+            case NoAnswer() | Refused():
+                return no_answer(self.robot, self.place)
+        usual = no_answer(self.robot, self.place)
+        steps = problem.checklist or usual.checklist
+        return replace(problem.fault, sentence=problem.sentence or usual.sentence, checklist=steps)
+
+
+def _close(what: object) -> None:
+    """Close a session without waiting for it."""
+    if isinstance(what, Reached):
+        threading.Thread(target=what.session.close, daemon=True).start()
+
+
+# Reaches a robot and looks around: its services, its events. Runs in a thread of its own.
+
+NAME = "NEP_Studio"
+CONNECT_S = 2.5
+NEEDED = ("ALMotion", "ALMemory", "ALRobotPosture", "ALTextToSpeech", "ALLeds")
+OTHERS = (
+    "ALAnimatedSpeech",
+    "ALAudioDevice",
+    "ALAudioPlayer",
+    "ALAutonomousLife",
+    "ALBasicAwareness",
+    "ALPhotoCapture",
+    "ALSpeechRecognition",
+    "ALSystem",
+    "ALTracker",
+    "ALVideoRecorder",
+)
+TELLING = (LoginRefused, StrangeCertificate)
+Heard = queue.SimpleQueue[tuple[str, Any]]
+
+
+def reach(address: Address, heard: Heard, on_lost: Callable[[str], None]) -> Reached:
+    """Connect, get the services, subscribe to the events. Raises NaoqiError."""
+    session = open_session(address, *saved(address))
+    session.on_lost = on_lost
+    try:
+        services = {name: session.service(name) for name in NEEDED}
+        for name in (*OTHERS, *EXTRACTORS):
+            remote = _service(session, name)
+            if remote is not None:
+                services[name] = remote
+        memory = services["ALMemory"]
+        subscribers = [_subscribe(memory, event, heard) for event in EVENTS]
+        for name in EXTRACTORS:
+            _wake(services.get(name))
+    except NaoqiError:
+        session.close()
+        raise
+    return Reached(session, services, {"subscribers": subscribers})
+
+
+def saved(address: Address) -> tuple[Login | None, str]:
+    """Return the login that a person has given for an address, and who was trusted there."""
+    known = saved_login(plain_address(address))
+    return (None, "") if known is None else (Login(known.user, known.password), known.fingerprint)
+
+
+def open_session(address: Address, login: Login | None, trusted: str = "") -> Session:
+    """Connect: openly, or with a login at the secure port first. Raises NaoqiError.
+
+    ``trusted``: the fingerprint of the certificate that the robot must have, "" for any.
+    """
+    places = [address]
+    if login is not None and address[1] == NAOQI_PORT:
+        places = [(address[0], TLS_PORT), address]
+    problem: NaoqiError | None = None
+    for place in places:
+        session = Session(place, login=login, timeout_s=CONNECT_S, trusted=trusted or None)
+        try:
+            session.connect()
+        except NaoqiError as error:
+            # who answers has more to say than who is not there
+            problem = problem if isinstance(problem, TELLING) else error
+            session.close()
+            continue
+        return session
+    assert problem is not None
+    raise problem
+
+
+def _service(session: Session, name: str) -> RemoteObject | None:
+    try:
+        return session.service(name)
+    except NaoqiError:
+        log.info("the robot has no %s", name)
+        return None
+
+
+def _subscribe(memory: RemoteObject, event: str, heard: Heard) -> RemoteObject | None:
+    """Let an event of NAOqi's memory come into a queue; the object must be kept meanwhile."""
+    try:
+        subscriber: RemoteObject = memory.call("subscriber", event)
+        subscriber.connect("signal", lambda value=None: heard.put((event, value)))
+    except NaoqiError:
+        log.info("the robot does not tell %s", event)
+        return None
+    return subscriber
+
+
+def _wake(extractor: RemoteObject | None) -> None:
+    """Let a service look or listen; it does so only for those who have subscribed."""
+    if extractor is None:
+        return
+    try:
+        extractor.call("subscribe", NAME)
+    except NaoqiError as problem:
+        log.info("a service does not look or listen: %s", problem)

@@ -1,0 +1,213 @@
+"""Tests the way to a robot step by step: each step says in words what is there, or what failed."""
+
+from __future__ import annotations
+
+import queue
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from faults import Fault, Text, Words, text_of
+from nep_core.errors import ParameterError
+
+from .client.session import Session
+from .discovery import Address, plain_address, read_address
+from .driver import link
+from .driver.link import NEEDED, open_session
+from .wire.errors import LoginRefused, NaoqiError, NeedsTls
+from .wire.frames import Login
+
+StepName = Literal["name", "port", "naoqi", "login", "services", "robot"]
+STEPS: tuple[StepName, ...] = ("name", "port", "naoqi", "login", "services", "robot")
+
+LIMIT_S = 2.5
+ASK_S = 2.0
+ROBOT = "NAO"
+
+
+@dataclass(frozen=True)
+class AboutRobot:
+    """What a robot says of itself; what it does not tell is empty, a battery of -1 unknown."""
+
+    name: str = ""
+    version: str = ""
+    battery: float = -1.0
+    body: str = ""
+    fingerprint: str = ""
+
+
+@dataclass(frozen=True)
+class Check:
+    """How one step went; ``about`` comes with the last one."""
+
+    step: StepName
+    is_ok: bool
+    sentence: Words
+    checklist: tuple[Words, ...] = ()
+    about: AboutRobot | None = None
+
+
+IS_NAOQI = Check("naoqi", True, "It is a NAOqi robot.")
+
+
+class _Failed(Exception):
+    """A step has failed; the later ones are not tried."""
+
+    def __init__(self, check: Check) -> None:
+        super().__init__(str(check.sentence))
+        self.check = check
+
+
+def probe(address: str, login: Login | None, robot: str = ROBOT) -> Iterator[Check]:
+    """Try each step on the way to a robot, and give how it went; ends at the first that fails.
+
+    Each step takes at most about 3 s. Call it in a thread of its own.
+    """
+    try:
+        yield from _steps(address, login, robot)
+    except _Failed as failed:
+        if failed.check.step == "login":  # who asks for a password has said what it is
+            yield IS_NAOQI
+        yield failed.check
+
+
+def _steps(text: str, login: Login | None, robot: str) -> Iterator[Check]:
+    address = _read(text)
+    place = plain_address(address)
+    where = _resolve(address, robot)
+    yield Check("name", True, text_of("The address {place} is known in this network.", place=place))
+    _knock(where, address, robot)
+    yield Check("port", True, text_of("A program answers at {place}.", place=place))
+    session = _connect(address, login, robot)
+    try:
+        yield IS_NAOQI
+        words = "It let us in." if login else "It asks for no password."
+        yield Check("login", True, words)
+        missing = [name for name in NEEDED if not _has(session, name)]
+        if missing:
+            raise _Failed(_missing(missing, robot))
+        yield Check("services", True, "All that moves it and lets it speak is there.")
+        about = _about(session)
+        yield Check("robot", True, _introduction(about), about=about)
+    finally:
+        session.close()
+
+
+def _read(text: str) -> Address:
+    try:
+        return read_address(text)
+    except ParameterError as problem:
+        raise _failed("name", problem.fault) from problem
+
+
+def _resolve(address: Address, robot: str) -> list[Any]:
+    """Look the name up; that may take the system very long, and cannot be ended."""
+    host, port = address
+    try:
+        found: list[Any] = _at_most(
+            LIMIT_S, lambda: socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+        )
+        return found
+    except (OSError, UnicodeError) as error:
+        steps = (
+            "Is the name written right? Press the robot's chest button once: it says its address.",
+            text_of("Is this computer on the same network as {robot}?", robot=robot),
+        )
+        sentence = text_of("Nobody in this network knows the address {host}.", host=host)
+        raise _Failed(Check("name", False, sentence, steps)) from error
+
+
+def _knock(where: list[Any], address: Address, robot: str) -> None:
+    try:
+        with socket.create_connection(where[0][4][:2], timeout=LIMIT_S):
+            return
+    except OSError as error:
+        raise _failed("port", link.no_answer(robot, plain_address(address))) from error
+
+
+def _connect(address: Address, login: Login | None, robot: str) -> Session:
+    place = plain_address(address)
+    try:
+        return open_session(address, login)
+    except LoginRefused as error:
+        raise _failed("login", link.login_refused(robot, place)) from error
+    except NeedsTls as error:
+        raise _failed("login", link.needs_tls(robot, place)) from error
+    except NaoqiError as error:
+        raise _failed("naoqi", link.not_naoqi(robot, place)) from error
+
+
+def _failed(step: StepName, fault: Fault) -> _Failed:
+    return _Failed(Check(step, False, fault.sentence, fault.checklist))
+
+
+def _has(session: Session, service: str) -> bool:
+    try:
+        session.service(service)
+    except NaoqiError:
+        return False
+    return True
+
+
+def _missing(services: list[str], robot: str) -> Check:
+    sentence = text_of(
+        "The robot has no {services}: it cannot do what the blocks ask for.",
+        services=", ".join(services),
+    )
+    steps = (
+        "Has the robot just been switched on? It needs about two minutes to wake up.",
+        text_of("Switch {robot} off and on again.", robot=robot),
+    )
+    return Check("services", False, sentence, steps)
+
+
+def _about(session: Session) -> AboutRobot:
+    battery = _asked(session, "ALBattery", "getBatteryCharge")
+    return AboutRobot(
+        name=str(_asked(session, "ALSystem", "robotName") or ""),
+        version=str(_asked(session, "ALSystem", "systemVersion") or ""),
+        battery=float(battery) / 100.0 if isinstance(battery, int | float) else -1.0,
+        body=str(_asked(session, "ALMemory", "getData", "RobotConfig/Body/BaseVersion") or ""),
+        fingerprint=session.fingerprint,
+    )
+
+
+def _asked(session: Session, service: str, method: str, *args: Any) -> Any:
+    """What the robot says, None when it does not know."""
+    try:
+        return session.service(service).call(method, *args, timeout_s=ASK_S)
+    except NaoqiError:
+        return None
+
+
+def _introduction(about: AboutRobot) -> Text:
+    name = about.name or Text("The robot")
+    if about.battery < 0:
+        return text_of("{name} is ready.", name=name)
+    return text_of(
+        "{name} is ready. Its battery is {battery} % full.",
+        name=name,
+        battery=f"{about.battery * 100:.0f}",
+    )
+
+
+def _at_most(seconds: float, look: Callable[[], Any]) -> Any:
+    """Give what a call gives that cannot be ended; raises OSError when it takes too long."""
+    answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
+
+    def run() -> None:
+        try:
+            answers.put(look())
+        except (OSError, UnicodeError) as error:
+            answers.put(error)
+
+    threading.Thread(target=run, daemon=True).start()
+    try:
+        answer = answers.get(timeout=seconds)
+    except queue.Empty as late:
+        raise OSError("the name could not be looked up in time") from late
+    if isinstance(answer, Exception):
+        raise answer
+    return answer

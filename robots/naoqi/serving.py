@@ -1,0 +1,146 @@
+"""A virtual robot that other programs ask to act, from threads of their own, while its node runs.
+
+The node's loop lets the robot live; everybody who touches it holds ``lock``. Nobody waits inside:
+who asks for something is called back when it has ended.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+from nep_core.wire.messages import ActionRequest, ActionResult, RobotState
+from robots.body.actor import FINAL, Actor
+from robots.body.limbs import Limb
+from robots.body.pose import VirtualRobot
+from robots.body.schedule import Command
+
+OnEnd = Callable[[ActionResult], None]
+Condition = Callable[[], bool]
+Ending = tuple[OnEnd, ActionResult]
+
+
+class ServedRobot:
+    """One robot; ``ask`` and ``stop`` may be called by any thread."""
+
+    def __init__(self, actor: Actor, robot: VirtualRobot) -> None:
+        self.actor = actor
+        self.robot = robot
+        self.lock = threading.RLock()
+        self._on_end: dict[str, OnEnd] = {}
+        self._others: list[ActionResult] = []
+        self._awaited: list[tuple[Condition, Callable[[], None]]] = []
+        self._numbers = itertools.count(1)
+        self._moment: RobotState | None = None
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return self.robot.name
+
+    def ask(
+        self, action: str, on_end: OnEnd | None = None, *, priority: int = 0, **args: Any
+    ) -> str:
+        """Let the robot do something; the request's id. ``on_end`` gets its last result.
+
+        What the robot refuses ends as failed before this returns.
+        """
+        with self.lock:
+            request_id = f"naoqi {self.name} {next(self._numbers)}"
+            self._on_end[request_id] = on_end or (lambda result: None)
+            request = ActionRequest(
+                id=request_id, robots=[self.name], action=action, args=args, priority=priority
+            )
+            endings = self._sort(self.actor.request(request))
+        _tell(endings)
+        return request_id
+
+    def stop(self, which: Callable[[Command], bool]) -> None:
+        """End what is done or waits, and is wanted by ``which``; at once."""
+        with self.lock:
+            told: list[ActionResult] = []
+            for command in self.commands():
+                if which(command):
+                    told += self.actor.stop(command.id)
+            endings = self._sort(told)
+        _tell(endings)
+
+    def stop_one(self, request_id: str) -> None:
+        """End one request, at once."""
+        self.stop(lambda command: command.id == request_id)
+
+    def commands(self) -> list[Command]:
+        """Return what is done and what waits."""
+        with self.lock:
+            return [*self.actor.schedule.running, *self.actor.schedule.waiting]
+
+    def when(self, condition: Condition, call: Callable[[], None]) -> Callable[[], bool]:
+        """Call something once, as soon as a condition holds; the return value ends the wait.
+
+        That says whether it was still waiting.
+        """
+        awaited = (condition, call)
+        with self.lock:
+            self._awaited.append(awaited)
+
+        def end() -> bool:
+            with self.lock:
+                was_waiting = awaited in self._awaited
+                if was_waiting:
+                    self._awaited.remove(awaited)
+            return was_waiting
+
+        return end
+
+    def busy_limbs(self) -> frozenset[Limb]:
+        """Return the limbs that are used, or waited for."""
+        return frozenset(limb for command in self.commands() for limb in command.limbs)
+
+    @contextlib.contextmanager
+    def moment(self) -> Iterator[None]:
+        """Let nothing change meanwhile: ``state`` is made once, however often it is asked."""
+        with self.lock:
+            self._moment = self.state()
+            try:
+                yield
+            finally:
+                self._moment = None
+
+    def state(self) -> RobotState:
+        """Return how the robot is now."""
+        with self.lock:
+            if self._moment is not None:
+                return self._moment
+            state = self.actor.driver.state()
+        assert state is not None  # of a virtual robot it is always known
+        return state
+
+    def hear(self, told: Iterable[ActionResult]) -> list[ActionResult]:
+        """Take in what the node's loop was told; return what concerns others, to be sent on."""
+        with self.lock:
+            endings = self._sort(told)
+            others, self._others = self._others, []
+            calls = [call for condition, call in self._awaited if condition()]
+            self._awaited = [one for one in self._awaited if one[1] not in calls]
+        _tell(endings)
+        for call in calls:
+            call()
+        return others
+
+    def _sort(self, told: Iterable[ActionResult]) -> list[Ending]:
+        """Return the endings of requests that were asked here; keep what concerns others."""
+        endings: list[Ending] = []
+        for result in told:
+            if result.id not in self._on_end:
+                self._others.append(result)
+            elif result.state in FINAL:
+                endings.append((self._on_end.pop(result.id), result))
+        return endings
+
+
+def _tell(endings: list[Ending]) -> None:
+    for on_end, result in endings:
+        on_end(result)
