@@ -114,13 +114,6 @@ class NodeBoard:
             if one.is_there and one.health != "frozen":
                 self.nodes[name] = replace(one, heard_s=now_s)
 
-    def all_gone(self) -> list[str]:
-        """The network is closed: nothing runs any more; those that did."""
-        found = [one.name for one in self.nodes.values() if one.is_there]
-        for name in found:
-            self.nodes[name] = replace(self.nodes[name], health="stopped", event="stopped")
-        return found
-
 
 def _heard(before: NodeStatus, state: NodeState) -> NodeStatus:
     if state.measures or state.event == "starting":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
@@ -203,9 +203,6 @@ def load_body(folder: Path) -> Body:
 
 OFF = 0x000000
 WHITE = 0xFFFFFF
-Colouring = Callable[[int], int]
-"""Which colour comes when: the number of the change, 0xRRGGBB."""
-
 GROUPS: dict[str, tuple[str, ...]] = {
     "LeftFaceLeds": ("LeftFaceLeds",),
     "RightFaceLeds": ("RightFaceLeds",),
@@ -419,12 +416,6 @@ def single_parts(part: str) -> tuple[str, ...]:
             parts=", ".join(PARTS),
         )
     return PARTS[part]
-
-
-def limbs_of_part(part: str) -> frozenset[Limb]:
-    """Return the limbs that a part is made of."""
-    limbs = {name: limb for limb, name in PART_OF_LIMB.items()}
-    return frozenset(limbs.get(name, Limb.LEGS) for name in single_parts(part))
 
 
 def parts_of_limbs(limbs: frozenset[Limb]) -> frozenset[str]:
