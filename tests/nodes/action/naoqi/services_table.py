@@ -36,7 +36,7 @@ What is true of it:
 
 The signatures are those of a NAO V6 (NAOqi 2.8); for services marked * those of NAOqi 2.1. Every
 service also has the methods of every module: `ping`, `version`, `pCall`, ...
-`python docs/make_naoqi_services.py` makes this page.
+`python tools/robot_pages.py services` makes this page.
 
 | Service | offers | of | not offered |
 |---|---|---|---|

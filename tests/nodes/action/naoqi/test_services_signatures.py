@@ -68,4 +68,4 @@ def test_most_of_what_the_robot_has_is_offered() -> None:
 def test_the_page_about_the_services_is_up_to_date() -> None:
     made = (DOCS / "naoqi_services.md").read_text(encoding="utf-8")
 
-    assert made == page(), "run docs/make_naoqi_services.py"
+    assert made == page(), "run tools/robot_pages.py services"

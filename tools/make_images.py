@@ -1,9 +1,9 @@
 """Makes the pictures of the documentation, or says which of them are out of date.
 
-    .venv/bin/python docs/make_images.py                    all of them, into docs/images
-    .venv/bin/python docs/make_images.py window-light       some of them
-    .venv/bin/python docs/make_images.py --check            compare, change nothing
-    .venv/bin/python docs/make_images.py --sheet FOLDER     the examples in every look and language
+    .venv/bin/python tools/make_images.py                    all of them, into docs/images
+    .venv/bin/python tools/make_images.py window-light       some of them
+    .venv/bin/python tools/make_images.py --check            compare, change nothing
+    .venv/bin/python tools/make_images.py --sheet FOLDER     the examples in every look and language
 
 The window is drawn without a screen, always in the same size, with the fonts that come with the
 program and with settings of its own, so that a picture changes only when the program does.
@@ -18,6 +18,10 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tools.image_window import Stage
 
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"
@@ -50,7 +54,7 @@ def main() -> int:
         screen.write_text(json.dumps({"screens": [SCREEN]}), encoding="utf-8")
         os.environ["QT_QPA_PLATFORM"] = f"offscreen:configfile={screen}"
         os.environ["NEP_STUDIO_FOLDER"] = home
-        from image_window import Stage  # Qt reads the environment when it is loaded
+        from tools.image_window import Stage  # Qt reads the environment when it is loaded
 
         stage = Stage(Path(home))
         if options.sheet is not None:
@@ -58,10 +62,9 @@ def main() -> int:
         return _make(stage, options)
 
 
-def _make(stage: object, options: argparse.Namespace) -> int:
-    from image_files import difference, write_small
-    from image_scenes import LARGE_SCENES
-    from image_scenes_guide import SCENES
+def _make(stage: Stage, options: argparse.Namespace) -> int:
+    from tools.image_files import difference, write_small
+    from tools.image_scenes import LARGE_SCENES, SCENES
 
     unknown = [name for name in options.names if name not in SCENES]
     if unknown:
@@ -78,8 +81,8 @@ def _make(stage: object, options: argparse.Namespace) -> int:
     return _again_large(large, options) or int(bool(out_of_date))
 
 
-def _make_sheets(stage: object, options: argparse.Namespace) -> int:
-    from image_sheets import make_sheets
+def _make_sheets(stage: Stage, options: argparse.Namespace) -> int:
+    from tools.image_window import make_sheets
 
     make_sheets(stage, options.sheet, "200" if options.child else "100", _tell)
     return 0 if options.child else _again_large(["--sheet", str(options.sheet)], options)

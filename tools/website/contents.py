@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-DOCS = Path(__file__).resolve().parents[1]
-ROOT = DOCS.parent
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
 GUIDE = DOCS / "guide"
 
 START, HOW_TO, DEVELOPERS = "start", "how-to", "developers"
@@ -54,7 +54,7 @@ MADE_OF = {
     ROOT / "resources" / "help" / "en": "how-to/index.html",
     ROOT / "resources" / "blocks": "blocks/index.html",
     ROOT / "nodes": "nodes/index.html",
-    ROOT / "nep_core" / "messages.py": "messages.html",
+    ROOT / "nep_core" / "wire" / "messages.py": "messages.html",
     ROOT / "nep_studio" / "__main__.py": "commands.html",
 }
 """What pages are made of that nobody writes: a link to it leads to the page."""

@@ -20,17 +20,12 @@ from nep_studio.ui.plugins.help.repository import Book, Rows
 from nep_studio.ui.theme.icons import APPLICATION_ICON, icon_path
 from nep_studio.ui.words import use_language
 
-from .benchmark_rows import benchmark_rows
-from .colours import colours_css
-from .command_pages import commands_page
 from .contents import DOCS, GROUPS, HOW_TO, MADE_OF, ROOT, START, group_of, sources
-from .frame import ENGLISH, GUIDES_INDEX, Site, folder, index_files
+from .frame import ENGLISH, GUIDES_INDEX, Site, folder, index_files, script_of
 from .help_pages import HelpPages, how_to_path
-from .message_pages import messages_page
-from .page import FIRST, HERE, Page
-from .pictures import Pictures
-from .searching import script_of
-from .words import word
+from .page import FIRST, HERE, Page, word
+from .pictures import Pictures, colours_css
+from .reference_pages import benchmark_rows, commands_page, messages_page
 from .written import page_of
 
 FONTS = (

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 from html import escape
 
 from nep_core.wire.messages import BY_TOPIC
+from nep_studio import paths
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.text import sentence
 from nep_studio.help.page_names import BLOCK, CATEGORY, HOME, HOW_TO, NODE, split
 from nep_studio.help.texts import category_texts, examples, page_texts
+from nep_studio.ui.canvas.fields.editors import slot_name
 from nep_studio.ui.plugins.help.pages import DRAG, EXAMPLE, PICTURE, sample_clip, text_of
 from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.words import tr
 
-from .markup import for_browsers
-from .message_pages import PATH as MESSAGES
-from .page import FIRST, HERE, Page, plain
+from .contents import DOCS
+from .page import FIRST, HERE, Page, for_browsers, plain, word
 from .pictures import Pictures
-from .robots import robots_html
-from .words import word
+from .reference_pages import MESSAGES_PATH as MESSAGES
 
 PROBLEMS = "problems"
 
@@ -178,3 +180,57 @@ def _about(html: str) -> str:
     """The first sentence of a page."""
     found = _FIRST_SENTENCE.search(html)
     return plain(found[1]) if found else ""
+
+
+TRIED = DOCS / "robot_blocks.md"
+"""What tools/robot_pages.py blocks found out about each block, on both robots."""
+
+_ROW = re.compile(r"\| (.+) \| (.+) \| (yes|\*\*no\*\*) \| (yes|\*\*no\*\*) \|")
+OURS = "nao"
+
+
+@cache
+def tried() -> dict[str, tuple[str, bool, bool]]:
+    """By the English sentence of a block: what was looked at, and whether it was right on each."""
+    rows = (_ROW.fullmatch(line) for line in TRIED.read_text(encoding="utf-8").splitlines())
+    return {row[1]: (row[2], row[3] == "yes", row[4] == "yes") for row in rows if row}
+
+
+@cache
+def others() -> dict[str, dict[str, dict[str, object]]]:
+    """The choices of the other robots that we ship, by their titles."""
+    files = sorted((paths.resources() / "robots").glob("*/robot.toml"))
+    told = [tomllib.loads(file.read_text("utf-8")) for file in files if file.parent.name != OURS]
+    return {each["title"]: each["choices"] for each in told}
+
+
+def robots_html(code: str, language: Language, definition: Definition, english: Definition) -> str:
+    """What is said of robots in the part about a block."""
+    heading = f"<h3>{escape(word(code, 'robots'))}</h3>"
+    found = tried().get(english.told.replace("|", "\\|"))
+    if found is None:
+        return f"{heading}<p>{escape(word(code, 'any_robot'))}</p>"
+    look, on_screen, on_real = found
+    lines = [
+        _line(code, "screen", on_screen, look if code == "en" else ""),
+        _line(code, "real", on_real),
+        *(escape(line) for line in _fewer(code, language, definition)),
+    ]
+    return f'{heading}<ul class="robots">{"".join(f"<li>{line}</li>" for line in lines)}</ul>'
+
+
+def _line(code: str, robot: str, works: bool, look: str = "") -> str:
+    sign = '<span aria-hidden="true">✓</span> ' if works else ""
+    tail = f" (tried by a test: {escape(look)})" if look else ""
+    answer = word(code, "yes" if works else "no")
+    return f"{sign}{escape(word(code, robot))}: {escape(answer)}{tail}"
+
+
+def _fewer(code: str, language: Language, definition: Definition) -> Iterator[str]:
+    for title, choices in others().items():
+        for slot in definition.slots.values():
+            known = language.choices.get(slot.table, {})
+            some = [name for name in choices.get(slot.table, {}) if name in known]
+            if some and len(some) < len(known):
+                values = {"robot": title, "some": len(some), "all": len(known)}
+                yield word(code, "fewer", **values, slot=tr(slot_name(slot)))

@@ -1,8 +1,8 @@
 """Makes the pictures of the robots' room, in light and dark, or says which are out of date.
 
-    .venv/bin/python docs/robot_images.py                  into docs/images
-    .venv/bin/python docs/robot_images.py --check          compare, change nothing
-    .venv/bin/python docs/robot_images.py --folder FOLDER  into another folder
+    .venv/bin/python tools/robot_images.py                  into docs/images
+    .venv/bin/python tools/robot_images.py --check          compare, change nothing
+    .venv/bin/python tools/robot_images.py --folder FOLDER  into another folder
 
 They are painted without a screen and without OpenGL, so every machine paints the same.
 """
@@ -19,14 +19,14 @@ ROOT = Path(__file__).resolve().parent.parent
 os.environ |= {"LC_ALL": "C.UTF-8", "LANGUAGE": "en", "QT_QPA_PLATFORM": "offscreen"}
 sys.path.insert(0, str(ROOT))
 
-from PySide6.QtCore import QSize  # noqa: E402  the platform comes first
-from PySide6.QtGui import QImage  # noqa: E402
-from PySide6.QtWidgets import QApplication  # noqa: E402
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QApplication
 
-from nep_core.wire.messages import RobotState, Thing  # noqa: E402
-from nep_studio.ui.robot_view.figure import load_figure  # noqa: E402
-from nep_studio.ui.robot_view.view import RobotView, nao_folder  # noqa: E402
-from nep_studio.ui.theme.look import Look, load_fonts  # noqa: E402
+from nep_core.wire.messages import RobotState, Thing
+from nep_studio.ui.robot_view.figure import load_figure
+from nep_studio.ui.robot_view.view import RobotView, nao_folder
+from nep_studio.ui.theme.look import Look, load_fonts
 
 SIZE = QSize(800, 500)
 BLUE, GREEN, WARM = 0x30C8FF, 0x50F0A0, 0xFFB040
@@ -43,7 +43,7 @@ SURROUNDINGS = [
 
 def main() -> int:
     """Make or compare the pictures; the exit code is 1 when one is out of date."""
-    from image_files import difference
+    from tools.image_files import difference
 
     options = _parsed()
     app = QApplication([])
@@ -61,7 +61,7 @@ def main() -> int:
 def _write(image: QImage, path: Path) -> str:
     """Write a picture with all its colours, for soft shades need them; gives its size in words."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    if not image.save(str(path), "PNG", 0):
+    if not image.save(str(path), format=b"PNG", quality=0):
         raise OSError(f"{path} cannot be written.")
     return f"{path.stat().st_size / 1000:.0f} kB"
 

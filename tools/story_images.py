@@ -1,7 +1,7 @@
 """Plays the newcomer's story on a virtual screen and keeps a picture of each of its steps.
 
-    .venv/bin/python docs/story_images.py              into docs/images
-    .venv/bin/python docs/story_images.py FOLDER       into another folder
+    .venv/bin/python tools/story_images.py              into docs/images
+    .venv/bin/python tools/story_images.py FOLDER       into another folder
 
 The robot moves and the watch measures while the pictures are taken, so no two runs give exactly
 the same: a test plays the story, but does not compare them.
@@ -17,7 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from benchmarks.virtual_display import virtual_display  # noqa: E402  the path comes first
+from benchmarks.virtual_display import virtual_display
 
 STORY = "tests/stories/test_window_story.py"
 
@@ -35,8 +35,9 @@ def main() -> int:
 
 def _keep(raw: Path, target: Path) -> None:
     """Write the pictures small."""
-    from image_files import write_small
     from PySide6.QtGui import QImage
+
+    from tools.image_files import write_small
 
     target.mkdir(parents=True, exist_ok=True)
     for picture in sorted(raw.glob("*.png")):

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from image_window import SMALL, Stage, around, block_of, drag, part_of, picture, quiet
-from PySide6.QtCore import QPoint, QPointF, QRect, QSize
+from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize
 from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QWidget
 
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.places import InStack
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.plugins.gestures.panel import TrainerPanel
+from nep_studio.ui.plugins.show import ShowMode
+from nep_studio.ui.plugins.watches.dialog import WatchDialog
 from nep_studio.ui.shell.main_window import MainWindow
+from tools.image_window import SIZE, SMALL, Stage, around, block_of, drag, part_of, picture, quiet
 
 Scene = Callable[[Stage], QImage]
 SCENES: dict[str, Scene] = {}
@@ -52,6 +58,13 @@ def _canvas(window: MainWindow) -> Canvas:
     return window.workbench.canvas
 
 
+def _rect(canvas: Canvas, block: str) -> QRectF:
+    """Where a block is in the view."""
+    rect = canvas.view_rect_of(block)
+    assert rect is not None
+    return rect
+
+
 def _canvas_part(window: MainWindow, width: int, height: int) -> QRect:
     """A part of the canvas, from its corner on."""
     whole = part_of(window, _canvas(window).viewport())
@@ -85,7 +98,7 @@ def drag_gap(stage: Stage) -> QImage:
     """Blocks that are carried, and the gap that opens for them."""
     with stage.window() as window:
         canvas = _canvas(window)
-        target = canvas.view_rect_of(block_of(canvas, "robot.do"))
+        target = _rect(canvas, block_of(canvas, "robot.do"))
         drag(canvas, block_of(canvas, "robot.play"), target.bottomLeft() + QPointF(16, 12))
         return picture(window, _canvas_part(window, 560, 480))
 
@@ -101,10 +114,11 @@ def replace_preview(stage: Stage) -> QImage:
         canvas.show_block(walk)
         quiet()
         placed = canvas.page_layout.placed(walk)
+        assert placed is not None
         piece = next(piece for piece in placed.box.pieces if piece.key == "forward")
         corner = canvas.camera.to_view(placed.x + piece.x, placed.y + piece.y)
         drag(canvas, value, corner + QPointF(6, 8))
-        rect = canvas.view_rect_of(walk)
+        rect = _rect(canvas, walk)
         place = canvas.viewport().mapTo(window, rect.topLeft().toPoint())
         shown = QRect(place - QPoint(20, 120), QSize(560, 240))
         return picture(window, shown.intersected(part_of(window, canvas.viewport())))
@@ -160,9 +174,10 @@ def context_menu(stage: Stage) -> QImage:
     """What can be done with a block."""
     with stage.window() as window:
         canvas = _canvas(window)
-        rect = canvas.view_rect_of(block_of(canvas, "control.together"))
+        rect = _rect(canvas, block_of(canvas, "control.together"))
         canvas.request_menu((rect.topLeft() + QPointF(40, 16)).toPoint())
         quiet()
+        assert canvas.menu is not None
         return picture(window, part_of(window, canvas.menu, margin=60))
 
 
@@ -214,3 +229,115 @@ def outline(stage: Stage) -> QImage:
         canvas.selection.set([block_of(canvas, "control.together")])
         quiet()
         return picture(window, part_of(window, window.workbench.panels.areas["right"]))
+
+
+def _panel(window: MainWindow, name: str) -> QWidget:
+    """Show a panel by its name in the settings."""
+    panel = next(one for one in window.workbench.panels.all if one.name == name)
+    window.workbench.panels.show(panel.widget)
+    return panel.widget
+
+
+@scene("help")
+def help_page(stage: Stage) -> QImage:
+    """The page of a block, with its example."""
+    with stage.window() as window:
+        assert window.later.desk is not None
+        window.later.desk.open("block/robot.say")
+        quiet()
+        quiet()
+        return picture(window)
+
+
+@scene("robots-and-nodes")
+def robots_and_nodes(stage: Stage) -> QImage:
+    """What the karate example needs, before it runs."""
+    with stage.window() as window:
+        _panel(window, "RobotsPanel")
+        _panel(window, "NodesPanel")
+        quiet()
+        return picture(window)
+
+
+@scene("cues")
+def cues(stage: Stage) -> QImage:
+    """A button for each thing that may happen in the theatre piece."""
+    with stage.window(example="theatre_cues") as window:
+        _panel(window, "CuePanel")
+        quiet()
+        return picture(window)
+
+
+@scene("commands")
+def commands(stage: Stage) -> QImage:
+    """All that can be done, found by a few letters."""
+    with stage.window() as window:
+        window.actions_by_name["palette"].trigger()
+        quiet()
+        return picture(window)
+
+
+@scene("gestures")
+def gestures(stage: Stage) -> QImage:
+    """Three gestures that were taught, with their takes."""
+    with stage.window(example="own_gestures") as window:
+        panel = window.findChild(TrainerPanel)
+        assert panel is not None
+        window.workbench.panels.show(panel)
+        quiet()
+        return picture(window)
+
+
+@scene("connect-watch")
+def connect_watch(stage: Stage) -> QImage:
+    """What somebody may have to send movements with."""
+    with stage.window() as window:
+        window.actions_by_name["connect_watch"].trigger()
+        quiet()
+        dialog = window.findChild(WatchDialog)
+        assert dialog is not None
+        return dialog.grab().toImage()
+
+
+RULE, SAYS = "robot_events.touched", "robot.say"
+
+
+def _make_rule(window: MainWindow) -> None:
+    """Let the page hold nothing but a rule of two blocks."""
+    editor = window.workbench.canvas.editor
+    project = editor.project
+    for stack in list(project.pages["behaviour"]):
+        editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    project.notes.clear()
+    place = editor.new_stack("behaviour", 60, 60)
+    with editor.transaction("a rule"):
+        editor.create(RULE, place)
+        says = editor.create(SAYS, InStack(place.stack, 1))
+        editor.apply(SetField(says, "text", "That tickles."))
+
+
+@scene("first-rule")
+def first_rule(stage: Stage) -> QImage:
+    """A rule: when the head is touched, the robot says something."""
+    with stage.window() as window:
+        canvas = window.workbench.canvas
+        _make_rule(window)
+        canvas.show_block(block_of(canvas, SAYS))
+        quiet()
+        whole = part_of(window, canvas.viewport())
+        return picture(window, whole.intersected(QRect(whole.topLeft(), QSize(460, 200))))
+
+
+@scene("show-mode")
+def show_mode(stage: Stage) -> QImage:
+    """What the public sees."""
+    with stage.window(example="museum_coach") as window:
+        mode = window.findChild(ShowMode)
+        assert mode is not None
+        show = mode.begin()
+        show.showNormal()
+        show.resize(*SIZE)
+        quiet(1500)
+        shown = show.grab().toImage()
+        show.left.emit()
+        return shown

@@ -1,24 +1,31 @@
-"""The page of all messages, from the structs that programs check them with."""
+"""What nobody writes twice: pages of all messages and commands, the table of benchmarks."""
 
 from __future__ import annotations
 
+import ast
+import contextlib
+import io
+import os
 import re
 from collections.abc import Iterator, Mapping
 from html import escape
 from inspect import cleandoc
+from pathlib import Path
 from typing import Any
 
 import msgspec
 from msgspec.inspect import Field
 
+from benchmarks.__main__ import FOLDER, benchmark_names
+from nep_core.cli import overview
 from nep_core.processes.manifest import Manifest
 from nep_core.wire.messages import BY_TOPIC, LATCHED
+from nep_studio.__main__ import USAGE, main
 
-from .markup import scrolling_table
-from .page import HERE, Page
+from .page import HERE, Page, scrolling_table
 
-PATH = "messages.html"
-ABOUT = "What nodes send each other: every topic with the keys of its messages."
+MESSAGES_PATH = "messages.html"
+ABOUT_MESSAGES = "What nodes send each other: every topic with the keys of its messages."
 _CODE = re.compile(r"``(.+?)``")
 
 
@@ -26,15 +33,15 @@ def messages_page(nodes: Mapping[str, Manifest], title_of: Mapping[str, str]) ->
     """Every topic, its message, who hears and says it; ``title_of`` are titles of nodes by id."""
     parts = [
         '<h1 id="top">Messages</h1>',
-        f"<p>{ABOUT} A message travels as one JSON object. Keys that a receiver does not know are "
-        "left aside; a key that is missing, or of another type, is an error that names it. Times "
-        "are seconds since 1970, angles rad, lengths m, unless a name says else.</p>",
+        f"<p>{ABOUT_MESSAGES} A message travels as one JSON object. Keys that a receiver does not "
+        "know are left aside; a key that is missing, or of another type, is an error that names "
+        "it. Times are seconds since 1970, angles rad, lengths m, unless a name says else.</p>",
         f'<p>How they are put on the wire: <a href="{HERE}developers/wire.html">the wire</a>. '
         "To read them as they come: <code>nep echo TOPIC</code>.</p>",
     ]
     for topic, struct in BY_TOPIC.items():
         parts += _topic(topic, struct, nodes, title_of)
-    return Page(PATH, "Messages", "\n".join(parts), "messages", about=ABOUT)
+    return Page(MESSAGES_PATH, "Messages", "\n".join(parts), "messages", about=ABOUT_MESSAGES)
 
 
 def _topic(
@@ -135,3 +142,59 @@ def _inner(struct: type[msgspec.Struct]) -> Iterator[type[msgspec.Struct]]:
         item = getattr(field.type, "item_type", None)
         if isinstance(item, msgspec.inspect.StructType):
             yield item.cls
+
+
+COMMANDS_PATH = "commands.html"
+ABOUT_COMMANDS = "What can be done in a terminal: every command, with what it says about itself."
+COLUMNS = "80"
+_JOB = re.compile(r"^  nep-studio (\w+)", re.M)
+
+
+def commands_page() -> Page:
+    """Every job of ``nep-studio`` with its help; those of ``nep`` have a page of their own."""
+    parts = [
+        '<h1 id="top">Commands</h1>',
+        f"<p>{ABOUT_COMMANDS}</p>",
+        '<h2 id="nep-studio">nep-studio</h2>',
+        _shown(USAGE),
+    ]
+    for job in jobs():
+        parts += [f'<h3 id="{job}">nep-studio {job}</h3>', _shown(help_of(job))]
+    parts += [
+        '<h2 id="nep">nep</h2>',
+        f'<p>For robot developers; <a href="{HERE}developers/command_line.html">the command line '
+        "nep</a> has each command with examples.</p>",
+        _shown(overview()),
+    ]
+    return Page(COMMANDS_PATH, "Commands", "\n".join(parts), "commands", about=ABOUT_COMMANDS)
+
+
+def jobs() -> list[str]:
+    """What ``nep-studio`` can do, as it says itself; jobs that only it asks for are not told."""
+    return _JOB.findall(USAGE)
+
+
+def help_of(job: str) -> str:
+    """What ``nep-studio JOB --help`` prints."""
+    os.environ["COLUMNS"] = COLUMNS
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed), contextlib.suppress(SystemExit):
+        main([job, "--help"])
+    return printed.getvalue()
+
+
+def _shown(text: str) -> str:
+    return f'<pre tabindex="0"><code>{escape(text.strip())}</code></pre>'
+
+
+def benchmark_rows() -> str:
+    """A row for each benchmark: its name, and what it measures."""
+    return "\n".join(
+        f"| `{name}` | {_measured(FOLDER / f'{name}.py')} |" for name in benchmark_names(FOLDER)
+    )
+
+
+def _measured(path: Path) -> str:
+    """The first line of a module's docstring; it is read without running the module."""
+    told = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return told.splitlines()[0].replace("|", "\\|")

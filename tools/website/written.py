@@ -14,8 +14,7 @@ from markdown_it.renderer import RendererHTML
 from markdown_it.token import Token
 from PySide6.QtGui import QImageReader
 
-from .markup import box_to_tick, slug
-from .page import HERE, Page, plain
+from .page import HERE, Page, box_to_tick, plain, slug
 
 ABOUT = re.compile(r"<!-- about: (.*?) -->")
 WORDS = re.compile(r"<!-- words: (.*?) -->", re.S)

@@ -1,11 +1,11 @@
 """Makes the documentation as a web site that needs no server and no internet.
 
-    .venv/bin/python docs/build_site.py                     into build/site, in all languages
-    .venv/bin/python docs/build_site.py --folder FOLDER     somewhere else
-    .venv/bin/python docs/build_site.py --languages en de   only these
+    .venv/bin/python tools/build_site.py                     into build/site, in all languages
+    .venv/bin/python tools/build_site.py --folder FOLDER     somewhere else
+    .venv/bin/python tools/build_site.py --languages en de   only these
 
 It is made of docs/guide and the other files in docs, of the help, the definitions, the manifests
-and the messages: docs/website says how. A link that leads nowhere is an error.
+and the messages: tools/website says how. A link that leads nowhere is an error.
 """
 
 from __future__ import annotations
@@ -26,11 +26,14 @@ def main() -> int:
     for variable in ("QT_SCALE_FACTOR", "QT_FONT_DPI", "QT_STYLE_OVERRIDE"):
         os.environ.pop(variable, None)
     os.environ |= {"QT_QPA_PLATFORM": "offscreen", "LC_ALL": "C.UTF-8", "LANGUAGE": "en"}
-    sys.path[:0] = [str(ROOT), str(ROOT / "docs")]
+    sys.path.insert(0, str(ROOT))
     try:
-        from website.build import WrongLinks, build  # Qt reads the environment when it is loaded
-        from website.window import Shortcuts
-        from website.written import WrongPage
+        from tools.website.build import (  # Qt reads the environment when it is loaded
+            WrongLinks,
+            build,
+        )
+        from tools.website.window import Shortcuts
+        from tools.website.written import WrongPage
     except ModuleNotFoundError as error:
         _tell(f"{error.name} is not there. After “python3 dev.py setup”, use .venv/bin/python.")
         return 2

@@ -1,15 +1,193 @@
-"""Pictures of what the gesture benchmark found: who is taken for whom, and how many are found."""
+"""Makes the pictures and the tables of docs/gestures.md from what the gesture benchmark found.
+
+.venv/bin/python -m benchmarks.gestures --json docs/gestures.json     measure
+.venv/bin/python tools/gesture_figures.py                              draw, and fill in
+.venv/bin/python tools/gesture_figures.py --check                      compare, change nothing
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "gestures.md"
+BEGIN, END = "<!-- tables: tools/gesture_figures.py -->", "<!-- end of tables -->"
+
+os.environ |= {"LC_ALL": "C.UTF-8", "LANGUAGE": "en", "QT_QPA_PLATFORM": "offscreen"}
+sys.path.insert(0, str(ROOT))
+
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPen
+from PySide6.QtGui import QColor, QFont, QGuiApplication, QImage, QPainter, QPen
 
 from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.theme.look import text_font
+
+
+def main(arguments: list[str]) -> int:
+    """Make or compare pictures and tables; the exit code is 1 when one is out of date."""
+    options = _parsed(arguments)
+    from tools.image_files import difference, write_small
+
+    app = QGuiApplication.instance() or QGuiApplication([])
+    data = json.loads(options.data.read_text(encoding="utf-8"))
+    people = "people" if not data["simulated"] else "simulated people"
+    pictures = {
+        "gestures-confusion": confusion_picture(
+            data["simulated_figure"], "SIMULATED people: five of them make each gesture ten times"
+        ),
+        "gestures-spotting": spotting_picture(
+            [one for one in data["scores"] if not one["sensor"]],
+            f"{len(data['people'])} {people}, {len(data['gestures'])} gestures:"
+            " found in the stream",
+        ),
+    }
+    is_right = True
+    for name, image in pictures.items():
+        path = options.folder / f"{name}.png"
+        reason = difference(image, path) if options.check else write_small(image, path)
+        is_right = is_right and not (options.check and reason)
+        sys.stdout.write(f"{name:24} {reason or 'as it was'}\n")
+    is_right = _fill_in(options.page, tables(data), is_check=options.check) and is_right
+    del app
+    return int(not is_right)
+
+
+def _fill_in(page: Path, words: str, *, is_check: bool) -> bool:
+    """Put the tables between their marks; tells whether they were right or are now."""
+    old = page.read_text(encoding="utf-8")
+    before, _, rest = old.partition(BEGIN)
+    _, _, after = rest.partition(END)
+    new = f"{before}{BEGIN}\n{words}\n{END}{after}"
+    if is_check:
+        sys.stdout.write(f"{page.name:24} {'as it was' if new == old else 'out of date'}\n")
+        return new == old
+    page.write_text(new, encoding="utf-8")
+    return True
+
+
+def _parsed(arguments: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="compare, and change nothing")
+    parser.add_argument("--data", type=Path, default=ROOT / "docs" / "gestures.json")
+    parser.add_argument("--page", type=Path, default=PAGE)
+    parser.add_argument("--folder", type=Path, default=ROOT / "docs" / "images")
+    return parser.parse_args(arguments)
+
+
+Score = Mapping[str, Any]
+
+TRIALS = {
+    "personal, 1 example": "own, 1 example",
+    "personal, 2 examples": "own, 2 examples",
+    "personal, 3 examples": "own, 3 examples",
+    "personal, 5 examples": "own, 5 examples",
+    "other people": "other people's",
+}
+GOALS = {
+    "personal, 3 examples": "0.90",
+    "personal, 5 examples": "0.95",
+    "other people": "0.85",
+}
+
+
+def tables(data: Mapping[str, Any]) -> str:
+    """All tables, with a heading each."""
+    scores: Sequence[Score] = data["scores"]
+    parts = [
+        _people(data),
+        "### In the continuous stream",
+        "\n".join(_spotting(scores)),
+        "### Cut-out gestures, told apart",
+        "\n".join(_cut_out(scores)),
+        "### With a worse sensor (own, 5 examples; learned from the whole one), F1",
+        "\n".join(_sensors(scores)),
+        "### Five gestures of simulated people",
+        "\n".join(_simulated(data["simulated_figure"])),
+    ]
+    return "\n\n".join(parts)
+
+
+def _people(data: Mapping[str, Any]) -> str:
+    kind = "simulated people" if data["simulated"] else "people"
+    idle = data["everyday_s"] / 60
+    return (
+        f"`{data['folder']}`: {len(data['people'])} {kind}, {len(data['gestures'])} gestures; "
+        f"{idle:.1f} minutes of other people's everyday movement."
+    )
+
+
+def _spotting(scores: Sequence[Score]) -> Iterator[str]:
+    yield (
+        "| model | method | F1 | goal | recall | precision | false triggers a minute | fires at |"
+        " F1 with at most 0.1 of them |"
+    )
+    yield "|---|---|---|---|---|---|---|---|---|"
+    for trial, words in TRIALS.items():
+        for one in scores:
+            if one["trial"] == trial and not one["sensor"] and one["made"]:
+                goal = GOALS.get(trial, "")
+                yield (
+                    f"| {words} | {one['method']} | {one['f1']:.3f} | {goal} |"
+                    f" {one['recall']:.3f} | {one['precision']:.3f} |"
+                    f" {_number(one['false_a_minute'], 2)} | {one['threshold']:g} |"
+                    f" {_number(one['f1_when_calm'], 3)} |"
+                )
+
+
+def _cut_out(scores: Sequence[Score]) -> Iterator[str]:
+    plain = [one for one in scores if not one["sensor"] and one["told_apart"] is not None]
+    trials = [trial for trial in TRIALS if any(one["trial"] == trial for one in plain)]
+    yield "| method | " + " | ".join(TRIALS[trial] for trial in trials) + " |"
+    yield "|---|" + "---|" * len(trials)
+    for method in dict.fromkeys(one["method"] for one in plain):
+        own = {one["trial"]: one["told_apart"] for one in plain if one["method"] == method}
+        yield f"| {method} | " + " | ".join(_number(own.get(one), 3) for one in trials) + " |"
+
+
+def _sensors(scores: Sequence[Score]) -> Iterator[str]:
+    worse = [one for one in scores if one["sensor"] and one["made"]]
+    sensors = list(dict.fromkeys(one["sensor"] for one in worse))
+    yield "| method | " + " | ".join(sensors) + " |"
+    yield "|---|" + "---|" * len(sensors)
+    for method in dict.fromkeys(one["method"] for one in worse):
+        own = {one["sensor"]: one["f1"] for one in worse if one["method"] == method}
+        yield f"| {method} | " + " | ".join(_number(own.get(one), 3) for one in sensors) + " |"
+
+
+def _simulated(scores: Sequence[Score]) -> Iterator[str]:
+    yield (
+        "| method | recall | precision | F1 | false triggers a minute, plain | with signs |"
+        " recall on a left wrist that nobody told of |"
+    )
+    yield "|---|---|---|---|---|---|---|"
+    for one in (one for one in scores if one["pairs"] and not one["sensor"]):
+        false = {
+            other["sensor"]: other["false_a_minute"]
+            for other in scores
+            if other["method"] == one["method"]
+        }
+        left = [
+            other["recall"]
+            for other in scores
+            if other["method"] == one["method"] and other["sensor"] == "left wrist"
+        ]
+        plain = false.get("simulated everyday", false.get(""))
+        yield (
+            f"| {one['method']} | {one['recall']:.3f} | {one['precision']:.3f} | {one['f1']:.3f} |"
+            f" {_number(plain, 2)} | {_number(false.get('simulated lively'), 2)} |"
+            f" {_number(left[0] if left else None, 3)} |"
+        )
+
+
+def _number(value: float | None, digits: int) -> str:
+    return "-" if value is None else f"{value:.{digits}f}"
+
 
 SCALE = 2
 CELL = 50.0
@@ -18,8 +196,6 @@ CHART = QRectF(64, 62, 560, 270)
 CHART_SIZE = (880, 392)
 COLOURS = ("accent", "warning", "info", "error", "success")
 NOTHING = ""
-
-Score = Mapping[str, Any]
 
 
 class Drawing:
@@ -191,3 +367,7 @@ _TRIALS = (
     "personal, 5 examples",
     "other people",
 )
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,6 +1,6 @@
 """Writes resources/examples/own_gestures.nep: a project with gestures of its own, learned already.
 
-.venv/bin/python docs/make_gesture_example.py
+.venv/bin/python tools/make_gesture_example.py
 
 A simulated person makes a big wave, a circle and a knock, five times each, and moves as on any
 other day for a minute: so that teaching gestures can be looked at, and tried, without a watch. The
@@ -22,12 +22,12 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from nep_studio.blocks.files import (  # noqa: E402
+from nep_studio.blocks.files import (
     from_bytes,
     load,
     save,
 )
-from nep_studio.blocks.own_gestures import (  # noqa: E402  (the project's folder comes first)
+from nep_studio.blocks.own_gestures import (
     OwnGesture,
     OwnRecogniser,
     OwnRecording,
@@ -38,14 +38,14 @@ from nep_studio.blocks.own_gestures import (  # noqa: E402  (the project's folde
     packed_samples,
     training_digest,
 )
-from nep_studio.run.installation import studio_language  # noqa: E402
-from nodes.perceptual.recognition.model import write_model  # noqa: E402
-from nodes.perceptual.recognition.streams import takes_of  # noqa: E402
-from nodes.perceptual.recognition.training import train  # noqa: E402
-from nodes.recordings import Recording  # noqa: E402
-from nodes.sensory.arm.everyday import rest  # noqa: E402
-from nodes.sensory.arm.gestures import Gesture, KeyStroke, arm, trunk  # noqa: E402
-from nodes.sensory.arm.people import (  # noqa: E402
+from nep_studio.run.installation import studio_language
+from nodes.perceptual.recognition.model import write_model
+from nodes.perceptual.recognition.streams import takes_of
+from nodes.perceptual.recognition.training import train
+from nodes.recordings import Recording
+from nodes.sensory.arm.everyday import rest
+from nodes.sensory.arm.gestures import Gesture, KeyStroke, arm, trunk
+from nodes.sensory.arm.people import (
     Performer,
     person_numbered,
     simulate_everyday,
