@@ -9,7 +9,7 @@ from driver_held_nao import SERVICES, HeldNao
 from driver_stage import DriverStage, ServedNao
 from naoqi_lamp import CERTIFICATE, KEY
 
-from nep_core.wire.messages import RobotState
+from robots.body.messages import RobotState
 from robots.naoqi.discovery import FOLDER_VARIABLE, SavedLogin, save_login
 from robots.naoqi.probe import probe
 from robots.naoqi.server.server import Server

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from nao_stage import ANIMATIONS, BODY, Stage
 
-from nep_core.wire.messages import ActionRequest
 from robots.body.actor import FINAL, REMEMBERED_REQUESTS
+from robots.body.messages import ActionRequest
 
 
 def test_a_request_is_accepted_started_and_done() -> None:

@@ -9,10 +9,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from nep_core.wire.messages import ActionRequest, ActionResult, RobotState, SenseRequest
+from nep_core.places import robot_folder
+from nodes.resources import model_of
 from robots.body.actor import Actor
 from robots.body.animations import Animations, load_animations
-from robots.body.body import Body, load_body, model_of
+from robots.body.body import Body, load_body
+from robots.body.messages import ActionRequest, ActionResult, RobotState, SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.body.speech import load_gesture_words
 from robots.body.virtual import VirtualDriver
@@ -20,7 +22,7 @@ from robots.naoqi.client.session import Session
 from robots.naoqi.services.all import Offered
 from robots.naoqi.wire.remote import RemoteObject
 
-NAO = Path(__file__).resolve().parents[4] / "resources" / "robots" / "nao"
+NAO = Path(__file__).resolve().parents[3] / "resources" / "robots" / "nao"
 
 
 @cache
@@ -42,7 +44,12 @@ class NaoqiTheatre:
         body, animations = known(folder)
         words = load_gesture_words(folder)
         self.robot = VirtualRobot(
-            "NAO", body, animations, gesture_words=words, model=model_of(folder)
+            "NAO",
+            body,
+            animations,
+            gesture_words=words,
+            model=model_of(folder),
+            files=robot_folder("NAO"),
         )
         self.driver = VirtualDriver(self.robot)
         self.actor = Actor("NAO", self.driver)

@@ -11,11 +11,11 @@ from typing import Any
 
 import msgspec
 
-from nep_core.wire.messages import ActionRequest, ActionResult, RobotState, SenseRequest
-from nodes.resources import resource_folder
+from nodes.resources import model_folder, resource_folder
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import load_animations
-from robots.body.body import load_body, robot_folder
+from robots.body.body import load_body
+from robots.body.messages import ActionRequest, ActionResult, RobotState, SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.naoqi.driver.driver import NaoqiDriver
 
@@ -68,7 +68,7 @@ class DriverStage:
     """An actor with our driver; ``told`` are results as text such as "1 started"."""
 
     def __init__(self, address: str, model: str = "nao") -> None:
-        folder = robot_folder(model)
+        folder = model_folder(model)
         body = load_body(folder)
         animations = load_animations(folder / "animations", body)
         self.driver = NaoqiDriver(VirtualRobot("NAO", body, animations), address)
@@ -87,7 +87,7 @@ class DriverStage:
 
     def step(self) -> None:
         self.results += self.actor.step(time.monotonic())
-        self.noticed += [one.human_state for one in self.actor.noticed()]
+        self.noticed += self.actor.noticed()
         time.sleep(0.002)
 
     def until(self, is_so: Callable[[], object], at_most_s: float = PATIENCE_S) -> float:

@@ -15,10 +15,11 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.wire.messages import SenseRequest
+from nodes.resources import model_folder
 from robots.body.actor import Actor
 from robots.body.animations import load_animations
-from robots.body.body import load_body, robot_folder
+from robots.body.body import load_body
+from robots.body.messages import SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.body.virtual import VirtualDriver
 from robots.naoqi.server.server import Server
@@ -30,7 +31,7 @@ TICK_S = 0.005
 
 
 def main(port: int, speed: float, password: str, model: str) -> None:
-    folder = robot_folder(model)
+    folder = model_folder(model)
     body = load_body(folder)
     robot = VirtualRobot("NAO", body, load_animations(folder / "animations", body))
     driver = VirtualDriver(robot)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from nao_stage import Stage
 
-from nep_core.wire.messages import SenseRequest, Thing
+from robots.body.messages import SenseRequest, Thing
 from robots.body.sense_tasks import length_s
 
 NOBODY = [Thing(id="b", kind="ball", place=(5.0, 0.0, 0.0), size=(0.1, 0.1, 0.1))]
@@ -21,7 +21,7 @@ def person(name: str = "", id: str = "p1", ahead: float = 1.0) -> Thing:
 
 def face(stage: Stage, name: str = "", value: float = 1.0) -> list[str]:
     request = SenseRequest(robot="NAO", sense="face", name=name, value=value)
-    return [behavior.human_state for behavior in stage.actor.sense(request)]
+    return stage.actor.sense(request)
 
 
 def place(stage: Stage, *things: Thing) -> list[str]:

@@ -7,9 +7,9 @@ import pytest
 from nao_skeleton import frames, point
 from nao_stage import BODY
 
-from nep_core.errors import ActionFailed, NodeStartError
 from robots.body.body import load_body, posture_name, posture_path
 from robots.body.limbs import MOVING, Limb
+from robots.errors import ActionFailed, FilesUnusable
 
 
 def test_it_has_the_26_joints_of_nao_with_their_limits() -> None:
@@ -104,5 +104,5 @@ def test_an_unknown_posture_is_answered_with_those_there_are() -> None:
 def test_a_body_file_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     (tmp_path / "body.json").write_text('{"joints": [')
 
-    with pytest.raises(NodeStartError, match=r"body\.json"):
+    with pytest.raises(FilesUnusable, match=r"body\.json"):
         load_body(tmp_path)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from services_table import all_services, known_of, methods_of, page, read_table
 
-DOCS = Path(__file__).resolve().parents[4] / "docs"
+DOCS = Path(__file__).resolve().parents[3] / "docs"
 WANTED = [
     "ALTextToSpeech",
     "ALAnimatedSpeech",

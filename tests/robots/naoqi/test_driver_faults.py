@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator
 import pytest
 from driver_stage import DriverStage, ServedNao
 
-from nep_core.errors import ActionFailed
 from robots.body.actions import Turn
+from robots.errors import ActionFailed
 from robots.naoqi.discovery import FOLDER_VARIABLE, PASSWORD_VARIABLE, SavedLogin, save_login
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.service import method

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
-from nep_core.wire.messages import ActionResult
 from robots.body.actor import FINAL
+from robots.body.messages import ActionResult
 
 
 @pytest.fixture

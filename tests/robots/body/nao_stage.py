@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from nep_core.wire.messages import ActionRequest, ActionResult
+from nep_core.places import robot_folder
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import load_animations
 from robots.body.body import Angles, load_body
+from robots.body.messages import ActionRequest, ActionResult
 from robots.body.pose import VirtualRobot
 from robots.body.speech import load_gesture_words
 from robots.body.virtual import VirtualDriver
@@ -25,7 +26,10 @@ class Stage:
     """One actor; results are kept as text such as "1 started", angles and bases of every tick."""
 
     def __init__(self, posture: str = "Stand") -> None:
-        self.robot = VirtualRobot("NAO", BODY, ANIMATIONS, posture, load_gesture_words(NAO))
+        words = load_gesture_words(NAO)
+        self.robot = VirtualRobot(
+            "NAO", BODY, ANIMATIONS, posture, words, files=robot_folder("NAO")
+        )
         self.driver = VirtualDriver(self.robot)
         self.actor = Actor("NAO", self.driver)
         self.now_s = 0.0

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 from nao_stage import Stage
 
-from nep_core.wire.messages import RobotState, SenseRequest
+from robots.body.messages import RobotState, SenseRequest
 
 
 def sense(stage: Stage, what: str, value: float = 1.0, **more: object) -> list[str]:
     request = SenseRequest(robot="NAO", sense=what, value=value, **more)
-    return [state.human_state for state in stage.actor.sense(request)]
+    return stage.actor.sense(request)
 
 
 def state(stage: Stage) -> RobotState:

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from nao_stage import BODY
 
-from nep_core.errors import NodeStartError
 from robots.body.animations import load_animation
 from robots.body.keyframes import Track
+from robots.errors import FilesUnusable
 
 KEYS = """
 title = "Wave"
@@ -78,7 +78,7 @@ def test_a_wrong_file_is_told_by_name_and_place(
     path = tmp_path / "mine.toml"
     path.write_text(text.replace(old, new, 1) if old else text)
 
-    with pytest.raises(NodeStartError) as told:
+    with pytest.raises(FilesUnusable) as told:
         load_animation(path, BODY)
 
     assert "mine.toml" in str(told.value.sentence) and place in str(told.value.sentence)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from nep_core.errors import ParameterError
+from robots.errors import WrongAddress
 from robots.naoqi.discovery import (
     FOLDER_VARIABLE,
     PASSWORD_VARIABLE,
@@ -43,7 +43,7 @@ def test_an_address_may_name_a_port(text: str, address: Address) -> None:
     "text", ["", " ", ":9559", "nao:", "nao:0", "nao:70000", "nao:x", "http://nao", "my nao", "a:²"]
 )
 def test_text_that_is_no_address_is_refused_with_what_to_do(text: str) -> None:
-    with pytest.raises(ParameterError, match="is not the address of a robot") as told:
+    with pytest.raises(WrongAddress, match="is not the address of a robot") as told:
         read_address(text)
 
     assert "chest button" in str(told.value.checklist[0])

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from nao_stage import ANIMATIONS, NAO, Stage
 
-from nep_core.errors import NodeStartError
 from robots.body.animations import NO_GESTURE
 from robots.body.speech import load_gesture_words, spoken_parts
+from robots.errors import FilesUnusable
 
 WORDS = load_gesture_words(NAO)
 
@@ -103,5 +103,5 @@ def test_a_robot_without_words_for_gestures_has_none(tmp_path: Path) -> None:
 def test_a_wrong_file_is_told_by_its_name(tmp_path: Path) -> None:
     (tmp_path / "gesture_words.toml").write_text("words = 3")
 
-    with pytest.raises(NodeStartError, match=r"gesture_words\.toml"):
+    with pytest.raises(FilesUnusable, match=r"gesture_words\.toml"):
         load_gesture_words(tmp_path)

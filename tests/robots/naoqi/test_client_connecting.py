@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from naoqi_lamp import CERTIFICATE, KEY, CallingLamp, Lamp, lamp_server, until
 
-from nep_core.errors import PortTaken
+from robots.errors import PortTaken
 from robots.naoqi.client.session import Session
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.errors import ConnectionLost

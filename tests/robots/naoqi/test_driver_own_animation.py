@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from driver_stage import ANIMATIONS, BODY, DriverStage, ServedNao
 
-from nep_core.wire.messages import RobotState
 from robots.body.actor import Actor
 from robots.body.animations import with_own
+from robots.body.messages import RobotState
 from robots.body.pose import VirtualRobot
 from robots.naoqi.discovery import FOLDER_VARIABLE
 from robots.naoqi.driver.driver import NaoqiDriver

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from nao_stage import ANIMATIONS, BODY, Stage
 
-from nep_core.errors import ActionFailed
 from robots.body import body
 from robots.body.limbs import Limb
 from robots.body.speech import speaking_time_s
+from robots.errors import ActionFailed
 
 
 def test_speaking_takes_about_a_second_for_14_characters() -> None:
