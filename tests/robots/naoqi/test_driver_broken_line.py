@@ -84,7 +84,7 @@ def test_rubbish_in_the_middle_of_a_motion_is_told_and_the_robot_is_met_again(
 
     assert passed_s < TOLD_S
     assert stage.event == "disconnected"
-    assert stage.driver.connection.description.startswith(("The connection", "NAO does not answer"))
+    assert str(stage.driver.connection.fault).startswith(("The connection", "NAO does not answer"))
     stage.meet()
     assert stage.do("say", text="Here I am again").state == "done"
     stage.until(lambda: not line.robot.state().moving)

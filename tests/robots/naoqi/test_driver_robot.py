@@ -133,24 +133,24 @@ def test_a_nearly_empty_battery_is_warned_of_until_it_is_charged(
     robot.sense(*sense)
     stage.until(lambda: stage.event == "warning")
 
-    told = stage.driver.connection.description.splitlines()
+    told = stage.driver.connection.fault
     robot.sense("battery", 0.9)
     stage.until(lambda: stage.event == "connected")
 
-    assert words in told[0]
-    assert told[1].startswith("[ ] Plug NAO in")
+    assert words in str(told)
+    assert str(told.checklist[0]).startswith("Plug NAO in")
 
 
 def test_a_robot_that_sleeps_says_how_it_is_woken(robot: ServedNao, stage: DriverStage) -> None:
     stage.do("rest")
     stage.until(lambda: stage.event == "warning")
 
-    told = stage.driver.connection.description
+    told = stage.driver.connection.fault
     refused = stage.do("look", yaw_deg=20)
     spoken = stage.do("say", text="I can still speak")
     woken = stage.do("wake_up")
 
-    assert "asleep" in told and "wakes up" in told
+    assert "asleep" in str(told) and any("wakes up" in str(step) for step in told.checklist)
     assert refused.state == "failed" and "head is released" in refused.description
     assert [spoken.state, woken.state] == ["done", "done"]
     stage.until(lambda: stage.event == "connected")

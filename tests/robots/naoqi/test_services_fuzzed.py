@@ -103,7 +103,7 @@ def test_no_call_of_a_method_harms_the_robot(seed: int, caplog: pytest.LogCaptur
             continue  # the client saw that it does not fit
         pending.wait(0.02)
         if pending.done and isinstance(pending.failure, CallFailed):
-            sentence = pending.failure.sentence
+            sentence = str(pending.failure.sentence)
             if not sentence.strip().endswith((".", ")")) or "Traceback" in sentence:
                 unclear.append((service, str(signature), arguments, sentence))
         if number % 40 == 39:
