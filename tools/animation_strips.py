@@ -29,7 +29,6 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter
 from PySide6.QtWidgets import QApplication
 
-from nep_core.wire.messages import ActionRequest, RobotState
 from nep_studio.ui.robot_view.camera import Camera, Lens
 from nep_studio.ui.robot_view.figure import load_figure
 from nep_studio.ui.robot_view.painter import ScenePainter
@@ -38,6 +37,7 @@ from nep_studio.ui.theme.colours import load_theme
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import Animation, load_animations
 from robots.body.body import load_body
+from robots.body.messages import ActionRequest, RobotState
 from robots.body.motion import TICK_S
 from robots.body.pose import VirtualRobot
 from robots.body.virtual import VirtualDriver

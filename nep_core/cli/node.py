@@ -11,6 +11,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from faults import FaultError
 from nep_core.errors import ManifestError, NepError, ParameterError
 from nep_core.places import node_folders
 from nep_core.processes import lifeline
@@ -29,7 +30,7 @@ log = logging.getLogger(__name__)
 def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
     """Run a Python node until it ends or is stopped; the exit code.
 
-    A NepError ends it with its sentence and code 1; anything else is a fault of the node and
+    A FaultError ends it with its sentence and code 1; anything else is a fault of the node and
     shows its traceback (the launcher keeps it in the node's log). A launched node that somebody in
     the network asked to stop ends with a code that says so: it is not started again.
     """
@@ -40,7 +41,7 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
         is_launched = lifeline.on_parent_end(node.stop)
         try:
             run(node, **parameters)
-        except NepError as error:
+        except FaultError as error:
             if node.stopping:
                 log.info("after it was asked to stop: %s", error)
             else:
@@ -48,7 +49,7 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
     return ASKED if is_launched and node.was_asked else 0
 
 
-def _failed(node: Node, error: NepError) -> int:
+def _failed(node: Node, error: FaultError) -> int:
     node.close("crashed", error.fault)
     print(error.sentence, file=sys.stderr)
     for step in error.checklist:

@@ -7,7 +7,6 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from faults import Text
-from nep_core.errors import ActionFailed
 from robots.body import actions as a
 from robots.body import actions as b
 from robots.body import actions as m
@@ -17,6 +16,7 @@ from robots.body.limbs import MOVING
 from robots.body.motion import playable
 from robots.body.motor_tasks import SIDES
 from robots.body.schedule import Task
+from robots.errors import ActionFailed
 
 from .real import RealRobot
 
