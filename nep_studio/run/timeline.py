@@ -309,7 +309,8 @@ class Timeline:
             case "started":
                 return action_words(request, self._language, tr)
             case "failed" if reason:
-                return tr("failed to {action}: {reason}", action=request.action, reason=reason)
+                told = tr(reason)
+                return tr("failed to {action}: {reason}", action=request.action, reason=told)
             case "failed":
                 return tr("failed to {action}", action=request.action)
             case "cancelled":
@@ -318,7 +319,7 @@ class Timeline:
 
 
 def _node_words(state: m.NodeState, tr: Tr) -> str:
-    told = tr(state.fault.sentence)
+    told = tr(state.fault.sentence) if state.fault.sentence else ""
     if state.event in ("running", "warning", "crashed", "stopped") and told:
         return told
     words = _event_words(state.event, tr)
@@ -362,7 +363,7 @@ def _program_words(state: m.ProgramState, tr: Tr) -> str:
         case "goal_interrupted":
             return tr("interrupts the goal “{goal}”", goal=state.rule)
         case "failed":
-            return tr("stopped with an error: {reason}", reason=state.fault.sentence)
+            return tr("stopped with an error: {reason}", reason=tr(state.fault.sentence))
         case "finished":
             return tr("has ended")
     return ""
