@@ -14,12 +14,12 @@ from typing import Any
 from faults import FaultError
 from nep_core.errors import ManifestError, NepError, ParameterError
 from nep_core.places import node_folders
-from nep_core.processes import lifeline
+from nep_core.processes import handover, lifeline
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_core.processes.node import Node, check_node_name
 from nep_core.processes.process import ASKED
 
-from . import explain
+from . import explain, steps_of
 
 log = logging.getLogger(__name__)
 
@@ -51,9 +51,8 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
 
 def _failed(node: Node, error: FaultError) -> int:
     node.close("crashed", error.fault)
-    print(error.sentence, file=sys.stderr)
-    for step in error.checklist:
-        print(f"  [ ] {step}", file=sys.stderr)
+    handover.hand_over(error.fault)
+    print("\n".join([str(error), *steps_of(error)]), file=sys.stderr)
     return 1
 
 
@@ -94,6 +93,7 @@ def main(arguments: list[str]) -> int:
         name = check_node_name(options.name or manifest.name)
         return run_node(manifest, name, settings(options.settings))
     except NepError as error:
+        handover.hand_over(error.fault)
         print(explain(error), file=sys.stderr)
         return 1
 
