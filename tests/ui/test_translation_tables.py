@@ -36,11 +36,10 @@ SHOWN = {
 """Functions whose words are shown in the language of the person: which arguments."""
 
 NAMED = {
-    "ui/canvas/slot_looks.py": "HINTS",
-    "ui/canvas/fields/colour_popup.py": "COLOURS",
+    "ui/canvas/fields/colour.py": "COLOURS",
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
-    "blocks/operations/flags.py": "LABELS",
-    "ui/trainer/keeping.py": "LABELS",
+    "blocks/operations/wrapping.py": "LABELS",
+    "ui/plugins/gestures/project_gestures.py": "LABELS",
 }
 """Data whose words are given to tr() one by one."""
 
@@ -118,7 +117,8 @@ def words_of_data() -> Iterator[str]:
 def words_of_slots() -> Iterator[str]:
     for definition in studio_language().definitions.values():
         yield from (slot_name(slot) for slot in definition.slots.values())
-    yield from (kind.noun for kind in KINDS.values())
+    for kind in KINDS.values():
+        yield from (kind.noun, kind.hint, kind.unit.strip("°"))
 
 
 def words_of_examples() -> Iterator[str]:
