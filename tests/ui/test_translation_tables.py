@@ -44,7 +44,6 @@ SHOWN = {
 """Functions whose words are shown in the language of the person: which arguments."""
 
 NAMED = {
-    "ui/canvas/layout/slot_style.py": "HINTS",
     "ui/canvas/fields/colour.py": "COLOURS",
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
     "blocks/operations/wrapping.py": "LABELS",
@@ -126,7 +125,8 @@ def words_of_data() -> Iterator[str]:
 def words_of_slots() -> Iterator[str]:
     for definition in studio_language().definitions.values():
         yield from (slot_name(slot) for slot in definition.slots.values())
-    yield from (kind.noun for kind in KINDS.values())
+    for kind in KINDS.values():
+        yield from (kind.noun, kind.hint, kind.unit.strip("°"))
 
 
 def words_of_examples() -> Iterator[str]:

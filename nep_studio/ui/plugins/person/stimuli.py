@@ -14,8 +14,8 @@ from nep_core.program.human import state_of_thing, state_of_word
 from nep_core.program.robot import TOUCHES
 from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState, Thing, ThingKind
-from nep_studio.blocks.deployment import GESTURE_STATE
 from nep_studio.blocks.program import ALL_ROBOTS
+from nep_studio.blocks.slots import GESTURE_STATE
 from nep_studio.project.surroundings import AHEAD_M, SIZES, named
 from nep_studio.project.triggers import Happening
 from nep_studio.run.plan import VIRTUAL_WATCH
