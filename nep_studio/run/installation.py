@@ -11,7 +11,7 @@ from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
-from nep_studio.blocks.checks import check
+from nep_studio.blocks.checks import check_steps
 from nep_studio.blocks.checks.problem import Problem
 from nep_studio.blocks.definition_files import drivers_beside, load_definitions, load_profile
 from nep_studio.blocks.deployment import (
@@ -26,6 +26,7 @@ from nep_studio.blocks.generate.registry import generator_names
 from nep_studio.blocks.language import Language, translated
 from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
+from nep_studio.blocks.slices import Steps, at_once
 
 RESERVED_NAMES = ("master", "studio", "program", "recording")
 """Names of the parts that every session has."""
@@ -36,11 +37,16 @@ def all_problems(project: Project, language: Language, folder: Path) -> list[Pro
 
     ``folder`` is where the project's own files are.
     """
+    return at_once(problem_steps(project, language, folder))
+
+
+def problem_steps(project: Project, language: Language, folder: Path) -> Steps[list[Problem]]:
+    """The same in steps."""
     catalog = NodeCatalog(node_folders())
     nodes, robots = node_entries(project, language), robot_entries(project, language)
     known = _known_gestures(project, language)
     found = [
-        *check(project, language),
+        *(yield from check_steps(project, language)),
         *(problem for entry in nodes for problem in _node(entry, catalog, known, folder)),
         *(problem for entry in robots for problem in _robot(entry)),
         *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),

@@ -17,14 +17,15 @@ from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 
-from .problem import Problem, Severity, page_of
+from .problem import Found, Problem, Severity, page_of
 
 
-def check_blocks(project: Project, language: Language) -> Iterator[Problem]:
+def check_blocks(project: Project, language: Language) -> Found:
     """Problems of single blocks, on all pages; disabled blocks have none."""
     for page, stacks in project.pages.items():
         for stack in stacks:
             for block in project.within(stack.body, enabled=True):
+                yield None
                 definition = language.definitions.get(block.type)
                 if definition is None:
                     yield _unknown(page, block)
@@ -149,13 +150,14 @@ class _Place(NamedTuple):
     apart: bool = False
 
 
-def check_inside(project: Project, language: Language) -> Iterator[Problem]:
+def check_inside(project: Project, language: Language) -> Found:
     """Blocks that mean nothing where they are."""
     for chain in chains(project, language):
         hat = project.blocks[chain[0]]
         start = _Place(procedure_of(hat.type) if hat.type.startswith(DEFINE) else "")
         waiting = [(block_id, start) for block_id in reversed(chain)]
         while waiting:
+            yield None
             block_id, place = waiting.pop()
             block = project.blocks[block_id]
             definition = language.definitions.get(block.type)
@@ -225,7 +227,7 @@ def _wrong_python(block: Block, definition: Definition, place: _Place) -> _Mispl
 # Checks of own blocks: called without a definition, defined twice, giving nothing, in circles.
 
 
-def check_own_blocks(project: Project, language: Language) -> Iterator[Problem]:
+def check_own_blocks(project: Project, language: Language) -> Found:
     """Problems of own blocks; nothing is looked at where there are none."""
     if not project.procedures:
         return
@@ -237,6 +239,7 @@ def check_own_blocks(project: Project, language: Language) -> Iterator[Problem]:
         blocks = list(project.within(chain, enabled=True))
         called = calls.setdefault(owner, {})
         for block in blocks:
+            yield None
             if block.type.startswith(CALL):
                 called.setdefault(procedure_of(block.type), block.id)
         if not owner:

@@ -20,7 +20,7 @@ from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import sentence
 
-from .problem import Fix, Problem, page_of
+from .problem import Fix, Found, Problem, page_of
 
 
 def check_deployment(project: Project, language: Language) -> Iterator[Problem]:
@@ -117,11 +117,12 @@ def _names(project: Project, language: Language) -> Iterator[Problem]:
 # Checks of what the robot on the screen cannot do: it has no camera and no files.
 
 
-def check_real_robots(project: Project, language: Language) -> Iterator[Problem]:
+def check_real_robots(project: Project, language: Language) -> Found:
     """Blocks that need a real robot, and name a virtual one."""
     virtual = {e.name for e in robot_entries(project, language) if e.driver == "virtual"}
     for chain in rules(project, language):
         for block in project.within(chain, enabled=True):
+            yield None
             definition = language.definitions.get(block.type)
             if definition is None or "needs_real_robot" not in definition.flags:
                 continue

@@ -277,10 +277,6 @@ class Breakpoints(QObject):
         """Pause nowhere."""
         self._set(frozenset())
 
-    def lines(self, code: Code) -> tuple[int, ...]:
-        """The lines of a program before which it pauses."""
-        return tuple(sorted({line for block in self.ids if (line := code.stop_at(block))}))
-
     def _set(self, ids: frozenset[str]) -> None:
         if ids != self.ids:
             self.ids = ids

@@ -66,6 +66,7 @@ MODULES = (
     "nep_studio.ui.workbench.palette.palette",
     "nep_studio.ui.workbench.workbench",
     "nep_studio.run.session",
+    "nep_studio.run.controller",
     "nep_studio.ui.running.control",
     "nep_studio.help.texts",
     "nep_studio.ui.plugins.help.repository",

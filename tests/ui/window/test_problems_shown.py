@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.blocks.slices import Sliced
+from nep_studio.run.installation import problem_steps
 from nep_studio.ui.shell.main_window import MainWindow
-from nep_studio.ui.workbench.live_checks import Cancelled, RestingMapping, SlicedCall, _sliced_check
 
 
 @pytest.fixture
@@ -97,72 +96,17 @@ def test_typing_does_not_wait_for_a_check(karate: MainWindow, qtbot: QtBot) -> N
     assert checks._pause.isActive()
 
 
-def test_a_long_work_rests_when_its_slice_is_over() -> None:
-    def work(rest):
-        known = RestingMapping({"a": 1}, rest)
-        until = time.perf_counter() + 0.05
-        looked = 0
-        while time.perf_counter() < until:
-            looked += known["a"]
-        return looked
-
-    call = SlicedCall(work)
-    slices = 0
-    while not call.run(0.005):
-        slices += 1
-
-    assert slices >= 3
-    assert call.result() > 0
-
-
-def test_a_cancelled_work_ends_where_it_rests() -> None:
-    ended = []
-
-    def work(rest):
-        try:
-            while True:
-                rest()
-        except Cancelled:
-            ended.append(True)
-            raise
-
-    call = SlicedCall(work)
-    call.run(0.001)
-
-    call.cancel()
-
-    assert ended == [True]
-
-
-def test_a_work_that_was_never_run_can_be_cancelled() -> None:
-    call = SlicedCall(lambda rest: 1)
-
-    call.cancel()
-
-    assert call.is_over
-
-
-def test_what_a_work_raises_comes_out_of_its_result() -> None:
-    def work(rest):
-        raise ValueError("no")
-
-    call = SlicedCall(work)
-    call.run(0.01)
-
-    with pytest.raises(ValueError, match="no"):
-        call.result()
-
-
 def test_a_huge_program_is_checked_in_many_slices(karate: MainWindow) -> None:
     editor = karate.files.document.editor
     with editor.transaction("many"):
         for number in range(400):
             editor.create("control.wait", editor.new_stack("behaviour", 900, 60 * number))
 
-    check = _sliced_check(editor.project, editor.language, karate.files.document.folder)
+    folder = karate.files.document.folder
+    check = Sliced(problem_steps(editor.project, editor.language, folder))
     slices = 1
     while not check.run(0.0):
         slices += 1
 
     assert slices > 400
-    assert len(check.result()) >= 1
+    assert len(check.result) >= 1
