@@ -12,6 +12,7 @@ import traceback
 from importlib import import_module
 from typing import NoReturn
 
+from faults import FaultError
 from nep_core.cli.lessons import EXIT_CODES, FIRST_STEPS, LESSONS
 from nep_core.errors import NepError
 from nep_core.places import log_folder
@@ -189,7 +190,7 @@ def explain(error: NepError) -> str:
     return "\n".join([error.title, str(error), *steps_of(error)])
 
 
-def steps_of(error: NepError) -> list[str]:
+def steps_of(error: FaultError) -> list[str]:
     """What to try, as lines for a person at a terminal."""
     return [f"  [ ] {step}" for step in error.checklist]
 
