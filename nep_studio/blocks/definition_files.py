@@ -16,7 +16,7 @@ from .slots import RESULTS, why_not_line
 
 _BLOCK_KEYS = frozenset(
     ("sentence", "shape", "result", "help", "defaults", "minimum", "flags", "call", "generator")
-)
+) | {"translations"}
 
 
 @dataclass(slots=True)
@@ -140,8 +140,12 @@ def _read_block(
         raise SentenceError("it needs a sentence")
     if unknown := set(entry) - _BLOCK_KEYS:
         raise SentenceError(f"it has a key “{min(unknown)}” that is not known")
-    if not all(isinstance(entry.get(key, {}), dict) for key in ("defaults", "minimum")):
-        raise SentenceError("defaults and minimum must be tables")
+    tables = ("defaults", "minimum", "translations")
+    if not all(isinstance(entry.get(key, {}), dict) for key in tables):
+        raise SentenceError("defaults, minimum and translations must be tables")
+    translations = entry.get("translations", {})
+    if not all(isinstance(words, str) for words in translations.values()):
+        raise SentenceError("translations must be sentences by their language")
     parts = parse(entry["sentence"])
     slots, groups = slots_of(parts), groups_of(parts)
     minimum = entry.get("minimum", {})
@@ -159,6 +163,7 @@ def _read_block(
         flags=frozenset(entry.get("flags", [])),
         call=read_call(entry["call"], slots) if "call" in entry else None,
         generator=entry.get("generator", ""),
+        translations=translations,
     )
     _check_shape(definition)
     _check_defaults(definition, minimum)

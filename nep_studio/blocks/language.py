@@ -131,8 +131,10 @@ class Language:
 #     [words]
 #     define = "lege fest"
 #
-# A translated sentence has the slots and groups of the English one, by their names only, each
-# once; they may stand elsewhere. What a table does not have, or has wrongly, stays English.
+# A block may bring its sentences along (``translations`` by language), so that it is one entry of
+# one file; a table's own sentence goes before. A translated sentence has the slots and groups of
+# the English one, by their names only, each once; they may stand elsewhere. What a table does not
+# have, or has wrongly, stays English.
 
 Table = Mapping[str, Any]
 
@@ -152,12 +154,12 @@ class Fault:
         return f"{self.place}: {self.sentence}"
 
 
-def translated(language: Language, table: Table) -> Language:
-    """The language with the words of a table."""
+def translated(language: Language, table: Table, code: str = "") -> Language:
+    """The language with the words of a table, and those that blocks bring for ``code``."""
     categories = {c.id: _category(c, table) for c in language.categories}
     return Language(
         {
-            block_type: _definition(definition, categories, table)
+            block_type: _definition(definition, categories, _sentence(definition, table, code))
             for block_type, definition in language.definitions.items()
         },
         tuple(categories.values()),
@@ -189,15 +191,16 @@ def translated_parts(definition: Definition, sentence: str) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def faults(language: Language, table: Table) -> Iterator[Fault]:
-    """What is wrong with a table, and what it has not translated."""
+def faults(language: Language, table: Table, code: str = "") -> Iterator[Fault]:
+    """What is wrong with a table, and what neither it nor a block has translated."""
     texts = _texts(table, "blocks")
     for block_type, definition in language.definitions.items():
-        if block_type not in texts:
+        sentence = _sentence(definition, table, code)
+        if not sentence:
             yield Fault(block_type, "is not translated")
             continue
         try:
-            translated_parts(definition, texts[block_type])
+            translated_parts(definition, sentence)
         except SentenceError as error:
             yield Fault(block_type, str(error))
     yield from (Fault(t, "is no block") for t in texts if t not in language.definitions)
@@ -234,11 +237,15 @@ def _places(parts: tuple[Part, ...] | list[Part]) -> Iterator[str]:
             yield from (f"{part.name}/{p.name}" for p in part.parts if isinstance(p, Slot))
 
 
+def _sentence(definition: Definition, table: Table, code: str) -> str:
+    """The translated sentence of a block: the table's, or its own; empty when there is none."""
+    return _texts(table, "blocks").get(definition.id) or definition.translations.get(code, "")
+
+
 def _definition(
-    definition: Definition, categories: Mapping[str, Category], table: Table
+    definition: Definition, categories: Mapping[str, Category], sentence: str
 ) -> Definition:
     category = categories.get(definition.category.id, definition.category)
-    sentence = _texts(table, "blocks").get(definition.id)
     try:
         parts = translated_parts(definition, sentence) if sentence else definition.parts
     except SentenceError:

@@ -195,4 +195,4 @@ def studio_language(code: str = "en") -> Language:
     table = resources / "translations" / f"{code}.toml"
     if code == "en" or not table.is_file():
         return language
-    return translated(language, tomllib.loads(table.read_text(encoding="utf-8")))
+    return translated(language, tomllib.loads(table.read_text(encoding="utf-8")), code)

@@ -187,6 +187,8 @@ class ValueReader:
             self._types.setdefault(definition.generator, definition.id)
             if definition.call is not None:
                 self._by_call.setdefault(definition.call.name, []).append(definition)
+        for definitions in self._by_call.values():  # what says more goes before what says less
+            definitions.sort(key=_count_of_constants, reverse=True)
 
     def type_of(self, generator: str) -> str:
         """The type of the block that a generator makes, or an empty text."""
@@ -259,10 +261,16 @@ class ValueReader:
         elif not isinstance(node.func, ast.Name):
             return None
         given = {keyword.arg: keyword.value for keyword in node.keywords}
+        for keyword, constant in wanted.constants.items():
+            value = _constant(given.pop(keyword, ast.Pass()))
+            if value != constant or type(value) is not type(constant):
+                return None
         required = {name for name, key in wanted.keywords.items() if key not in wanted.optional}
         if len(node.args) != len(wanted.arguments) or not required <= given.keys():
             return None
-        if not given.keys() <= wanted.keywords.keys() or len(given) < len(node.keywords):
+        if not given.keys() <= wanted.keywords.keys() or len(given) + len(wanted.constants) < len(
+            node.keywords
+        ):
             return None
         for key, argument in zip(wanted.arguments, node.args, strict=True):
             if not self.fill(made, key, argument):
@@ -358,7 +366,11 @@ class ValueReader:
         return None if value is None else slot.kind.from_python(value)
 
 
-def _constant(node: ast.expr) -> str | int | float | bool | None:
+def _count_of_constants(definition: Definition) -> int:
+    return len(definition.call.constants) if definition.call is not None else 0
+
+
+def _constant(node: ast.AST) -> str | int | float | bool | None:
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         inner = _constant(node.operand)
         is_number = isinstance(inner, int | float) and not isinstance(inner, bool)

@@ -198,6 +198,7 @@ class Expressions:
             for name, key in made.keywords.items()
             if key not in made.optional or not self._is_default(block, key)
         }
+        keywords |= {name: constant(value) for name, value in made.constants.items()}
         if not made.on:
             return self.api_call(made.name, *arguments, **keywords)
         return method_call(self.slot(block, made.on), made.name, arguments, keywords)
