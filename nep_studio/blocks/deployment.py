@@ -8,10 +8,9 @@ from typing import cast
 
 from .language import Language
 from .procedures import DEFINE
-from .program import Block, Project
+from .program import ROBOT_BLOCK, Block, Project
 from .slots import FieldValue, Setting
 
-ROBOT_BLOCK = "robots.robot"
 NODE_BLOCK = "nodes.launch"
 GESTURE_NODE = "perceptual/gesture"
 GESTURE_STATE = "gesture_"

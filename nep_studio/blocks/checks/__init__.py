@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..language import Language
 from ..program import Project
 from .blocks import check_blocks, check_inside, check_own_blocks
-from .deployment import check_deployment, check_real_robots, check_rules
+from .deployment import check_abilities, check_deployment, check_real_robots, check_rules
 from .flow import check_flow, check_limits
 from .problem import Fix, Problem
 
@@ -17,6 +17,7 @@ _CHECKS = (
     check_limits,
     check_flow,
     check_deployment,
+    check_abilities,
     check_real_robots,
 )
 

@@ -197,7 +197,11 @@ def _sliced_check(project: Project, language: Language, folder: Path) -> Check:
     def work(rest: Callable[[], None]) -> list[Problem]:
         definitions = RestingMapping(language.definitions, rest)
         resting = _RestingLanguage(
-            definitions, language.categories, language.choices, language.profile
+            definitions,
+            language.categories,
+            language.choices,
+            language.profiles,
+            robots=language.robots,
         )
         return all_problems(project, resting, folder)
 

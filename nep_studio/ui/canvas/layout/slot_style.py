@@ -150,4 +150,4 @@ def _text(
         return f"{value}" if is_said else f"{value}{unit}"
     if kind == "file":
         return str(value).replace("\\", "/").rpartition("/")[2]
-    return language.choices_of(slot, block, key).get(str(value), str(value))
+    return language.label_of(slot, value, block, key)

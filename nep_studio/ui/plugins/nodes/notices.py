@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from nep_core.processes.process import STEP
-from nep_studio.blocks.deployment import ROBOT_BLOCK
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.program import ROBOT_BLOCK
 from nep_studio.problems import Problem
 from nep_studio.run.local_network import MASTER
 from nep_studio.run.node_board import NodeStatus
