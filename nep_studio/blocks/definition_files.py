@@ -261,16 +261,13 @@ def load_profile(path: Path) -> RobotProfile:
     return RobotProfile(data["name"], data["title"], data["node"], choices, standing)
 
 
-def drivers_beside(path: Path, profile: RobotProfile) -> dict[str, Mapping[str, str]]:
-    """The table of drivers with those of the robots in the folders beside a robot's own.
+def load_profiles(path: Path) -> tuple[RobotProfile, ...]:
+    """Read a robot.toml, and those of the robots in the folders beside it, the first one first.
 
-    So a folder with another robot adds it to the Robots page. Raises DefinitionError.
+    So a folder with another robot adds it. Raises DefinitionError.
     """
-    own = profile.choices.get("drivers")
-    if own is None or path.parent.name != profile.name:
-        return {}
-    drivers = dict(own)
-    for other in sorted(path.parent.parent.glob("*/robot.toml")):
-        for driver, label in load_profile(other).choices.get("drivers", {}).items():
-            drivers.setdefault(driver, label)
-    return {"drivers": drivers}
+    own = load_profile(path)
+    if path.parent.name != own.name:
+        return (own,)
+    others = sorted(other for other in path.parent.parent.glob("*/robot.toml") if other != path)
+    return (own, *map(load_profile, others))

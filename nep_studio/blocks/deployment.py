@@ -8,10 +8,9 @@ from typing import cast
 
 from .language import Language
 from .procedures import DEFINE
-from .program import Block, Project
+from .program import ROBOT_BLOCK, Block, Project
 from .slots import GESTURE_STATE, FieldValue, Setting
 
-ROBOT_BLOCK = "robots.robot"
 NODE_BLOCK = "nodes.launch"
 GESTURE_NODE = "perceptual/gesture"
 """What the human state of a recognised gesture begins with."""

@@ -20,6 +20,8 @@ PAGES = ("behaviour", "robots", "nodes")
 FARTHEST = 1e6
 """How far from the page's corner a stack can lie, in canvas units."""
 
+ROBOT_BLOCK = "robots.robot"
+"""The block of the Robots page that says which robot takes part."""
 ALL_ROBOTS = "*"
 """The value of a robot field that means every robot of the Robots page."""
 

@@ -13,7 +13,7 @@ from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import check_steps
 from nep_studio.blocks.checks.problem import Problem
-from nep_studio.blocks.definition_files import drivers_beside, load_definitions, load_profile
+from nep_studio.blocks.definition_files import load_definitions, load_profiles
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NodeEntry,
@@ -23,7 +23,7 @@ from nep_studio.blocks.deployment import (
     robot_entries,
 )
 from nep_studio.blocks.generate.registry import generator_names
-from nep_studio.blocks.language import Language, translated
+from nep_studio.blocks.language import Language, together, translated
 from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slices import Steps, at_once
@@ -139,21 +139,22 @@ def load_language(
     gestures: Mapping[str, str] | None = None,
     nodes: Mapping[str, str] | None = None,
 ) -> Language:
-    """Read the definitions and the robot profile.
+    """Read the definitions and the robot profile, with those of the robots beside it.
 
     ``gestures`` (name to label) and ``nodes`` ("type/name" to label) are what this installation
     can recognise and launch. Raises DefinitionError, which names the file and the block.
     """
     found = load_definitions(blocks_folder, generator_names())
-    profile = load_profile(robot_file)
+    profiles = load_profiles(robot_file)
     choices: dict[str, Mapping[str, str]] = {
         "gestures": gestures or {},
         "nodes": nodes or {},
-        **profile.choices,
-        **drivers_beside(robot_file, profile),
+        **profiles[0].choices,
         **found.choices,
     }
-    return Language(found.definitions, tuple(found.categories), choices, profile)
+    if drivers := together(profile.choices for profile in profiles).get("drivers"):
+        choices["drivers"] = drivers
+    return Language(found.definitions, tuple(found.categories), choices, profiles)
 
 
 # The block language with what this installation can recognise and launch.

@@ -8,7 +8,7 @@ from ..language import Language
 from ..program import Project
 from ..slices import Steps, at_once
 from .blocks import check_blocks, check_inside, check_own_blocks
-from .deployment import check_deployment, check_real_robots, check_rules
+from .deployment import check_abilities, check_deployment, check_real_robots, check_rules
 from .flow import check_flow, check_limits
 from .problem import Fix, Found, Problem
 
@@ -20,6 +20,7 @@ _CHECKS: tuple[Callable[[Project, Language], Found], ...] = (
     check_limits,
     check_flow,
     check_deployment,
+    check_abilities,
     check_real_robots,
 )
 

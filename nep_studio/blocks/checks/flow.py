@@ -99,7 +99,7 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
             postures[robot] = taken
             continue
         posture = postures.get(robot, postures.get(ALL_ROBOTS))
-        if posture is not None and posture not in language.profile.standing:
+        if posture is not None and posture not in language.standing:
             label = language.choices.get("postures", {}).get(posture, posture)
             name = "A robot" if robot == ALL_ROBOTS else robot
             yield Problem(

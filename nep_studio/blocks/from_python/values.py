@@ -215,8 +215,8 @@ class ValueReader:
         if value is None or slot.why_not(value) is not None:
             return None
         if slot.kind.name == "choice":
-            tables = self.language.choices_of(slot) if not slot.master else {}
-            return value if not tables or value in tables else None
+            is_known = bool(slot.master) or self.language.why_not_choice(slot, value) is None
+            return value if is_known else None
         return value
 
     def plugged(self, slot: Slot, node: ast.expr) -> Made | None:
@@ -316,13 +316,13 @@ class ValueReader:
 
     def _choose_masters(self, made: Made) -> bool:
         """Choose what a choice depends on where Python does not say it: the arm of a joint."""
-        definition, choices = self.language.definitions[made.type], self.language.choices
+        definition, known = self.language.definitions[made.type], self.language.known
         for key, value in list(made.fields.items()):
             slot = definition.slots[split_slot(key)[0]]
             if not slot.master or slot.master in made.fields:
                 continue
-            masters = list(choices.get(definition.slots[slot.master].table, ()))
-            tables = {master: choices.get(f"{slot.table}.{master}", {}) for master in masters}
+            masters = list(known(definition.slots[slot.master].table))
+            tables = {master: known(f"{slot.table}.{master}") for master in masters}
             fitting = [master for master in masters if value in tables[master]]
             if not fitting and any(tables.values()):
                 return False

@@ -112,4 +112,4 @@ def _text(
     if unit := unit_of(slot.kind):
         is_said = says_unit(language.definitions[block.type], slot.name, unit)
         return f"{value}" if is_said else f"{value}{unit}"
-    return language.choices_of(slot, block, key).get(str(value), str(value))
+    return language.label_of(slot, value, block, key)

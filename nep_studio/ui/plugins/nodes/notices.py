@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal
 
 from faults import Text, Words
 from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS
-from nep_studio.blocks.deployment import ROBOT_BLOCK
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.program import ROBOT_BLOCK
 from nep_studio.problems import Problem
 from nep_studio.run.local_network import MASTER
 from nep_studio.run.node_board import NodeStatus
