@@ -141,9 +141,7 @@ def test_what_a_process_hands_over_says_nothing_about_whether_it_is_started_agai
 
 
 @pytest.mark.parametrize("junk", [b"", b"{", b"7", b"[]", b"{}", b'{"sentence": ""}', b"\xff"])
-def test_what_is_no_fault_is_as_if_it_were_not_there(
-    tmp_path: Path, junk: bytes
-) -> None:
+def test_what_is_no_fault_is_as_if_it_were_not_there(tmp_path: Path, junk: bytes) -> None:
     place = tmp_path / "fault.json"
     place.write_bytes(junk)
 
