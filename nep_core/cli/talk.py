@@ -220,5 +220,6 @@ class _Story:
 
     def tell(self, state: NodeState) -> None:
         if state.node == self._name and state.event not in TOLD_OTHERWISE:
-            about = f": {state.description}" if state.description else ""
+            told = str(state.fault)
+            about = f": {told}" if told else ""
             say(f"{state.node} is {state.event.replace('_', ' ')}{about}")

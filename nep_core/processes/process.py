@@ -376,8 +376,10 @@ def _can_send_signals() -> bool:
 
 
 def last_words(lines: list[str]) -> str:
-    """The last line that says something; "" when none does."""
-    return next((line.strip() for line in reversed(lines) if line.strip()), "")
+    """The last line that says something, one without an indent if there is any; else ""."""
+    said = [line for line in lines if line.strip()]
+    whole = [line for line in said if not line[0].isspace()] or said
+    return whole[-1].strip() if whole else ""
 
 
 def program_command(*words: str) -> list[str]:

@@ -11,6 +11,7 @@ import msgspec
 from nep_core.program.human import plain, state_of_thing, state_of_word, word_of_state
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.deployment import chains, rules
+from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.sentence import Slot
@@ -268,10 +269,10 @@ class Cue(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 def own_cue(text: str, *, is_word: bool = False) -> Cue:
-    """A cue for a state, or for words that somebody says; raises ValueError for no words."""
+    """A cue for a state, or for words that somebody says; raises EditRefused for no words."""
     reason = why_not_line(text)
     if reason is not None or not plain(text):
-        raise ValueError(reason or "A letter or a digit is needed.")
+        raise EditRefused(reason or "A letter or a digit is needed.")
     if is_word:
         return Cue(state_of_word(text), "word", text.strip(), is_own=True)
     return Cue(text.strip(), words=text.strip(), is_own=True)

@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import GESTURE_REQUEST, HUMAN_BEHAVIOR, GestureRequest, HumanBehavior
+from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import Cue, own_cue
 from nep_studio.run.plan import VIRTUAL_WATCH
 from nep_studio.ui.messages import announce
@@ -254,7 +255,7 @@ class CuePanel(QWidget):
     def _on_said(self) -> None:
         try:
             cue = own_cue(self.words.text(), is_word=True)
-        except ValueError:
+        except EditRefused:
             self.words.setFocus()
             return
         if self.send(cue):

@@ -343,7 +343,7 @@ class ProjectCommands:
             name = self.kept.save(self.desk.motion, self.desk.name, self._use)
         except EditRefused as refused:
             step = tr("Give it a name and at least one pose, then keep it again.")
-            self._tell(tr("The motion could not be kept"), tr(str(refused)), step)
+            self._tell(tr("The motion could not be kept"), tr(refused.sentence), step)
             return False
         self._use = None
         self.desk.saved(name)
