@@ -85,7 +85,7 @@ def drag_gap(stage: Stage) -> QImage:
     """Blocks that are carried, and the gap that opens for them."""
     with stage.window() as window:
         canvas = _canvas(window)
-        target = canvas.view_rect_of(block_of(canvas, "robot.do"))
+        target = canvas.sight.view_rect_of(block_of(canvas, "robot.do"))
         drag(canvas, block_of(canvas, "robot.play"), target.bottomLeft() + QPointF(16, 12))
         return picture(window, _canvas_part(window, 560, 480))
 
@@ -102,9 +102,9 @@ def replace_preview(stage: Stage) -> QImage:
         quiet()
         placed = canvas.page_layout.placed(walk)
         piece = next(piece for piece in placed.box.pieces if piece.key == "forward")
-        corner = canvas.camera.to_view(placed.x + piece.x, placed.y + piece.y)
+        corner = canvas.sight.camera.to_view(placed.x + piece.x, placed.y + piece.y)
         drag(canvas, value, corner + QPointF(6, 8))
-        rect = canvas.view_rect_of(walk)
+        rect = canvas.sight.view_rect_of(walk)
         place = canvas.viewport().mapTo(window, rect.topLeft().toPoint())
         shown = QRect(place - QPoint(20, 120), QSize(560, 240))
         return picture(window, shown.intersected(part_of(window, canvas.viewport())))
@@ -160,8 +160,8 @@ def context_menu(stage: Stage) -> QImage:
     """What can be done with a block."""
     with stage.window() as window:
         canvas = _canvas(window)
-        rect = canvas.view_rect_of(block_of(canvas, "control.together"))
-        canvas.request_menu((rect.topLeft() + QPointF(40, 16)).toPoint())
+        rect = canvas.sight.view_rect_of(block_of(canvas, "control.together"))
+        canvas.pointing.request_menu((rect.topLeft() + QPointF(40, 16)).toPoint())
         quiet()
         return picture(window, part_of(window, canvas.menu, margin=60))
 

@@ -10,7 +10,7 @@ from PySide6.QtCore import QPoint, QSize
 from PySide6.QtGui import QColor, QImage, QPainter
 
 from nep_studio import paths
-from nep_studio.ui.canvas.view import ScrollingView
+from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.words import PSEUDO
 
@@ -40,20 +40,20 @@ def _examples(stage: Stage, language: str, theme: str) -> list[QImage]:
     return pictures
 
 
-def _whole_page(canvas: ScrollingView) -> QImage:
+def _whole_page(canvas: Canvas) -> QImage:
     """All blocks of a page, drawn by a view that is large enough for them."""
-    view = ScrollingView(
+    view = Canvas(
         canvas.editor,
-        canvas.theme,
-        font=canvas.block_font,
-        is_mirrored=canvas.measures.is_mirrored,
+        canvas.look.theme,
+        font=canvas.look.block_font,
+        is_mirrored=canvas.look.measures.is_mirrored,
     )
     bounds = view.page_layout.bounds()
     assert bounds is not None
     size = QSize(round(bounds.width) + 2 * EDGE, round(bounds.height) + 2 * EDGE)
     view.resize(size.boundedTo(LARGEST))
     view.show()
-    view.move_camera(bounds.x - EDGE, bounds.y - EDGE)
+    view.sight.move_camera(bounds.x - EDGE, bounds.y - EDGE)
     quiet(120)
     image = view.viewport().grab().toImage()
     image.setDevicePixelRatio(1.0)

@@ -130,7 +130,7 @@ def part_of(window: QWidget, *widgets: QWidget, margin: int = 0) -> QRect:
 
 def around(canvas: Canvas, block: str, size: tuple[int, int]) -> QRect:
     """A part of the window that begins a little before a block."""
-    rect = canvas.view_rect_of(block)
+    rect = canvas.sight.view_rect_of(block)
     assert rect is not None
     corner = canvas.viewport().mapTo(canvas.window(), rect.topLeft().toPoint())
     return QRect(corner - QPoint(28, 28), QSize(*size))
@@ -144,7 +144,7 @@ def block_of(canvas: Canvas, kind: str, number: int = 0) -> str:
 
 def drag(canvas: Canvas, block: str, to: QPointF) -> None:
     """Take a block with the mouse, so that its corner comes to a point of the view, and hold it."""
-    rect = canvas.view_rect_of(block)
+    rect = canvas.sight.view_rect_of(block)
     assert rect is not None
     grip = rect.topLeft() + QPointF(5, 14)
     _mouse(canvas, QEvent.Type.MouseButtonPress, grip)
@@ -166,7 +166,7 @@ def _mouse(canvas: Canvas, kind: QEvent.Type, at: QPointF) -> None:
 
 
 def _close(window: MainWindow) -> None:
-    window.workbench.canvas.cancel_gesture()
+    window.workbench.canvas.pointing.cancel()
     window.workbench.canvas.fields.close()
     for popup in QApplication.topLevelWidgets():
         if popup is not window and popup.isVisible():

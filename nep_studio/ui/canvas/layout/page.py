@@ -309,6 +309,16 @@ class PageLayout:
         stacks = self.project.pages.get(self.page, [])
         return {stack.id: number for number, stack in enumerate(stacks)}
 
+    def corners(self, ids: Iterable[str]) -> dict[str, tuple[float, float]]:
+        """Where chains that begin with these blocks lie on the page."""
+        corners = {}
+        for block in ids:
+            placed = self.placed(block)
+            if placed is not None:
+                right = placed.box.width if placed.box.is_mirrored else 0.0
+                corners[block] = placed.x + right, placed.y
+        return corners
+
     def near(self, rect: Rect) -> list[str]:
         """The stacks that touch a rectangle, the one on top last."""
         return sorted(self.chains.near(rect), key=self._order.__getitem__)
