@@ -281,7 +281,9 @@ _is_installed = False
 def interface_of(view: CanvasHost) -> CanvasInterface:
     """The interface of a canvas, always the same one."""
     if not isinstance(view.accessible, CanvasInterface):
-        view.accessible = CanvasInterface(view)  # Qt holds it by pointer only: Python must keep it
+        made = CanvasInterface(view)
+        view.accessible = made  # Qt holds it by pointer only: Python must keep it
+        view.news.layout_changed.connect(made.forget_gone)
     return view.accessible
 
 
@@ -292,7 +294,6 @@ def make_accessible(view: CanvasHost) -> None:
         QAccessible.installFactory(_factory)
         _is_installed = True
     view.selection.changed.connect(lambda: _tell_focus(view))
-    view.news.layout_changed.connect(lambda: _forget_gone(view))
 
 
 def announce(view: CanvasHost, text: str) -> None:
@@ -311,8 +312,3 @@ def _tell_focus(view: CanvasHost) -> None:
     event = focus_event(interface_of(view))
     if event is not None:
         QAccessible.updateAccessibility(event)
-
-
-def _forget_gone(view: CanvasHost) -> None:
-    if isinstance(view.accessible, CanvasInterface):
-        view.accessible.forget_gone()

@@ -94,7 +94,6 @@ class Canvas(QAbstractScrollArea):
         self.commands = Commands(self)
         self.keyboard = Keyboard(self)
         self.marks = DragMarks(self)
-        self.layers.overlays.append(self.marks.drop_overlay)
         self.menu: QMenu | None = None
         self.menu_sections: list[Section] = []
         self.later_layout = QTimer(self, interval=0)
@@ -168,8 +167,8 @@ class Canvas(QAbstractScrollArea):
         self.later_layout.start()
         self.notes.refresh()
         self.layers.repaint_all()
-        self.news.layout_changed.emit()
         self.sight.update_scroll_bars()
+        self.news.layout_changed.emit()
 
     def lay_out_more(self) -> None:
         """Lay out, while nobody waits, some of the stacks of a large page that are out of view.
@@ -221,6 +220,7 @@ class Canvas(QAbstractScrollArea):
             self.later_layout.start()
         self.layers.repaint_page(self.notes.change(changes))
         self.selection.keep(self.editor.project.blocks)
+        self.sight.update_scroll_bars()
         self.news.layout_changed.emit()
 
     # The view
@@ -234,6 +234,7 @@ class Canvas(QAbstractScrollArea):
         self.layers.resize()
         super().resizeEvent(event)
         self.sight.take_width(event.size().width())
+        self.news.resized.emit()
 
     def scrollContentsBy(self, dx: int, dy: int) -> None:
         """Follow a scroll bar."""

@@ -39,6 +39,7 @@ class CanvasNews(QObject):
     """
 
     page_changed = Signal(str)
+    resized = Signal()
     view_changed = Signal()
     layout_changed = Signal()
     refused = Signal(object)  # Words

@@ -307,7 +307,7 @@ class Stage(QObject):
     def show_on(self, canvas: Canvas) -> None:
         """Show it on this canvas from now on."""
         self._canvas = canvas
-        canvas.layers.overlays.append(self.overlay)
+        canvas.layers.show_overlay(self.overlay)
         canvas.menu_sections.append(self._menu)
 
     def begin(self, code: Code) -> None:

@@ -81,7 +81,6 @@ class FindBar(QFrame):
         self._subject: Subject | None = None
         self._history: History | None = None
         self._overlay = HitOverlay()
-        canvas.layers.overlays.append(self._overlay)
         canvas.news.page_changed.connect(self._listen)
         canvas.news.uses_requested.connect(self.show_uses)
         self.title = QLabel(self)
@@ -249,6 +248,7 @@ class FindBar(QFrame):
     def _mark(self) -> None:
         current = self.hits[self.index] if 0 <= self.index < len(self.hits) else ""
         self._overlay.show(self.hits, current)
+        self.canvas.layers.show_overlay(self._overlay, is_shown=bool(self.hits))
         self.canvas.area.viewport().update()
 
     # Subjects

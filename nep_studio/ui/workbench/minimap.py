@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
@@ -41,7 +41,7 @@ class Minimap(QWidget):
         canvas.news.layout_changed.connect(self._on_layout_changed)
         canvas.news.view_changed.connect(self._on_view_changed)
         canvas.news.page_changed.connect(self.refresh)
-        canvas.viewport().installEventFilter(self)
+        canvas.news.resized.connect(self._take_place)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.refresh()
@@ -187,12 +187,6 @@ class Minimap(QWidget):
         self.raise_()
         self._take_place()
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay in the corner of the canvas."""
-        if event.type() == QEvent.Type.Resize:
-            self._take_place()
-        return super().eventFilter(watched, event)
-
     def _take_place(self) -> None:
         view = self.canvas.viewport().geometry()
         size = self.sizeHint().boundedTo(view.size() / 2)
@@ -234,7 +228,7 @@ class EmptyHint(QLabel):
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         canvas.news.layout_changed.connect(self._show_or_hide)
         canvas.news.page_changed.connect(self.refresh)
-        canvas.viewport().installEventFilter(self)
+        canvas.news.resized.connect(self._take_place)
         self.refresh()
 
     def refresh(self) -> None:
@@ -248,12 +242,6 @@ class EmptyHint(QLabel):
         how = tr("Drag a block here, or press / and type what should happen.")
         self.setText(f"{first}\n{how}".strip())
         self._show_or_hide()
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay in the middle."""
-        if event.type() == QEvent.Type.Resize:
-            self._take_place()
-        return super().eventFilter(watched, event)
 
     def _show_or_hide(self) -> None:
         project, page = self._canvas.editor.project, self._canvas.page

@@ -6,7 +6,7 @@ from collections import deque
 from itertools import count
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QObject, QPoint, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -202,7 +202,7 @@ class TrashButton(QAbstractButton):
         self._is_taking = False
         add_delete_area(canvas, self)
         canvas.news.delete_area_entered.connect(self._on_delete_area_entered)
-        canvas.viewport().installEventFilter(self)
+        canvas.news.resized.connect(self._take_place)
         self.trash.changed.connect(self._on_changed)
         self.clicked.connect(self._on_clicked)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -250,12 +250,6 @@ class TrashButton(QAbstractButton):
         painter.setFont(font)
         painter.setPen(theme.colour("accent_text"))
         painter.drawText(badge, Qt.AlignmentFlag.AlignCenter, str(len(self.trash.clips)))
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay in the corner of the canvas."""
-        if event.type() == QEvent.Type.Resize:
-            self._take_place()
-        return super().eventFilter(watched, event)
 
     def _take_place(self) -> None:
         """In the corner where lines end: blocks begin at the other side."""

@@ -54,7 +54,6 @@ class CanvasHelpers(QObject):
         self.minimap = Minimap(canvas)
         self.trash = TrashButton(canvas)
         self.empty_hint = EmptyHint(canvas)
-        canvas.news.layout_changed.connect(canvas.sight.update_scroll_bars)
         self.find_bar.hide()
         self._stack_corner()
         self.minimap.setVisible(is_minimap_shown(settings))

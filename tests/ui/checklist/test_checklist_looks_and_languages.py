@@ -49,7 +49,7 @@ def test_warnings_are_shown_on_their_block_with_a_reason_and_a_fix(person: Perso
     middle = canvas.sight.camera.to_view(rect.center().x(), rect.center().y()).toPoint()
     person.click(middle)
     bubble = person.window.workbench.bubble
-    sentence = canvas.problems.problems[check].sentence
+    sentence = str(canvas.problems.problems[check].sentence)
 
     assert bubble is not None and bubble.isVisible()
     assert sentence in bubble.accessibleName() or any(

@@ -34,7 +34,7 @@ class KeyboardCarry:
         self._target: Target | None = None
         self._dx = self._dy = 0.0
         self._overlay = DropOverlay()
-        canvas.layers.overlays.append(self._overlay)
+        canvas.layers.show_overlay(self._overlay)
         origin = place_of(canvas.editor.project, first, 1) if first else None
         canvas.layers.set_preview(cargo.hidden, None)
         sprite = make_sprite(canvas, cargo.chains, cargo.bounds)
@@ -103,7 +103,7 @@ class KeyboardCarry:
         canvas.layers.set_preview(frozenset(), None)
         canvas.layers.set_sprite(None)
         self._overlay.show(canvas, None)
-        canvas.layers.overlays.remove(self._overlay)
+        canvas.layers.show_overlay(self._overlay, is_shown=False)
 
     def _reading_order(self, canvas: CanvasHost) -> list[Target]:
         """Every seam or slot of the page, fitting or not, in the order of reading."""

@@ -61,6 +61,7 @@ class DropOverlay:
         if target is self._target:
             return
         self._update(view)
+        view.layers.show_overlay(self, is_shown=target is not None)
         self._target, self._rect, self._pushed = target, None, None
         self._path = QPainterPath()
         if target is not None:

@@ -33,7 +33,7 @@ class ReorderParts:
         self._block, self._group, self._number = hit.block, hit.piece.key, hit.piece.number
         self._bars = _bars(canvas, hit.placed, hit.piece.key)
         self._shown: Bar | None = None
-        canvas.layers.overlays.append(self)
+        canvas.layers.show_overlay(self)
         canvas.area.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
 
     @property
@@ -65,7 +65,7 @@ class ReorderParts:
 
     def cancel(self, canvas: CanvasHost) -> None:
         """Show the block as it was: nothing has changed."""
-        canvas.layers.overlays.remove(self)
+        canvas.layers.show_overlay(self, is_shown=False)
         self._update(canvas)
         canvas.area.viewport().unsetCursor()
 

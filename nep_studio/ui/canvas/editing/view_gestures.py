@@ -133,7 +133,7 @@ class RubberBand:
         held = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.ControlModifier
         self._kept = canvas.selection.ids if pointer.modifiers & held else ()
         self._scroll = AutoScroll(canvas, canvas.pointing.repeat)
-        canvas.layers.overlays.append(self)
+        canvas.layers.show_overlay(self)
 
     def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Take the rectangle to the pointer."""
@@ -165,7 +165,7 @@ class RubberBand:
 
     def _finish(self, canvas: CanvasHost) -> None:
         self._scroll.end()
-        canvas.layers.overlays.remove(self)
+        canvas.layers.show_overlay(self, is_shown=False)
         canvas.layers.update_page(self._rect())
 
     def _rect(self) -> Rect:

@@ -178,9 +178,6 @@ class Comments(QObject):
         super().__init__(canvas.area)
         self._canvas = canvas
         self.bubble: CommentBubble | None = None
-        canvas.layers.overlays.append(self)
-        canvas.news.view_changed.connect(self._follow)
-        canvas.news.layout_changed.connect(self._follow)
         canvas.news.page_changed.connect(self.close)
 
     def open(self, block: str) -> None:
@@ -189,6 +186,9 @@ class Comments(QObject):
         if self._canvas.page_layout.placed(block) is None:
             return
         self.bubble = CommentBubble(self._canvas, block, self.close)
+        self._canvas.layers.show_overlay(self)
+        for signal in (self._canvas.news.view_changed, self._canvas.news.layout_changed):
+            signal.connect(self._follow)
         self.bubble.show_bubble()
         self._canvas.area.viewport().update()
 
@@ -197,6 +197,9 @@ class Comments(QObject):
         closing, self.bubble = self.bubble, None
         if closing is not None:
             closing.dispose()
+            self._canvas.layers.show_overlay(self, is_shown=False)
+            for signal in (self._canvas.news.view_changed, self._canvas.news.layout_changed):
+                signal.disconnect(self._follow)
             self._canvas.editor.history.seal()
             self._canvas.area.viewport().update()
             self._canvas.area.setFocus(Qt.FocusReason.OtherFocusReason)

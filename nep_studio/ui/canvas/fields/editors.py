@@ -202,7 +202,7 @@ class FieldEditors(QObject):
         self._open: OpenEditor | None = None
         self._left_comment = ""
         """The block whose comment the press has closed: its button does not open it again."""
-        canvas.layers.overlays.append(FieldRing(canvas))
+        self._ring = FieldRing(canvas)
         canvas.news.view_changed.connect(self._follow)
         canvas.news.layout_changed.connect(self._follow)
         canvas.news.page_changed.connect(self.close)
@@ -232,6 +232,7 @@ class FieldEditors(QObject):
         self.canvas.sight.show_rect(rect)
         self._open = self._new(edit)
         self._open.show_editor()
+        self.canvas.layers.show_overlay(self._ring)
         self.canvas.layers.update_page(rect.grown(4.0))
         return True
 
@@ -336,6 +337,7 @@ class FieldEditors(QObject):
     def _end(self, *, restore: bool) -> None:
         closing, self._open = self._open, None
         assert closing is not None
+        self.canvas.layers.show_overlay(self._ring, is_shown=False)
         if restore:
             closing.edit.restore()
         self.canvas.attempt(closing.edit.end)

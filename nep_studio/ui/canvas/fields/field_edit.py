@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 from faults import Text, Words
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import ChangeProcedure, SetField
+from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Parameter, Procedure
 from nep_studio.blocks.sentence import Slot
@@ -64,10 +65,6 @@ class FieldEdit:
             return None
         return self._editor.language.definitions[block.type].value(block, self.key)
 
-    def why_not(self, value: FieldValue) -> Text | None:
-        """Why the field cannot hold a value, or nothing."""
-        return self._editor.why_not(SetField(self.block, self.key, value))
-
     def set(self, value: FieldValue) -> Text | None:
         """Hold another value; gives why it does not fit, and then nothing is changed."""
         if self.block not in self._editor.project.blocks:
@@ -75,10 +72,11 @@ class FieldEdit:
         now = self.value
         if now == value and type(now) is type(value):
             return None
-        reason = self.why_not(value)
-        if not reason:
+        try:
             self._editor.apply(SetField(self.block, self.key, value))
-        return reason
+        except EditRefused as refused:
+            return refused.sentence
+        return None
 
     def restore(self) -> None:
         """Take back what this editing changed, as if it had never been."""

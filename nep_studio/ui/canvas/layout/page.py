@@ -73,10 +73,13 @@ class Stacks(Mapping[str, Chain]):
 
     def near(self, rect: Rect) -> list[str]:
         """The stacks that touch a rectangle, all of them laid out."""
+        near = list(self.index.near(rect))
+        waiting = [stack_id for stack_id in near if stack_id in self._waiting]
+        if not waiting:
+            return near
         with paused_garbage_collection():
-            for stack_id in list(self.index.near(rect)):
-                if stack_id in self._waiting:
-                    self.lay_out(stack_id)
+            for stack_id in waiting:
+                self.lay_out(stack_id)
         return list(self.index.near(rect))
 
     def drop(self, stack_id: str) -> Chain | None:

@@ -285,6 +285,13 @@ class Layers:
         self._rest = StaticLayer(self._paint_page)
         self.sharpen.timeout.connect(self._viewport.update)
 
+    def show_overlay(self, overlay: Overlay, *, is_shown: bool = True) -> None:
+        """Draw an overlay over the page from now on, or no more."""
+        if is_shown and overlay not in self.overlays:
+            self.overlays.append(overlay)
+        elif not is_shown and overlay in self.overlays:
+            self.overlays.remove(overlay)
+
     def resize(self) -> None:
         """Take the size of the view and the resolution of its screen."""
         self._rest.resize(self._viewport.size(), self._host.area.devicePixelRatioF())
