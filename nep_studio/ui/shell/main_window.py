@@ -59,7 +59,6 @@ MODULES = (
     "nep_studio.ui.canvas.editing.commands",
     "nep_studio.ui.canvas.layout.page",
     "nep_studio.ui.canvas.editing.menu",
-    "nep_studio.ui.canvas.view",
     "nep_studio.ui.canvas.fields.editors",
     "nep_studio.ui.canvas.canvas",
     "nep_studio.ui.workbench.code",
@@ -318,8 +317,8 @@ class MainWindow(QMainWindow):
         """Follow the workbench, now that it and all around it are made."""
         workbench = self.workbench
         workbench.problems_found.connect(self._on_problems_found)
-        workbench.canvas.picture_requested.connect(lambda: export_picture(self))
-        workbench.canvas.layout_changed.connect(self.update_actions)
+        workbench.canvas.news.picture_requested.connect(lambda: export_picture(self))
+        workbench.canvas.news.layout_changed.connect(self.update_actions)
         workbench.canvas.selection.changed.connect(self.update_actions)
         self.update_actions()
         self.start_page.gallery.paint_pictures()
@@ -424,7 +423,7 @@ class MainWindow(QMainWindow):
     def _rebuild(self) -> None:
         """Make the contents of the window anew, and show the same place of the same project."""
         old, page = self.workbench, self.workbench.canvas.page
-        camera, selected = replace(old.canvas.camera), old.canvas.selection.ids
+        camera, selected = replace(old.canvas.sight.camera), old.canvas.selection.ids
         was_mirrored = self._is_mirrored
         old.retire()
         self.menuBar().clear()
@@ -440,11 +439,11 @@ class MainWindow(QMainWindow):
         if self.files.document is not None:
             canvas.show_page(page)
             canvas.selection.set(selected)
-            canvas.zoom(camera.scale)
+            canvas.sight.zoom(camera.scale)
             if was_mirrored == self._is_mirrored:
-                canvas.move_camera(camera.x, camera.y)
+                canvas.sight.move_camera(camera.x, camera.y)
             else:  # the page is read from its other side now
-                canvas.show_beginning()
+                canvas.sight.show_beginning()
             if selected:
                 canvas.show_block(selected[0])
 

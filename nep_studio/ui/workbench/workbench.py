@@ -54,7 +54,6 @@ class CanvasHelpers(QObject):
         self.minimap = Minimap(canvas)
         self.trash = TrashButton(canvas)
         self.empty_hint = EmptyHint(canvas)
-        canvas.layout_changed.connect(canvas.update_scroll_bars)
         self.find_bar.hide()
         self._stack_corner()
         self.minimap.setVisible(is_minimap_shown(settings))
@@ -128,13 +127,13 @@ class Workbench(QWidget):
     def _connect(self) -> None:
         canvas = self.canvas
         self.pages_bar.page_chosen.connect(canvas.show_page)
-        canvas.page_changed.connect(self.pages_bar.show_page)
-        canvas.page_changed.connect(self.code.show_page)
+        canvas.news.page_changed.connect(self.pages_bar.show_page)
+        canvas.news.page_changed.connect(self.code.show_page)
         canvas.selection.changed.connect(self._on_selection_changed)
-        canvas.refused.connect(self._messages.refuse)
-        canvas.announced.connect(self._on_announced)
-        canvas.problem_opened.connect(self.open_bubble)
-        canvas.layout_changed.connect(self._messages.clear_passing)
+        canvas.news.refused.connect(self._messages.refuse)
+        canvas.news.announced.connect(self._on_announced)
+        canvas.news.problem_opened.connect(self.open_bubble)
+        canvas.news.layout_changed.connect(self._messages.clear_passing)
         self.code.block_asked.connect(self.show_block)
         self.checks.found.connect(self._on_problems_found)
         self.problems.opened.connect(self._on_problem_opened)
@@ -187,12 +186,12 @@ class Workbench(QWidget):
 
     def zoom_usual(self) -> None:
         """Show the blocks with words as large as those of the window."""
-        self.canvas.zoom(usual_scale(self._studio))
+        self.canvas.sight.zoom(usual_scale(self._studio))
 
     def _show_corner(self) -> None:
         """Look at the corner of the page where reading begins, at the usual size."""
         self.zoom_usual()
-        self.canvas.show_beginning()
+        self.canvas.sight.show_beginning()
 
     # Blocks and problems
 
@@ -225,7 +224,7 @@ class Workbench(QWidget):
         if not there or placed is None:
             return
         rect = badge_rect(placed, self.canvas)
-        camera, viewport = self.canvas.camera, self.canvas.viewport()
+        camera, viewport = self.canvas.sight.camera, self.canvas.viewport()
         corner = camera.to_view(rect.x(), rect.y()).toPoint()
         size = (rect.size() * camera.scale).toSize()
         bubble = self.bubble = ProblemBubble(there, self)
@@ -269,7 +268,7 @@ class Workbench(QWidget):
         )
         scale = usual_scale(self._studio)
         if scale != self._usual_scale:
-            self.canvas.zoom(self.canvas.camera.scale * scale / self._usual_scale)
+            self.canvas.sight.zoom(self.canvas.sight.camera.scale * scale / self._usual_scale)
             self._usual_scale = scale
         self.outline.refresh()
         self.helpers.refresh()

@@ -71,7 +71,7 @@ def test_the_fix_button_puts_it_right_and_undo_takes_it_back(
 
 def test_the_badge_opens_a_bubble_with_the_fix(robotless: MainWindow, qtbot: QtBot) -> None:
     [problem] = robotless.workbench.checks.problems
-    robotless.workbench.canvas.problem_opened.emit(problem.block)
+    robotless.workbench.canvas.news.problem_opened.emit(problem.block)
     bubble = robotless.workbench.bubble
 
     qtbot.mouseClick(bubble.buttons[0], Qt.MouseButton.LeftButton)

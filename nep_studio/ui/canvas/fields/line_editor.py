@@ -68,12 +68,12 @@ class LineEditor(QLineEdit):
     """A line over a field; sets the field at each key."""
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
-        super().__init__(editors.canvas.viewport())
+        super().__init__(editors.canvas.area.viewport())
         self.edit, self._editors = edit, editors
         self._look: tuple[float, bool] | None = None
         self._kind = edit.slot.kind
-        self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
-        self.result = QLabel(editors.canvas.viewport())
+        self.reason = ReasonBubble(editors.canvas.look.theme, editors.canvas.area.viewport())
+        self.result = QLabel(editors.canvas.area.viewport())
         self.result.setStyleSheet(note_style(editors.canvas))
         self.result.hide()
         self.setAccessibleName(title)
@@ -90,12 +90,12 @@ class LineEditor(QLineEdit):
             return
         canvas = self._editors.canvas
         self._dress()
-        unit = canvas.measures.unit * editor_scale(canvas)
+        unit = canvas.look.measures.unit * editor_scale(canvas)
         text = self.fontMetrics().horizontalAdvance(self.text()) + 17 * unit
-        room = canvas.viewport().rect()
+        room = canvas.area.viewport().rect()
         width = round(min(max(rect.width(), text, 40 * unit), room.width()))
-        height = round(canvas.measures.field_height * editor_scale(canvas))
-        left = rect.right() - width if canvas.measures.is_mirrored else rect.left()
+        height = round(canvas.look.measures.field_height * editor_scale(canvas))
+        left = rect.right() - width if canvas.look.measures.is_mirrored else rect.left()
         left = max(0.0, min(left, room.width() - width))
         self.setGeometry(round(left), round(rect.center().y() - height / 2), width, height)
         self._place_notes()
@@ -161,7 +161,7 @@ class LineEditor(QLineEdit):
             self.reason.tell(reason)
             self.setAccessibleDescription(words)
             if words:
-                self._editors.canvas.announced.emit(words)
+                self._editors.canvas.news.announced.emit(words)
         self._tell_result()
         self.follow()
 
@@ -174,7 +174,7 @@ class LineEditor(QLineEdit):
 
     def _place_notes(self) -> None:
         canvas, field = self._editors.canvas, self.geometry()
-        is_mirrored = canvas.measures.is_mirrored
+        is_mirrored = canvas.look.measures.is_mirrored
         if not self.result.isHidden():
             self.result.adjustSize()
             size = self.result.size()
@@ -183,7 +183,7 @@ class LineEditor(QLineEdit):
             self.result.move(left, top)
             self.result.raise_()
         if self.reason.text:
-            room = QRect(canvas.viewport().rect())
+            room = QRect(canvas.area.viewport().rect())
             corner = beside(field, self.reason.sizeHint(), room, is_mirrored=is_mirrored)
             self.reason.resize(self.reason.sizeHint())
             self.reason.move(corner)
@@ -199,10 +199,10 @@ class LinesEditor(QPlainTextEdit):
     """Enter begins a new line; Ctrl+Enter, Tab or a press elsewhere ends."""
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
-        super().__init__(editors.canvas.viewport())
+        super().__init__(editors.canvas.area.viewport())
         self.edit, self._editors = edit, editors
         self._look: tuple[float, bool] | None = None
-        self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
+        self.reason = ReasonBubble(editors.canvas.look.theme, editors.canvas.area.viewport())
         self.setAccessibleName(title)
         self.setPlainText(str(edit.value or ""))
         self.selectAll()
@@ -222,18 +222,18 @@ class LinesEditor(QPlainTextEdit):
             self.setFont(editor_font(canvas))
             self.setStyleSheet(line_style(canvas, "square", is_wrong=look[1]))
         line = self.fontMetrics().lineSpacing()
-        unit = canvas.measures.unit * editor_scale(canvas)
-        room = canvas.viewport().rect()
+        unit = canvas.look.measures.unit * editor_scale(canvas)
+        room = canvas.area.viewport().rect()
         width = round(min(max(rect.width(), 240 * unit), room.width()))
         rows = min(max(round(self.document().size().height()), _FEWEST_LINES), _MOST_LINES)
         height = round(rows * line + 16 * unit)
-        left = rect.right() - width if canvas.measures.is_mirrored else rect.left()
+        left = rect.right() - width if canvas.look.measures.is_mirrored else rect.left()
         top = max(0.0, min(rect.top(), room.height() - height))
         left = max(0.0, min(left, room.width() - width))
         self.setGeometry(round(left), round(top), width, height)
         if self.reason.text:
             self.reason.resize(self.reason.sizeHint())
-            mirrored = canvas.measures.is_mirrored
+            mirrored = canvas.look.measures.is_mirrored
             corner = beside(self.geometry(), self.reason.size(), QRect(room), is_mirrored=mirrored)
             self.reason.move(corner)
             self.reason.raise_()
@@ -277,5 +277,5 @@ class LinesEditor(QPlainTextEdit):
             self.reason.tell(reason)
             self.setAccessibleDescription(words)
             if words:
-                self._editors.canvas.announced.emit(words)
+                self._editors.canvas.news.announced.emit(words)
         self.follow()

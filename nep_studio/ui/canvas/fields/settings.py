@@ -57,7 +57,7 @@ class SettingsPopup(FieldPopup):
         self.new_name = QLineEdit(self)
         self.new_name.setPlaceholderText(tr("another setting"))
         self.new_name.setAccessibleName(tr("Name of another setting"))
-        self.add = QPushButton(icon("plus", editors.canvas.theme), tr("Add"), self)
+        self.add = QPushButton(icon("plus", editors.canvas.look.theme), tr("Add"), self)
         self.add.clicked.connect(self._on_add)
         row = QHBoxLayout()
         row.addWidget(self.new_name, 1)

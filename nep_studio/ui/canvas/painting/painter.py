@@ -8,7 +8,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPainterPath, QPen
 
 from nep_studio.blocks.language import Language
-from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts
+from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts, TextWidths
 from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
 from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, Theme
@@ -250,3 +250,18 @@ def _hatch(painter: QPainter, path: QPainterPath, colour: QColor) -> None:
     faint = QColor(colour)
     faint.setAlphaF(0.35)
     painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
+
+
+class Look:
+    """How the blocks of a canvas look: in this theme, this font, and from this side."""
+
+    def __init__(self, theme: Theme, font: QFont, language: Language, *, is_mirrored: bool) -> None:
+        self.theme = theme
+        self.block_font = QFont(font)
+        self.block_font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
+        self.badge_font = QFont(self.block_font)
+        self.badge_font.setBold(True)
+        self.badge_font.setPointSizeF(max(1.0, self.block_font.pointSizeF() * 0.8))
+        widths = TextWidths(self.block_font)
+        self.measures = Measures(widths.line, widths, is_mirrored=is_mirrored)
+        self.block_painter = BlockPainter(theme, language, self.measures, self.block_font)

@@ -15,7 +15,7 @@ from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
     from nep_studio.ui.shell.main_window import MainWindow
 
     from .teleoperation import TeleoperationWindow
@@ -89,7 +89,7 @@ class MotionKit(QObject):
         motion = self.make()
         motion.project.guard(lambda: motion.project.open(name))
 
-    def _section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+    def _section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of a block that plays a motion offers."""
         if place.hit is None:
             return []

@@ -127,7 +127,7 @@ def add_say(window: MainWindow) -> None:
 
 def _show_say(window: MainWindow) -> None:
     show_blocks(window)
-    window.workbench.canvas.show_beginning()
+    window.workbench.canvas.sight.show_beginning()
     window.workbench.helpers.palette.open_drawer("robot")
 
 
@@ -141,7 +141,7 @@ def _say_place(window: MainWindow) -> QRect:
     """Where the block is on the page; the page where it is out of sight."""
     canvas, block = window.workbench.canvas, say_block(window)
     page = place_of(window, canvas.viewport())
-    rect = canvas.view_rect_of(block.id) if block is not None else None
+    rect = canvas.sight.view_rect_of(block.id) if block is not None else None
     if rect is None:
         return page
     seen = rect.toAlignedRect().translated(page.topLeft()).intersected(page)
