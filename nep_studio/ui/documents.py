@@ -19,6 +19,7 @@ from nep_studio.blocks.program import Changes, Project
 from nep_studio.project.journal import Journal
 
 from .document_files import PICTURES
+from .edits import edits_of
 from .plugins.picture.embedding import project_bytes_from
 from .words import tr
 
@@ -35,10 +36,13 @@ Stamp = tuple[int, int]
 class Document(QObject):
     """An editor, its file and its journal. ``changed`` tells of its title and of being saved.
 
+    ``edited`` gives the Changes of each step, ``settled`` those of several, for those who are slow.
     ``kept_changed`` tells that the journal cannot be written any more, or can be again.
     """
 
     changed = Signal()
+    edited = Signal(object)
+    settled = Signal(object)
     kept_changed = Signal()
 
     def __init__(
@@ -59,7 +63,9 @@ class Document(QObject):
         self._flush = QTimer(self, interval=FLUSH_MS)
         self._flush.timeout.connect(self.flush)
         self._flush.start()
-        editor.history.listen(self._on_changes)
+        self._edits = edits_of(editor)
+        self._edits.edited.connect(self._on_edited)
+        self._edits.settled.connect(self._on_settled)
         self._shown = (self.path, self.title, self.is_modified)
         self._was_kept = self.is_kept
 
@@ -120,7 +126,8 @@ class Document(QObject):
             return
         self._is_open = False
         self._flush.stop()
-        self.editor.history.unlisten(self._on_changes)
+        self._edits.edited.disconnect(self._on_edited)
+        self._edits.settled.disconnect(self._on_settled)
         if self._journal is not None:
             self._journal.close(keep=keep)
             self._journal = None
@@ -131,9 +138,13 @@ class Document(QObject):
         if self.project.name == new_name() and self.editor.why_not(rename) is None:
             self.editor.apply(rename)
 
-    def _on_changes(self, changes: Changes) -> None:
-        self._look_at_journal()
+    def _on_edited(self, changes: Changes) -> None:
+        self.edited.emit(changes)
         self._tell()
+
+    def _on_settled(self, changes: Changes) -> None:
+        self._look_at_journal()
+        self.settled.emit(changes)
 
     def _look_at_journal(self) -> None:
         if self.is_kept != self._was_kept:
