@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-import threading
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -18,6 +18,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.project.journal import Journal
 
+from .background import Background
 from .document_files import PICTURES
 from .edits import edits_of
 from .plugins.picture.embedding import project_bytes_from
@@ -201,7 +202,6 @@ class Opening(QObject):
     opened = Signal(object)  # the Project
     failed = Signal(object)  # the BlocksError
     became_slow = Signal()
-    _read = Signal(object)
 
     def __init__(self, path: Path, language: Language, parent: QObject) -> None:
         super().__init__(parent)
@@ -210,7 +210,7 @@ class Opening(QObject):
         self._is_over = False
         self._slow = QTimer(self, singleShot=True, interval=SLOW_MS)
         self._slow.timeout.connect(self.became_slow)
-        self._read.connect(self._on_read)
+        self._background = Background(self)
 
     def start(self) -> None:
         """Read it; a small file is there at once."""
@@ -218,18 +218,12 @@ class Opening(QObject):
             self._on_read(_result(self.path, self._language))
             return
         self._slow.start()
-        threading.Thread(target=self._work, name="opening", daemon=True).start()
+        read = partial(_result, self.path, self._language)
+        self._background.start(read, self._on_read, name="opening")
 
     def cancel(self) -> None:
         """Do not open it: what is still being read is forgotten."""
         self._end()
-
-    def _work(self) -> None:
-        result = _result(self.path, self._language)
-        try:
-            self._read.emit(result)
-        except RuntimeError:
-            log.info("The window has gone before %s was read.", self.path)
 
     def _on_read(self, result: Project | BlocksError) -> None:
         if self._is_over:
