@@ -173,7 +173,7 @@ def _launch(options: argparse.Namespace) -> int:
         if outcome.was_successful or launched.ready.is_set() or again:  # else wait_ready() tells
             log_file = launcher.logs / log_file_name(launched.name)
             log = "" if outcome.was_successful else f" Its log: {log_file}"
-            say(f"{outcome}{'; it is started again' if again else ''}.{log}")
+            say(f"{str(outcome.fault(again=again)).rstrip('.')}.{log}")
         if not again:
             endings.put(outcome)
 

@@ -12,7 +12,7 @@ from .definitions import FLAGS, CallError, Category, Definition, Shape, read_cal
 from .errors import DefinitionError
 from .program import PAGES
 from .sentence import SentenceError, groups_of, parse, slots_of
-from .slots import RESULTS, why_not_value
+from .slots import RESULTS, why_not_line
 
 _BLOCK_KEYS = frozenset(
     ("sentence", "shape", "result", "help", "defaults", "minimum", "flags", "call", "generator")
@@ -79,7 +79,7 @@ def _read_table(path: Path, name: str, table: Mapping[str, Any]) -> dict[str, st
     labels: dict[str, str] = {}
     for value, entry in table.items():
         label = entry.get("label") if isinstance(entry, dict) else entry
-        if not isinstance(label, str) or why_not_value("choice", value) is not None:
+        if not isinstance(label, str) or why_not_line(value) is not None:
             raise DefinitionError(
                 "In {name}, choice “{value}” of {name_2} has no label.",
                 name=path.name,

@@ -10,12 +10,11 @@ from .language import Language
 from .procedures import DEFINE
 from .program import Block, Project
 from .slices import Steps, at_once
-from .slots import FieldValue, Setting
+from .slots import GESTURE_STATE, FieldValue, Setting
 
 ROBOT_BLOCK = "robots.robot"
 NODE_BLOCK = "nodes.launch"
 GESTURE_NODE = "perceptual/gesture"
-GESTURE_STATE = "gesture_"
 """What the human state of a recognised gesture begins with."""
 
 

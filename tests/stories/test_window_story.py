@@ -1,6 +1,6 @@
 """A newcomer at the real window: tries the karate example, makes a rule, breaks it, and fixes it.
 
-With NEP_STORY_IMAGES=FOLDER a picture of each step is kept; docs/story_images.py does so on a
+With NEP_STORY_IMAGES=FOLDER a picture of each step is kept; tools/story_images.py does so on a
 virtual screen.
 """
 

@@ -156,9 +156,9 @@ def text_too_wide(piece: Piece, scene: Scene) -> bool:
 
 def marks_width(piece: Piece, measures: Measures) -> float:
     """What the arrow or the drawing in a field takes away from its text."""
-    opens = {"choice", "gesture", "robot", "variable", "state", "date", "settings"}
+    opens = {"choice", "gesture", "robot", "variable", "state", "settings"}
     arrow = 0.75 * (piece.kind in opens)
-    lead = 0.95 * (piece.kind in ("angle", "file"))
+    lead = 0.95 * (piece.kind == "angle")
     return measures.line * (arrow + lead)
 
 

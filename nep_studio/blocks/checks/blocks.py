@@ -100,26 +100,14 @@ def _why_not_filled(
     slot: Slot,
 ) -> _Wrong | None:
     """The kind, the sentence and the checklist of what is wrong with a slot, or None."""
-    value, kind = definition.value(block, key), slot.kind.name
-    if kind == "boolean":
-        return (
-            "empty_slot",
-            Text("a question is missing."),
-            "Put a six-sided block into the slot.",
-        )
-    if kind == "list":
-        return ("empty_slot", Text("a list is missing."), "Put a list or a variable into the slot.")
-    if kind == "variable" and project.variable(str(value)) is None:
+    value, kind = definition.value(block, key), slot.kind
+    if kind.missing is not None and not (kind.typed and str(value).strip()):
+        return ("empty_slot", kind.missing, kind.advice)
+    if kind.name == "variable" and project.variable(str(value)) is None:
         return (
             "no_variable",
             Text("no variable is chosen."),
             "Choose a variable, or make a new one.",
-        )
-    if kind in ("state", "gesture", "robot") and not str(value).strip():
-        return (
-            "empty_slot",
-            text_of("{noun} is missing.", noun=Text(slot.kind.noun)),
-            "Choose or type one.",
         )
     reason = language.why_not_choice(slot, value, block, key)
     if reason is not None:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from faults import Text, text_of
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.deployment import (
-    GESTURE_STATE,
     find_gestures_used,
     find_robots_used,
     is_recognised,
@@ -18,7 +17,7 @@ from nep_studio.blocks.deployment import (
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
-from nep_studio.blocks.slots import why_not_name
+from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import sentence
 
 from .problem import Fix, Found, Problem, page_of

@@ -12,9 +12,9 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
 from nep_studio.blocks.program import ALL_ROBOTS, Project
 from nep_studio.blocks.slices import Steps, at_once
-from nep_studio.blocks.slots import Setting
+from nep_studio.blocks.slots import Setting, constant
 
-from .expressions import Expressions, call, constant, literal, method_call, show
+from .expressions import Expressions, call, literal, method_call, show
 from .hats import Hat
 from .names import NameTable, ProgramNames
 from .registry import HATS, REPORTERS

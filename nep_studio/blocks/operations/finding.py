@@ -11,7 +11,6 @@ from typing import Literal
 from faults import Text, text_of
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
-    GESTURE_STATE,
     NODE_BLOCK,
     ROBOT_BLOCK,
     node_entries,
@@ -25,7 +24,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import header_of, parameter_of, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Parent, Project
 from nep_studio.blocks.sentence import Group
-from nep_studio.blocks.slots import why_not_name
+from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import field_text, sentence
 
 

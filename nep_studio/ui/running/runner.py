@@ -112,7 +112,7 @@ class Runner(QObject):
     nodes_changed = Signal(list)
     ended = Signal(object)
     node_failed = Signal(str, object)
-    master_changed = Signal(str, str)
+    master_changed = Signal(str, object)
     closing = Signal()
     _came_up = Signal()
 

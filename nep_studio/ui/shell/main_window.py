@@ -391,8 +391,6 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{document.title}[*]" if document is not None else tr("Start"))
         self.setWindowModified(document is not None and document.is_modified)
         self.setWindowFilePath("" if document is None else str(document.path or ""))
-        if self.later.is_done:
-            self.workbench.show_folder(document)
         can_compare = document is not None and document.path is not None and document.is_modified
         self.actions_by_name.enable(can_compare, "compare")
 

@@ -154,13 +154,7 @@ class Workbench(QWidget):
         editor = self._no_editor() if document is None else document.editor
         folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
         self._set_editor(editor)
-        self.show_folder(document)
         self.checks.follow(None if document is None else editor, folder)
-
-    def show_folder(self, document: Document | None) -> None:
-        """Choose files from where the project is now; it has a folder once it is saved."""
-        is_saved = document is not None and document.path is not None
-        self.canvas.fields.project_folder = document.folder if document and is_saved else None
 
     def restore(self, line: int) -> None:
         """Lay the panels out as the person left them; ``line`` is a line of text.

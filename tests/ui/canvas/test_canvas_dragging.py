@@ -198,7 +198,7 @@ def test_what_does_not_fit_is_told_beside_the_pointer_and_refused_at_the_drop(de
     with qtbot.waitSignal(desk.canvas.refused) as refused:
         desk.mouse.release()
 
-    assert "needs a number" in refused.args[0]
+    assert "needs a number" in str(refused.args[0])
     assert "times" not in desk.editor.project.blocks[repeat].inputs
     assert not desk.canvas.bubble.isVisible()
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, cast
 
 from PySide6.QtCore import QEvent, QObject
@@ -20,9 +19,7 @@ from .angle import AnglePopup
 from .choice import ChoicePopup, StatePopup
 from .colour import ColourPopup
 from .comments import Comments
-from .date import DatePopup
 from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
-from .file import FilePopup
 from .line_editor import LineEditor, LinesEditor
 from .naming import RobotPopup, VariablePopup
 from .number import DurationPopup, SliderPopup
@@ -113,9 +110,6 @@ def hint_of(slot: Slot) -> str:
 
 # The order in which the fields of a stack follow each other: as they are read.
 
-_SKIPPED = frozenset({"checkbox"})
-"""Kinds without an editor: pressing them changes them."""
-
 Place = tuple[str, str]
 """A block and the key of one of its fields."""
 
@@ -138,7 +132,7 @@ def fields_within(project: Project, language: Language, root: str) -> Iterator[P
                 found.append((block.inputs[slot_key], ""))
             elif slot.kind.name == "body":
                 found += [(child, "") for child in block.bodies.get(slot_key, ())]
-            elif slot.kind.typed and slot.kind.name not in _SKIPPED:
+            elif slot.kind.typed and not slot.kind.is_pressed:
                 found.append((block_id, slot_key))
         waiting += reversed(found)
 
@@ -179,7 +173,7 @@ class OpenEditor(Protocol):
         """Go away; the value is kept or restored by others."""
 
 
-_EDITORS: dict[str, type] = {
+EDITORS: dict[str, type] = {
     "lines": LinesEditor,
     "choice": ChoicePopup,
     "gesture": ChoicePopup,
@@ -190,8 +184,6 @@ _EDITORS: dict[str, type] = {
     "angle": AnglePopup,
     "slider": SliderPopup,
     "duration": DurationPopup,
-    "date": DatePopup,
-    "file": FilePopup,
     "settings": SettingsPopup,
 }
 """The editors of the kinds of slot; the others are typed in a line."""
@@ -200,15 +192,11 @@ MOST_RECENT_COLOURS = 6
 
 
 class FieldEditors(QObject):
-    """The editors of one canvas; one at most is open.
-
-    ``project_folder`` is where the project's file is: paths inside it are kept short.
-    """
+    """The editors of one canvas; one at most is open."""
 
     def __init__(self, canvas: Canvas) -> None:
         super().__init__(canvas)
         self.canvas = canvas
-        self.project_folder: Path | None = None
         self.recent_colours: list[str] = []
         self.comments = Comments(canvas)
         self._open: OpenEditor | None = None
@@ -236,7 +224,7 @@ class FieldEditors(QObject):
         edit = self.edit_of(block, key)
         if edit is None:
             return False
-        if edit.slot.kind.name == "checkbox":
+        if edit.slot.kind.is_pressed:
             return self._toggle(edit)
         rect = page_rect_of(self.canvas, block, key)
         if rect is None:
@@ -328,7 +316,7 @@ class FieldEditors(QObject):
 
     def _new(self, edit: Editing) -> OpenEditor:
         kind, title = edit.slot.kind.name, title_of(edit.slot)
-        made = _EDITORS.get(kind, LineEditor)
+        made = EDITORS.get(kind, LineEditor)
         language, block = self.canvas.editor.language, self.canvas.editor.project.blocks[edit.block]
         is_open_choice = kind in ("choice", "gesture")
         if is_open_choice and not language.choices_of(edit.slot, block, edit.key):

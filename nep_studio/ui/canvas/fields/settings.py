@@ -21,18 +21,17 @@ from PySide6.QtWidgets import (
 from nep_core.errors import ManifestError, NodeNotFound, ParameterError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import NodeCatalog, Parameter
-from nep_studio.blocks.slots import Setting
+from nep_studio.blocks.slots import Setting, kind_of
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing
-from .line_editor import reading_of
 from .popup import FieldPopup
 
 if TYPE_CHECKING:
     from .editors import FieldEditors
 
-_ANY = reading_of("any")
+_ANY = kind_of("any")
 
 
 def parameters_of(node: str) -> dict[str, Parameter]:

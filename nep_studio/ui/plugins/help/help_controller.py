@@ -334,7 +334,7 @@ def open_documentation(messages: Messages) -> None:
     page = first_page(language_code())
     if page is None:
         sentence = tr("Its pages are not on this computer.")
-        steps = [tr("In a copy of the source, docs/build_site.py makes the pages.")]
+        steps = [tr("In a copy of the source, tools/build_site.py makes the pages.")]
     elif QDesktopServices.openUrl(QUrl.fromLocalFile(str(page))):
         return
     else:

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QCursor, QKeySequence
 from PySide6.QtWidgets import QInputDialog, QMenu
 
-from nep_core.errors import NepError
+from faults import FaultError
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.animations import Use
 from nep_studio.blocks.own_animations import OwnAnimation, free_name
@@ -319,7 +319,7 @@ class ProjectCommands:
             return
         try:
             self._show(self.kept.load(name), "")
-        except NepError as error:
+        except FaultError as error:
             self.tell_error(error)
 
     def _opener(self, name: str) -> Callable[[], None]:
@@ -419,7 +419,7 @@ class ProjectCommands:
         """The door for messages; they are shown in the main window."""
         return self.window.main.messages
 
-    def tell_error(self, error: NepError) -> None:
+    def tell_error(self, error: FaultError) -> None:
         """Say what went wrong, over this window."""
         problem = problem_of(error)
         ok = Answer(tr("OK"), lambda: None, "primary")
