@@ -9,7 +9,6 @@ from functools import cache
 from typing import TypeVar
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt, Signal
-from shiboken6 import isValid
 
 Result = TypeVar("Result")
 
@@ -23,12 +22,14 @@ class Background(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._post = _post()
+        self._gone = threading.Event()
+        self.destroyed.connect(self._gone.set)
 
     def post(self, do: Callable[[], object]) -> None:
         """Do this in the thread of Qt, soon and in order; from any thread."""
 
         def do_if_wanted() -> None:
-            if isValid(self):
+            if not self._gone.is_set():
                 do()
 
         with contextlib.suppress(RuntimeError):  # the program ends
