@@ -141,6 +141,14 @@ class Changes:
     def __bool__(self) -> bool:
         return bool(self.stacks or self.owners or self.notes or self.whole)
 
+    def add(self, later: Changes) -> None:
+        """Take in what a later step changed."""
+        self.stacks |= later.stacks
+        self.owners |= later.owners
+        self.notes |= later.notes
+        self.whole |= later.whole
+        self.kept |= later.kept
+
 
 class Project:
     """A program: its name, its variables, its own blocks, its notes, and pages of stacks.

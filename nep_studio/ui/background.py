@@ -5,9 +5,10 @@ from __future__ import annotations
 import contextlib
 import threading
 from collections.abc import Callable
+from functools import cache
 from typing import TypeVar
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QCoreApplication, QObject, Qt, Signal
 
 Result = TypeVar("Result")
 
@@ -18,19 +19,24 @@ class Background(QObject):
     Nothing is told any more once its parent has gone.
     """
 
-    _posted = Signal(object)
-
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        self._posted.connect(self._on_posted, Qt.ConnectionType.QueuedConnection)
+        self._post = _post()
+        self._gone = threading.Event()
+        self.destroyed.connect(self._gone.set)
 
-    def post(self, do: Callable[[], None]) -> None:
+    def post(self, do: Callable[[], object]) -> None:
         """Do this in the thread of Qt, soon and in order; from any thread."""
-        with contextlib.suppress(RuntimeError):  # the parent has gone meanwhile
-            self._posted.emit(do)
+
+        def do_if_wanted() -> None:
+            if not self._gone.is_set():
+                do()
+
+        with contextlib.suppress(RuntimeError):  # the program ends
+            self._post.asked.emit(do_if_wanted)
 
     def start(
-        self, work: Callable[[], Result], then: Callable[[Result], None], *, name: str
+        self, work: Callable[[], Result], then: Callable[[Result], object], *, name: str
     ) -> threading.Thread:
         """Do ``work`` beside everything else, and ``then`` tell what it gave."""
 
@@ -42,5 +48,21 @@ class Background(QObject):
         thread.start()
         return thread
 
-    def _on_posted(self, do: Callable[[], None]) -> None:
+
+class _Post(QObject):
+    """Lives as long as the program: a thread may use it while a dialog is being thrown away."""
+
+    asked = Signal(object)
+
+    def __init__(self) -> None:
+        super().__init__(QCoreApplication.instance())
+        self.asked.connect(self._on_asked, Qt.ConnectionType.QueuedConnection)
+
+    def _on_asked(self, do: Callable[[], None]) -> None:
         do()
+
+
+@cache
+def _post() -> _Post:
+    """Made by the first who asks, in the thread of Qt."""
+    return _Post()

@@ -8,11 +8,11 @@ from faults import Text, text_of
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.deployment import (
     chains,
-    gestures_used,
+    find_gestures_used,
+    find_robots_used,
     is_recognised,
     node_entries,
     robot_entries,
-    robots_used,
     rules,
 )
 from nep_studio.blocks.language import Language
@@ -24,16 +24,17 @@ from nep_studio.blocks.text import sentence
 from .problem import Fix, Found, Problem, page_of
 
 
-def check_deployment(project: Project, language: Language) -> Iterator[Problem]:
+def check_deployment(project: Project, language: Language) -> Found:
     """Problems of which robots and nodes there are."""
     yield from _missing_robots(project, language)
     yield from _unrecognised_gestures(project, language)
     yield from _names(project, language)
 
 
-def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
+def _missing_robots(project: Project, language: Language) -> Found:
     listed = {entry.name for entry in robot_entries(project, language)}
-    for name, block in robots_used(project, language).items():
+    used = yield from find_robots_used(project, language)
+    for name, block in used.items():
         if name == ALL_ROBOTS and not listed:
             sentence = Text("There is no robot on the Robots page.")
         elif name == ALL_ROBOTS or name in listed or not name.strip():
@@ -52,10 +53,11 @@ def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
         )
 
 
-def _unrecognised_gestures(project: Project, language: Language) -> Iterator[Problem]:
+def _unrecognised_gestures(project: Project, language: Language) -> Found:
     nodes, shipped = node_entries(project, language), language.choices.get("gestures", {})
     own, trained = own_gestures(project), trained_gestures(project)
-    for gesture, block in gestures_used(project, language).items():
+    used = yield from find_gestures_used(project, language)
+    for gesture, block in used.items():
         if gesture in own and gesture not in trained:
             yield _untrained(own[gesture].title, page_of(project, block), block)
         elif gesture in trained or not gesture.strip():

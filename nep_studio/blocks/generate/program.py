@@ -75,7 +75,7 @@ class ProgramGenerator:
         }
         self._robots = {s: known for s, known in self._robots.items() if s in written}
         headers = self._headers(written)
-        names = self._names(written, headers)
+        names = yield from self._names(written, headers)
         functions = NameTable(names.taken())
         ordered = [*headers.values(), *(s for s in written if s not in set(headers.values()))]
         for stack in ordered:
@@ -118,10 +118,13 @@ class ProgramGenerator:
             return known
         return (yield from _write(made_for, RuleWriter(code), function, hat, chain))
 
-    def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> ProgramNames:
+    def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> Steps[ProgramNames]:
         """Names for the robots of the Robots page, others that rules use, variables, own blocks."""
         listed = [entry.name for entry in robot_entries(self._project, self._language)]
-        used = frozenset[str]().union(*(self._robots_in(*item) for item in written.items()))
+        used = set[str]()
+        for stack, chain in written.items():
+            yield
+            used |= self._robots_in(stack, chain)
         table = NameTable()
         robots: dict[str, str] = {}
         for name in [*listed, *sorted(used - {ALL_ROBOTS}), ALL_ROBOTS]:

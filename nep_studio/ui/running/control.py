@@ -12,7 +12,7 @@ from nep_studio.blocks.checks.problem import Problem as BlockProblem
 from nep_studio.blocks.checks.problem import page_of
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.source_map import Code
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import Changes, Project
 from nep_studio.problems import Problem
 from nep_studio.run.controller import (
     BecameStale,
@@ -57,6 +57,8 @@ class RunControl(QObject):
         self._virtual: frozenset[str] = frozenset()
         """The real robots that the one on the screen stands in for."""
         self._document: Document | None = None
+        self._plan: tuple[Subject, list[PlannedNode]] | None = None
+        """The nodes of the open project as it is now, once somebody has asked for them."""
         self._told_of_end: Message | None = None
         """What went wrong with the last run; it is over when the next one begins."""
         self.runner.told.connect(self._on_told)
@@ -75,11 +77,10 @@ class RunControl(QObject):
         """Another project is shown, or none: what runs belongs to the one before."""
         if document is self._document:
             return
-        controller = self.runner.controller
         if self._document is not None:
-            self._document.editor.history.unlisten(controller.edited)
+            self._document.edited.disconnect(self._on_edited)
         if document is not None:
-            document.editor.history.listen(controller.edited)
+            document.edited.connect(self._on_edited)
         self._document = document
         self._virtual = frozenset()
         self.stop()
@@ -107,7 +108,12 @@ class RunControl(QObject):
     def planned(self) -> list[PlannedNode]:
         """The nodes that the open project needs now."""
         document = self._window.files.document
-        return [] if document is None else self._subject_of(document).nodes()
+        if document is None:
+            return []
+        subject = self._subject_of(document)
+        if self._plan is None or self._plan[0] != subject:
+            self._plan = subject, subject.nodes()
+        return list(self._plan[1])
 
     def toggle_breakpoint(self) -> None:
         """Pause at the selected blocks, or no longer."""
@@ -148,6 +154,10 @@ class RunControl(QObject):
     def _subject_of(self, document: Document) -> Subject:
         choices = Choices(virtual=self._virtual)
         return Subject(document.project, self._window.studio.language, document.folder, choices)
+
+    def _on_edited(self, changes: Changes) -> None:
+        self._plan = None
+        self.runner.controller.edited(changes)
 
     def _on_watching_changed(self) -> None:
         self.runner.controller.watch(self.breakpoints.ids, self.line_s)

@@ -261,6 +261,7 @@ class MainWindow(QMainWindow):
         )
         self._opening_message: Message | None = None
         self._may_close = False
+        self._shown_problems: tuple[object, ...] = ()
         self.later = Later(self)
         self.setAcceptDrops(True)
         self.resize(*FIRST_SIZE)
@@ -397,6 +398,10 @@ class MainWindow(QMainWindow):
         is_open = document is not None
         if document is not None and not document.project.blocks:
             problems = []  # that nothing happens yet is no news to somebody who begins
+        shown = (list(problems), is_open, self.look.theme, self.toolbar)
+        if shown == self._shown_problems:
+            return  # as after most keys: nothing has changed on the toolbar
+        self._shown_problems = shown
         dress_check(self.actions_by_name["check"], problems, self.look.theme, is_open=is_open)
         size_toolbar(self.toolbar)
 

@@ -17,6 +17,7 @@ from nep_studio.blocks.generate.program import ProgramGenerator, generate_launch
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes
 from nep_studio.blocks.slices import Sliced, Steps
+from nep_studio.ui.edits import edits_of
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon
@@ -60,15 +61,22 @@ class LiveCode(QObject):
         self._work: Sliced[Code] | None = None
         self._next_slice = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next_slice.timeout.connect(self._on_next_slice)
-        editor.history.listen(self._on_changes)
+        self._follow(editor)
 
     def set_editor(self, editor: Editor) -> None:
         """Follow another project."""
-        self._editor.history.unlisten(self._on_changes)
+        edits = edits_of(self._editor)
+        edits.edited.disconnect(self._on_edited)
+        edits.settled.disconnect(self._on_settled)
         self._editor = editor
         self._generator = self.code = None
-        editor.history.listen(self._on_changes)
+        self._follow(editor)
         self._grow_old()
+
+    def _follow(self, editor: Editor) -> None:
+        edits = edits_of(editor)
+        edits.edited.connect(self._on_edited)
+        edits.settled.connect(self._on_settled)
 
     def show_page(self, page: str) -> None:
         """Give the code of the kind of this page: the program, or what starts robots and nodes."""
@@ -143,8 +151,13 @@ class LiveCode(QObject):
             self._generator = ProgramGenerator(editor.project, editor.language)
         return (yield from self._generator.steps())
 
-    def _on_changes(self, changes: Changes) -> None:
-        self._grow_old()
+    def _on_edited(self, _changes: Changes) -> None:
+        self.cancel()
+        self._is_old = True
+
+    def _on_settled(self, _changes: Changes) -> None:
+        if self._is_awake and self._is_old:
+            self.start()
 
     def _grow_old(self) -> None:
         self.cancel()
@@ -273,7 +286,7 @@ class CodePane(QWidget):
     def _on_code_made(self, code: Code) -> None:
         if self.is_editing:
             return
-        self._show_buttons()
+        self._show_title()
         self.note.hide()
         self.text.show_text(code.text)
         self._mark()
@@ -365,6 +378,10 @@ class CodePane(QWidget):
         self.apply_button.setVisible(self.is_editing)
         self.discard_button.setVisible(self.is_editing)
         self._name_buttons()
+        self._show_title()
+
+    def _show_title(self) -> None:
+        can_edit = self._kind == "behaviour"
         reading = tr("Made from the blocks") if can_edit else tr("Starts the robots and nodes")
         self.title.set_words(tr("You are changing the Python") if self.is_editing else reading)
 

@@ -9,11 +9,10 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_studio.blocks.checks.problem import Problem
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.program import Changes
 from nep_studio.blocks.slices import Sliced
 from nep_studio.run.installation import problem_steps
+from nep_studio.ui.edits import Edits, edits_of
 
-PAUSE_MS = 150
 SLICE_S = 0.006
 """How long a check may take of one frame of the screen."""
 
@@ -28,10 +27,9 @@ class LiveChecks(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._editor: Editor | None = None
+        self._edits: Edits | None = None
         self._folder: Callable[[], Path] = Path.cwd
         self._check: Sliced[list[Problem]] | None = None
-        self._pause = QTimer(self, singleShot=True, interval=PAUSE_MS)
-        self._pause.timeout.connect(self.start)
         self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next.timeout.connect(self._on_next_slice)
         self.problems: list[Problem] = []
@@ -39,14 +37,17 @@ class LiveChecks(QObject):
     def follow(self, editor: Editor | None, folder: Callable[[], Path] = Path.cwd) -> None:
         """Check another project; None checks nothing."""
         self.cancel()
-        if self._editor is not None:
-            self._editor.history.unlisten(self._on_changes)
+        if self._edits is not None:
+            self._edits.edited.disconnect(self.cancel)
+            self._edits.settled.disconnect(self.start)
         self._editor, self._folder = editor, folder
-        if editor is not None:
-            editor.history.listen(self._on_changes)
-            self._pause.start()
-        else:
+        self._edits = None if editor is None else edits_of(editor)
+        if self._edits is None:
             self._tell([])
+            return
+        self._edits.edited.connect(self.cancel)
+        self._edits.settled.connect(self.start)
+        self._next.start()
 
     def start(self) -> None:
         """Check now."""
@@ -64,25 +65,20 @@ class LiveChecks(QObject):
 
     def cancel(self) -> None:
         """Give up the check that is under way."""
-        self._pause.stop()
         self._next.stop()
         if self._check is not None:
             self._check.cancel()
             self._check = None
 
-    def _on_changes(self, changes: Changes) -> None:
-        self.cancel()
-        self._pause.start()
-
     def _on_next_slice(self) -> None:
         check = self._check
         if check is None:
-            return
-        if not check.run(SLICE_S):
+            self.start()  # of what was just opened
+        elif check.run(SLICE_S):
+            self._check = None
+            self._tell(check.result)
+        else:
             self._next.start()
-            return
-        self._check = None
-        self._tell(check.result)
 
     def _tell(self, problems: list[Problem]) -> None:
         self.problems = problems

@@ -10,6 +10,7 @@ from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.slices import Sliced
 from nep_studio.run.installation import problem_steps
+from nep_studio.ui.edits import edits_of
 from nep_studio.ui.shell.main_window import MainWindow
 
 
@@ -88,12 +89,13 @@ def test_a_program_without_problems_says_so(karate: MainWindow, qtbot: QtBot) ->
 
 def test_typing_does_not_wait_for_a_check(karate: MainWindow, qtbot: QtBot) -> None:
     checks = karate.workbench.checks
-    qtbot.waitUntil(lambda: not checks._pause.isActive() and checks._check is None)
+    edits = edits_of(karate.files.document.editor)
+    qtbot.waitUntil(lambda: edits.is_settled and checks._check is None)
 
     karate.files.document.editor.apply(RenameProject("Typed"))
 
     assert checks._check is None
-    assert checks._pause.isActive()
+    assert not edits.is_settled
 
 
 def test_a_huge_program_is_checked_in_many_slices(karate: MainWindow) -> None:
