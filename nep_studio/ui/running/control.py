@@ -38,7 +38,6 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import Choices, PlannedNode, plan
 from nep_studio.run.session import Ending, Watching
 from nep_studio.ui.messages import Answer, Message
-from nep_studio.ui.plugins.connecting import open_connecting
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.words import tr
 
@@ -47,7 +46,7 @@ from .stage import Breakpoints, Stage, statement_at
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 log = logging.getLogger(__name__)
 
@@ -196,11 +195,11 @@ LOOK_MS = 50
 class NeedsDialog(QDialog):
     """Follows the program, its nodes and its robots as long as it is open."""
 
-    def __init__(self, window: MainWindow, control: RunControl) -> None:
-        super().__init__(window)
+    def __init__(self, host: Host, control: RunControl) -> None:
+        super().__init__(host.widget)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(tr("What the program needs"))
-        self._window, self._control = window, control
+        self._host, self._control = host, control
         self._answers: dict[str, bool] = {}
         self._asked: set[tuple[str, str]] = set()
         self._news: SimpleQueue[tuple[str, bool]] = SimpleQueue()
@@ -218,7 +217,7 @@ class NeedsDialog(QDialog):
         buttons = QDialogButtonBox()
         self.run_button = buttons.addButton(tr("Run"), QDialogButtonBox.ButtonRole.AcceptRole)
         self.run_button.setProperty("kind", "run")
-        self.run_button.setIcon(icon("play", window.look.theme, "run_text"))
+        self.run_button.setIcon(icon("play", host.services.look.theme, "run_text"))
         self.run_button.setIconSize(icon_room(line))
         close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.RejectRole)
         close.clicked.connect(self.reject)
@@ -230,22 +229,22 @@ class NeedsDialog(QDialog):
         box.addWidget(self._scroll, 1)
         box.addWidget(buttons)
         self.resize(line * 34, line * 26)
-        window.workbench.checks.found.connect(self.refresh)
+        host.workbench.checks.found.connect(self.refresh)
         control.runner.nodes_changed.connect(self.refresh)
         control.runner.connected.connect(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
         """Look again at everything."""
-        document = self._window.files.document
+        document = self._host.services.document
         if document is None:
             self.reject()
             return
         nodes = self._control.planned()
         self._ask(nodes)
-        language, runner = self._window.studio.language, self._control.runner
+        language, runner = self._host.services.language, self._control.runner
         needs = needs_of(
-            self._window.workbench.checks.problems,
+            self._host.workbench.checks.problems,
             nodes,
             runner.board.nodes,
             self._answers,
@@ -308,7 +307,7 @@ class NeedsDialog(QDialog):
         sign_name, colour = LOOKS[need.state]
         sign, words = QLabel(), QVBoxLayout()
         side = round(line * 1.2)
-        picture = icon(sign_name, self._window.look.theme.colour(colour))
+        picture = icon(sign_name, self._host.services.look.theme.colour(colour))
         sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
         title, sentence = QLabel(need.title), QLabel(need.sentence)
         title.setWordWrap(True)
@@ -339,7 +338,7 @@ class NeedsDialog(QDialog):
         return button
 
     def _fix(self, need: Need, fix: NeedFix) -> None:
-        workbench, control = self._window.workbench, self._control
+        workbench, control = self._host.workbench, self._control
         match fix.name:
             case "fix_problem" if need.problem is not None:
                 workbench.fix(need.problem)
@@ -352,18 +351,18 @@ class NeedsDialog(QDialog):
                 control.use_simulator()
             case "connect" if need.node is not None:
                 self.accept()
-                open_connecting(self._window, need.node.name)
+                self._host.ask("connecting.open", need.node.name)
             case "show_block" | "address":
                 self.accept()
                 workbench.show_block(need.block)
         self.refresh()
 
     def _add_start(self) -> None:
-        workbench = self._window.workbench
+        workbench = self._host.workbench
         try:
             workbench.show_block(add_start(workbench.canvas.editor))
         except EditRefused as refusal:
-            self._window.messages.refuse(refusal.sentence, refusal.checklist)
+            self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
         workbench.checks.start()
 
     def _on_run(self) -> None:
@@ -388,10 +387,10 @@ class RunControl(QObject):
 
     became_stale = Signal()
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
-        self.runner = Runner(self.planned, self, logs=window.settings.folder_for("logs"))
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.widget)
+        self._host = host
+        self.runner = Runner(self.planned, self, logs=host.services.settings.folder_for("logs"))
         self.breakpoints = Breakpoints(self)
         self.stage = Stage(self.runner, self.breakpoints)
         self.line_s = 0.0
@@ -414,7 +413,7 @@ class RunControl(QObject):
 
     def attach(self) -> None:
         """Work with the workbench that the window has now."""
-        workbench = self._window.workbench
+        workbench = self._host.workbench
         self.stage.show_on(workbench.canvas)
         workbench.problems_found.connect(self._on_problems_found)
 
@@ -434,7 +433,7 @@ class RunControl(QObject):
 
     def try_example(self, path: Path) -> None:
         """Open an example, and run it; only it, should the person go elsewhere instead."""
-        self._window.files.open_example(path, self._run_soon)
+        self._host.services.files.open_example(path, self._run_soon)
 
     def _run_soon(self) -> None:
         self._is_to_run_again = self.runner.state != "idle"
@@ -449,16 +448,16 @@ class RunControl(QObject):
     def try_project(self, project: Project) -> None:
         """Run a little program of the help; the project on the canvas stays as it is."""
         if self.runner.state != "idle" or self._preparation is not None:
-            self._window.messages.refuse(
+            self._host.services.messages.refuse(
                 "Another program is running.", ("Stop it, then try again.",)
             )
             return
-        language = self._window.studio.language
+        language = self._host.services.language
         try:
             code = generate_program(project, language)
             nodes = plan(project, language, Choices(), Path.cwd())
         except (BlocksError, NepError) as error:
-            self._window.messages.tell_error(error)
+            self._host.services.messages.tell_error(error)
             return
         self._was_stopped = self._has_begun = self.is_stale = False
         self.stage.clear()  # its blocks are not on the canvas: there others may have their names
@@ -466,16 +465,16 @@ class RunControl(QObject):
 
     def planned(self) -> list[PlannedNode]:
         """The nodes that the open project needs now."""
-        document = self._window.files.document
+        document = self._host.services.document
         if document is None:
             return []
-        language = self._window.studio.language
+        language = self._host.services.language
         choices = Choices(virtual=self._virtual)
         return plan(document.project, language, choices, document.folder)
 
     def toggle_breakpoint(self) -> None:
         """Pause at the selected blocks, or no longer."""
-        canvas = self._window.workbench.canvas
+        canvas = self._host.workbench.canvas
         blocks = {statement_at(canvas, block) for block in canvas.selection.ids} - {""}
         if blocks:
             self.breakpoints.toggle(blocks)
@@ -496,14 +495,14 @@ class RunControl(QObject):
 
     def show_needs(self) -> None:
         """List what the program needs, and what is there of it."""
-        NeedsDialog(self._window, self).open()
+        NeedsDialog(self._host, self).open()
 
     # Run
 
     def _on_run_asked(self) -> None:
         """Check first; the answer comes when the checks are done."""
-        if self._window.files.document is None:
-            self._window.messages.refuse(
+        if self._host.services.document is None:
+            self._host.services.messages.refuse(
                 "There is no project to run.", ("Open or make one first.",)
             )
             return
@@ -512,16 +511,16 @@ class RunControl(QObject):
             self._is_to_run_again = True
             return
         self._is_waiting = True
-        self._window.workbench.checks.start()
+        self._host.workbench.checks.start()
 
     def _on_problems_found(self, problems: list[BlockProblem]) -> None:
         if not self._is_waiting:
             return
         self._is_waiting = False
-        document = self._window.files.document
+        document = self._host.services.document
         if document is None or self.runner.state != "idle":
             return
-        language = self._window.studio.language
+        language = self._host.services.language
         has_rules = next(rules(document.project, language), None) is not None
         if not has_rules or any(problem.severity == "error" for problem in problems):
             self.show_needs()
@@ -539,17 +538,17 @@ class RunControl(QObject):
 
     def _on_prepared(self, code: Code) -> None:
         self._preparation = None
-        window = self._window
+        host = self._host
         try:
             nodes = self.planned()
         except (BlocksError, NepError) as error:
-            window.messages.tell_error(error)
+            host.services.messages.tell_error(error)
             return
         self._was_stopped = self._has_begun = self.is_stale = False
-        window.workbench.show_run_problem(None)
-        window.messages.clear_passing()
+        host.workbench.show_run_problem(None)
+        host.services.messages.clear_passing()
         if self._told_of_end is not None:
-            window.messages.withdraw(self._told_of_end)
+            host.services.messages.withdraw(self._told_of_end)
             self._told_of_end = None
         self.stage.begin(code)
         watching = Watching(self.breakpoints.lines(code), self.line_s)
@@ -557,11 +556,11 @@ class RunControl(QObject):
 
     def _on_refused(self, error: BlocksError) -> None:
         self._preparation = None
-        workbench = self._window.workbench
+        workbench = self._host.workbench
         answers = []
         if isinstance(error, CodeRefused):
             answers.append(Answer(tr("Show the block"), lambda: workbench.show_block(error.block)))
-        self._window.messages.tell_error(error, *answers)
+        self._host.services.messages.tell_error(error, *answers)
 
     def stop(self) -> None:
         """Stop everything that moves."""
@@ -585,12 +584,12 @@ class RunControl(QObject):
 
     def _show_robots(self) -> None:
         """Let a person who has never shown nor hidden the robots see them at the first run."""
-        window = self._window
+        host = self._host
         if not any("robot" in one.parameters for one in self.planned()):
             return
-        for panel in window.workbench.panels.all:
-            if panel.name == "RobotsPanel" and not window.settings.is_chosen(panel.name):
-                window.workbench.panels.show(panel.widget)
+        for panel in host.workbench.panels.all:
+            if panel.name == "RobotsPanel" and not host.services.settings.is_chosen(panel.name):
+                host.show_panel(panel.widget)
 
     def _on_edited(self, changes: Changes) -> None:
         if changes.kept and changes.kept <= AT_ONCE and not changes.stacks:
@@ -604,16 +603,16 @@ class RunControl(QObject):
             self._is_to_run_again = False
             self.runner.run()
             return
-        messages, problem = self._window.messages, ending.problem
+        messages, problem = self._host.services.messages, ending.problem
         if problem is None:
             if not self._was_stopped:
                 messages.confirm(tr("The program has ended."))
             return
         answers = [Answer(tr("Run again"), self.runner.run)]
         block = self.stage.marks.code.block_at(ending.line)
-        if block is not None and block in self._window.workbench.canvas.editor.project.blocks:
+        if block is not None and block in self._host.workbench.canvas.editor.project.blocks:
             self._mark(block, ending)
-            workbench = self._window.workbench
+            workbench = self._host.workbench
             answers.insert(0, Answer(tr("Show the block"), lambda: workbench.show_block(block)))
         if not self._has_begun and self._has_real_robots():
             answers.insert(0, Answer(tr("Use the robot on the screen"), self.use_simulator))
@@ -622,7 +621,7 @@ class RunControl(QObject):
 
     def _mark(self, block: str, ending: Ending) -> None:
         """Show the sentence at the block that failed."""
-        workbench = self._window.workbench
+        workbench = self._host.workbench
         project = workbench.canvas.editor.project
         assert ending.problem is not None
         page = page_of(project, block)

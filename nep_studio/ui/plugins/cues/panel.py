@@ -40,7 +40,7 @@ from .project import ProjectCues
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 # Sends cues by hand, and remembers which were sent when.
@@ -115,17 +115,17 @@ class CuePanel(QWidget):
 
     def __init__(
         self,
-        window: MainWindow,
+        host: Host,
         *,
         is_large: bool = False,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._look: Look = window.look
-        self._runner: Runner = window.running.runner
-        self.cues = ProjectCues(window.files, self)
+        self._look: Look = host.services.look
+        self._runner: Runner = host.services.runner
+        self.cues = ProjectCues(host.services.files, self)
         self.sending = CueSender(self._runner, self)
-        self.board = CueBoard(window.look, self)
+        self.board = CueBoard(host.services.look, self)
         self.empty = QLabel(tr("The rules of this program wait for nothing that could be sent."))
         self.empty.setProperty("role", "hint")
         self.empty.setWordWrap(True)
@@ -287,10 +287,3 @@ class CuePanel(QWidget):
         self.say_button.setIcon(icon("ear", theme))
         self.arrange_button.setIcon(icon("sliders-horizontal", theme))
         self.movements.setIcon(icon("watch", theme))
-
-
-def add_cues_panel(window: MainWindow) -> CuePanel:
-    """Put the panel beside the canvas; hidden until somebody wants it."""
-    panel = CuePanel(window)
-    window.add_side_panel(panel, tr("Cues"), "flag", "right", is_shown=False)
-    return panel
