@@ -7,7 +7,7 @@ from image_window import Stage, picture, quiet
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
-from nep_studio.ui.plugins.gestures.panel import TrainerPanel
+from nep_studio.ui.plugins.gestures import TrainerPanel
 from nep_studio.ui.plugins.watches.dialog import WatchDialog
 from nep_studio.ui.shell.main_window import MainWindow
 
@@ -25,7 +25,7 @@ def _panel(window: MainWindow, name: str) -> QWidget:
 def help_page(stage: Stage) -> QImage:
     """The page of a block, with its example."""
     with stage.window() as window:
-        window.later.desk.open("block/robot.say")
+        window.host.ask("help.open", "block/robot.say")
         quiet()
         quiet()
         return picture(window)

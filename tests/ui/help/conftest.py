@@ -45,7 +45,7 @@ def window(studio: Studio, qtbot: QtBot) -> MainWindow:
 @pytest.fixture
 def desk(window: MainWindow) -> HelpDesk:
     """The help of the window."""
-    made = window.later.help_desk
+    made = window.findChild(HelpDesk)
     yield made
     if made._window is not None:
         made._window.close()

@@ -9,8 +9,8 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 from nep_core.wire.messages import Imu
+from nep_studio.ui.plugins.gestures import TrainerPanel
 from nep_studio.ui.plugins.gestures.page import next_step
-from nep_studio.ui.plugins.gestures.panel import TrainerPanel
 from nep_studio.ui.plugins.gestures.results.training import Training
 from nep_studio.ui.running.tap import Heard
 from nep_studio.ui.services import Studio

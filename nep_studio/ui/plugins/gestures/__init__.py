@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.words import tr
@@ -15,10 +20,43 @@ LEAST_SHARE = 0.55
 """How much of the height beside the canvas gestures need."""
 
 
+class TrainerPanel(QWidget):
+    """Makes its page when it is shown: numpy is slow to load."""
+
+    def __init__(self, make: Callable[[], TrainerPage]) -> None:
+        super().__init__()
+        self._make = make
+        self.page: TrainerPage | None = None
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+
+    def opened(self) -> TrainerPage:
+        """What is in it; made now if it is not there yet."""
+        if self.page is None:
+            self.page = self._make()
+            box = self.layout()
+            if box is not None:
+                box.addWidget(self.page)
+        return self.page
+
+    def sizeHint(self) -> QSize:
+        """Room for the graph and a few takes."""
+        line = self.fontMetrics().height()
+        return QSize(line * 45, line * 22)
+
+    def minimumSizeHint(self) -> QSize:
+        """Less is of no use."""
+        line = self.fontMetrics().height()
+        return QSize(line * 14, line * 9)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Open it."""
+        self.opened()
+        super().showEvent(event)
+
+
 def make(host: Host) -> Parts:
     """The panel below the canvas; its page is made when it is opened."""
-    from .panel import TrainerPanel
-
     panel = TrainerPanel(lambda: _page(host))
     return Parts(NewPanel(panel, tr("Gestures"), "hand", "bottom", least_share=LEAST_SHARE))
 
@@ -53,4 +91,4 @@ def _page(host: Host) -> TrainerPage:
     return page
 
 
-plugin = Plugin("gestures", make, order=70, modules=("panel",))
+plugin = Plugin("gestures", make, order=70)

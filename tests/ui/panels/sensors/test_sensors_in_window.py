@@ -8,7 +8,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.plugins.sensors.panel import SensorsPanel
+from nep_studio.ui.plugins.sensors import SensorsPanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import chooser, home, karate, studio, window
 
@@ -30,7 +30,7 @@ def opened(karate: MainWindow, qtbot: QtBot) -> Iterator[MainWindow]:
 
 def test_the_panel_loads_nothing_slow_before_it_is_shown() -> None:
     code = (
-        "import sys; import nep_studio.ui.plugins.sensors.panel; "
+        "import sys; import nep_studio.ui.plugins.sensors; "
         "sys.exit('numpy' in sys.modules or 'pyqtgraph' in sys.modules)"
     )
 

@@ -13,8 +13,8 @@ from pytestqt.qtbot import QtBot
 from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, RobotState
 from nep_studio.ui.messages import Message, Messages
 from nep_studio.ui.network_feed import NetworkFeed
+from nep_studio.ui.plugins.sensors import SensorsPanel
 from nep_studio.ui.plugins.sensors.feed import SensorFeed
-from nep_studio.ui.plugins.sensors.panel import SensorsPanel
 from nep_studio.ui.plugins.sensors.recorder import Recorder
 from nep_studio.ui.plugins.sensors.workspace import Workspace
 from nep_studio.ui.running.runner import Runner
