@@ -116,13 +116,14 @@ def test_a_node_and_a_robot_bring_their_words_along_and_a_table_goes_before_them
     node = 'type = "sensory"\nname = "door"\ntitle = "Door"\ndescription = "Says who comes."\n'
     robot = 'name = "pip"\ntitle = "Pip"\nnode = "action/nao"\n[translations.de.drivers]\n'
     files = {
+        "nodes/sensory/door.py": "",
         "nodes/sensory/door.toml": node + 'titles = { de = "Tür", fr = "Porte" }\n',
         "resources/robots/pip/robot.toml": robot + 'virtual_pip = "ein Pip"\nother = "eigen"\n',
         "resources/translations/de.toml": '[choices.drivers]\nother = "aus der Tabelle"\n',
     }
     for name, text in files.items():
         path = tmp_path / name
-        path.parent.mkdir(parents=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     monkeypatch.setenv("NEP_NODES", str(tmp_path / "nodes"))
     monkeypatch.setattr(paths, "resources", lambda: tmp_path / "resources")
