@@ -16,7 +16,7 @@ from nep_studio.blocks.sentence import Slot
 from nep_studio.ui.words import tr
 
 from .angle import AnglePopup
-from .choice import ChoicePopup, StatePopup
+from .choice import ChoicePopup, GesturePopup, StatePopup
 from .colour import ColourPopup
 from .comments import Comments
 from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
@@ -176,7 +176,7 @@ class OpenEditor(Protocol):
 EDITORS: dict[str, type] = {
     "lines": LinesEditor,
     "choice": ChoicePopup,
-    "gesture": ChoicePopup,
+    "gesture": GesturePopup,
     "robot": RobotPopup,
     "variable": VariablePopup,
     "state": StatePopup,
@@ -317,11 +317,10 @@ class FieldEditors(QObject):
         return False
 
     def _new(self, edit: Editing) -> OpenEditor:
-        kind, title = edit.slot.kind.name, title_of(edit.slot)
-        made = EDITORS.get(kind, LineEditor)
+        made, title = EDITORS.get(edit.slot.kind.name, LineEditor), title_of(edit.slot)
         language, block = self.canvas.editor.language, self.canvas.editor.project.blocks[edit.block]
-        is_open_choice = kind in ("choice", "gesture")
-        if is_open_choice and not language.choices_of(edit.slot, block, edit.key):
+        is_chosen_only = made in (ChoicePopup, GesturePopup)
+        if is_chosen_only and not language.choices_of(edit.slot, block, edit.key):
             made = LineEditor
         return cast(OpenEditor, made(self, edit, title))
 
