@@ -20,6 +20,7 @@ from .support.portable import kept_name, not_kept, path_of
 FOLDER_VARIABLE = "NEP_STUDIO_FOLDER"
 """Another place for settings, journals and logs than the user's folder."""
 
+MINIMAP = "Minimap"
 SYSTEM = "system"
 """The choice that follows the computer: for the theme and for the language."""
 
@@ -257,6 +258,11 @@ class Settings:
     def is_shown(self, panel: str, *, default: bool) -> bool:
         """Whether a person left a panel open."""
         return self._text(f"panels/{panel}", "yes" if default else "no") == "yes"
+
+    @property
+    def is_minimap_shown(self) -> bool:
+        """Whether the person left the minimap open."""
+        return self.is_shown(MINIMAP, default=False)
 
     def is_chosen(self, panel: str) -> bool:
         """Whether a person has ever shown or hidden a panel."""

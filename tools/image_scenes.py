@@ -12,7 +12,7 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.places import InStack
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.gestures.panel import TrainerPanel
+from nep_studio.ui.plugins.gestures import TrainerPanel
 from nep_studio.ui.plugins.show import ShowMode
 from nep_studio.ui.plugins.watches.dialog import WatchDialog
 from nep_studio.ui.shell.main_window import MainWindow
@@ -242,8 +242,7 @@ def _panel(window: MainWindow, name: str) -> QWidget:
 def help_page(stage: Stage) -> QImage:
     """The page of a block, with its example."""
     with stage.window() as window:
-        assert window.later.desk is not None
-        window.later.desk.open("block/robot.say")
+        window.host.ask("help.open", "block/robot.say")
         quiet()
         quiet()
         return picture(window)

@@ -25,7 +25,8 @@ from nep_studio import paths
 from nep_studio.settings import Settings
 from nep_studio.ui import words
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.app import make_application
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.theme.look import load_fonts

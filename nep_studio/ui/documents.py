@@ -17,11 +17,11 @@ from nep_studio.blocks.files import from_bytes, load
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.project.journal import Journal
+from nep_studio.project.picture_files import project_bytes_from
 
 from .background import Background
 from .document_files import PICTURES
 from .edits import edits_of
-from .plugins.picture.embedding import project_bytes_from
 from .words import tr
 
 log = logging.getLogger(__name__)

@@ -35,7 +35,7 @@ from .stage import Breakpoints, Stage, statement_at
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 class RunControl(QObject):
@@ -46,10 +46,10 @@ class RunControl(QObject):
 
     became_stale = Signal()
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
-        logs = window.settings.folder_for("logs")
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.widget)
+        self._host = host
+        logs = host.services.settings.folder_for("logs")
         self.runner = Runner(self.planned, self, subject=self._subject, logs=logs)
         self.breakpoints = Breakpoints(self)
         self.stage = Stage(self.runner, self.breakpoints)
@@ -71,7 +71,7 @@ class RunControl(QObject):
 
     def attach(self) -> None:
         """Work with the workbench that the window has now."""
-        self.stage.show_on(self._window.workbench.canvas)
+        self.stage.show_on(self._host.workbench.canvas)
 
     def follow(self, document: Document | None) -> None:
         """Another project is shown, or none: what runs belongs to the one before."""
@@ -89,7 +89,7 @@ class RunControl(QObject):
 
     def try_example(self, path: Path) -> None:
         """Open an example, and run it; only it, should the person go elsewhere instead."""
-        self._window.files.open_example(path, self.runner.controller.run_next)
+        self._host.services.files.open_example(path, self.runner.controller.run_next)
 
     def close(self) -> None:
         """Stop everything, and wait for it."""
@@ -98,16 +98,16 @@ class RunControl(QObject):
     def try_project(self, project: Project) -> None:
         """Run a little program of the help; the project on the canvas stays as it is."""
         if self.runner.controller.state != "idle":
-            self._window.messages.refuse(
+            self._host.services.messages.refuse(
                 "Another program is running.", ("Stop it, then try again.",)
             )
             return
-        subject = Subject(project, self._window.studio.language, Path.cwd())
+        subject = Subject(project, self._host.services.language, Path.cwd())
         self.runner.controller.try_out(subject)
 
     def planned(self) -> list[PlannedNode]:
         """The nodes that the open project needs now."""
-        document = self._window.files.document
+        document = self._host.services.document
         if document is None:
             return []
         subject = self._subject_of(document)
@@ -117,7 +117,7 @@ class RunControl(QObject):
 
     def toggle_breakpoint(self) -> None:
         """Pause at the selected blocks, or no longer."""
-        canvas = self._window.workbench.canvas
+        canvas = self._host.workbench.canvas
         blocks = {statement_at(canvas, block) for block in canvas.selection.ids} - {""}
         if blocks:
             self.breakpoints.toggle(blocks)
@@ -136,7 +136,7 @@ class RunControl(QObject):
 
     def show_needs(self) -> None:
         """List what the program needs, and what is there of it."""
-        NeedsDialog(self._window, self).open()
+        NeedsDialog(self._host, self).open()
 
     def stop(self) -> None:
         """Stop everything that moves."""
@@ -145,15 +145,17 @@ class RunControl(QObject):
     # What is to be run
 
     def _subject(self) -> Subject | None:
-        document = self._window.files.document
+        document = self._host.services.document
         if document is not None:
             return self._subject_of(document)
-        self._window.messages.refuse("There is no project to run.", ("Open or make one first.",))
+        self._host.services.messages.refuse(
+            "There is no project to run.", ("Open or make one first.",)
+        )
         return None
 
     def _subject_of(self, document: Document) -> Subject:
         choices = Choices(virtual=self._virtual)
-        return Subject(document.project, self._window.studio.language, document.folder, choices)
+        return Subject(document.project, self._host.services.language, document.folder, choices)
 
     def _on_edited(self, changes: Changes) -> None:
         self._plan = None
@@ -167,7 +169,7 @@ class RunControl(QObject):
     def _on_told(self, event: Event) -> None:
         match event:
             case Checked(problems, can_run):
-                self._window.workbench.checks.take(problems)
+                self._host.workbench.checks.take(problems)
                 if not can_run:
                     self.show_needs()
             case Refused(error, is_shown):
@@ -184,14 +186,14 @@ class RunControl(QObject):
     def _tell_refused(self, error: BlocksError | NepError, *, is_shown: bool) -> None:
         answers = []
         if isinstance(error, CodeRefused) and is_shown:
-            workbench, block = self._window.workbench, error.block
+            workbench, block = self._host.workbench, error.block
             answers.append(Answer(tr("Show the block"), lambda: workbench.show_block(block)))
-        self._window.messages.tell_error(error, *answers)
+        self._host.services.messages.tell_error(error, *answers)
 
     def _show_begun(self, request: Request) -> None:
         """Nothing is known of the program yet, and nothing of the last one counts any more."""
-        messages = self._window.messages
-        self._window.workbench.show_run_problem(None)
+        messages = self._host.services.messages
+        self._host.workbench.show_run_problem(None)
         messages.clear_passing()
         if self._told_of_end is not None:
             messages.withdraw(self._told_of_end)
@@ -201,26 +203,26 @@ class RunControl(QObject):
 
     def _show_robots(self) -> None:
         """Let a person who has never shown nor hidden the robots see them at the first run."""
-        window = self._window
+        host = self._host
         if not any("robot" in one.parameters for one in self.planned()):
             return
-        for panel in window.workbench.panels.all:
-            if panel.name == "RobotsPanel" and not window.settings.is_chosen(panel.name):
-                window.workbench.panels.show(panel.widget)
+        for panel in host.workbench.panels.all:
+            if panel.name == "RobotsPanel" and not host.services.settings.is_chosen(panel.name):
+                host.show_panel(panel.widget)
 
     # How it ended
 
     def _tell_end(self, end: Ended) -> None:
-        messages, problem = self._window.messages, end.ending.problem
+        messages, problem = self._host.services.messages, end.ending.problem
         if problem is None:
             if not end.was_stopped:
                 messages.confirm(tr("The program has ended."))
             return
         answers = [Answer(tr("Run again"), self.runner.run)]
         block = self.stage.marks.code.block_at(end.ending.line)
-        if block is not None and block in self._window.workbench.canvas.editor.project.blocks:
+        if block is not None and block in self._host.workbench.canvas.editor.project.blocks:
             self._mark(block, problem)
-            workbench = self._window.workbench
+            workbench = self._host.workbench
             answers.insert(0, Answer(tr("Show the block"), lambda: workbench.show_block(block)))
         if not end.had_begun and any(map(is_real, self.planned())):
             answers.insert(0, Answer(tr("Use the robot on the screen"), self.use_simulator))
@@ -229,7 +231,7 @@ class RunControl(QObject):
 
     def _mark(self, block: str, problem: Problem) -> None:
         """Show the sentence at the block that failed."""
-        workbench = self._window.workbench
+        workbench = self._host.workbench
         page = page_of(workbench.canvas.editor.project, block)
         sentence, steps = problem.sentence, problem.checklist
         shown = BlockProblem("error", "run", page, block, sentence, steps)

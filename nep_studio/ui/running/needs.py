@@ -28,12 +28,11 @@ from nep_studio.blocks.operations.fixes import add_start
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.background import Background
-from nep_studio.ui.plugins.connecting import open_connecting
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
     from .control import RunControl
 
@@ -176,11 +175,11 @@ LOOKS = {
 class NeedsDialog(QDialog):
     """Follows the program, its nodes and its robots as long as it is open."""
 
-    def __init__(self, window: MainWindow, control: RunControl) -> None:
-        super().__init__(window)
+    def __init__(self, host: Host, control: RunControl) -> None:
+        super().__init__(host.widget)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(tr("What the program needs"))
-        self._window, self._control = window, control
+        self._host, self._control = host, control
         self._answers: dict[str, bool] = {}
         self._asked: set[tuple[str, str]] = set()
         self._background = Background(self)
@@ -196,7 +195,7 @@ class NeedsDialog(QDialog):
         buttons = QDialogButtonBox()
         self.run_button = buttons.addButton(tr("Run"), QDialogButtonBox.ButtonRole.AcceptRole)
         self.run_button.setProperty("kind", "run")
-        self.run_button.setIcon(icon("play", window.look.theme, "run_text"))
+        self.run_button.setIcon(icon("play", host.services.look.theme, "run_text"))
         self.run_button.setIconSize(icon_room(line))
         close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.RejectRole)
         close.clicked.connect(self.reject)
@@ -208,22 +207,22 @@ class NeedsDialog(QDialog):
         box.addWidget(self._scroll, 1)
         box.addWidget(buttons)
         self.resize(line * 34, line * 26)
-        window.workbench.checks.found.connect(self.refresh)
+        host.workbench.checks.found.connect(self.refresh)
         control.runner.nodes_changed.connect(self.refresh)
         control.runner.connected.connect(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
         """Look again at everything."""
-        document = self._window.files.document
+        document = self._host.services.document
         if document is None:
             self.reject()
             return
         nodes = self._control.planned()
         self._ask(nodes)
-        language, runner = self._window.studio.language, self._control.runner
+        language, runner = self._host.services.language, self._control.runner
         needs = needs_of(
-            self._window.workbench.checks.problems,
+            self._host.workbench.checks.problems,
             nodes,
             runner.board.nodes,
             self._answers,
@@ -281,7 +280,7 @@ class NeedsDialog(QDialog):
         sign_name, colour = LOOKS[need.state]
         sign, words = QLabel(), QVBoxLayout()
         side = round(line * 1.2)
-        picture = icon(sign_name, self._window.look.theme.colour(colour))
+        picture = icon(sign_name, self._host.services.look.theme.colour(colour))
         sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
         title, sentence = QLabel(need.title), QLabel(need.sentence)
         title.setWordWrap(True)
@@ -312,7 +311,7 @@ class NeedsDialog(QDialog):
         return button
 
     def _fix(self, need: Need, fix: NeedFix) -> None:
-        workbench, control = self._window.workbench, self._control
+        workbench, control = self._host.workbench, self._control
         match fix.name:
             case "fix_problem" if need.problem is not None:
                 workbench.fix(need.problem)
@@ -325,18 +324,18 @@ class NeedsDialog(QDialog):
                 control.use_simulator()
             case "connect" if need.node is not None:
                 self.accept()
-                open_connecting(self._window, need.node.name)
+                self._host.ask("connecting.open", need.node.name)
             case "show_block" | "address":
                 self.accept()
                 workbench.show_block(need.block)
         self.refresh()
 
     def _add_start(self) -> None:
-        workbench = self._window.workbench
+        workbench = self._host.workbench
         try:
             workbench.show_block(add_start(workbench.canvas.editor))
         except EditRefused as refusal:
-            self._window.messages.refuse(refusal.sentence, refusal.checklist)
+            self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
         workbench.checks.start()
 
     def _on_run(self) -> None:

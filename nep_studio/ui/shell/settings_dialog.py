@@ -42,11 +42,10 @@ from nep_studio.settings import (
 from nep_studio.support.updates import Newest, UpdateChoice, ask, is_usable
 from nep_studio.ui.background import Background
 from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.words import available_languages, tr
-
-from .app import Studio
 
 if TYPE_CHECKING:
     from .main_window import MainWindow

@@ -14,14 +14,13 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import apply_fix
 from nep_studio.blocks.program import Project
-from nep_studio.settings import Settings
+from nep_studio.settings import MINIMAP, Settings
 from nep_studio.ui.canvas.accessibility import make_accessible
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.painting.overlay import badge_rect
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Messages, announce
-from nep_studio.ui.shell.app import Studio
-from nep_studio.ui.shell.menus import is_minimap_shown
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.look import text_font
 from nep_studio.ui.words import is_right_to_left, tr
 
@@ -56,11 +55,11 @@ class CanvasHelpers(QObject):
         self.empty_hint = EmptyHint(canvas)
         self.find_bar.hide()
         self._stack_corner()
-        self.minimap.setVisible(is_minimap_shown(settings))
+        self.minimap.setVisible(settings.is_minimap_shown)
 
     def show_minimap(self, is_shown: bool) -> None:
         """Show or hide the minimap."""
-        self._settings.set_shown("Minimap", is_shown)
+        self._settings.set_shown(MINIMAP, is_shown)
         self.minimap.setVisible(is_shown)
         self.minimap.refresh()
 

@@ -9,10 +9,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QToolButton
 
+from nep_studio.ui.actions import sequences, shortcuts_of
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.messages import Answer, Message
-from nep_studio.ui.shell.help_dialogs import shortcuts_of
-from nep_studio.ui.shell.menus import sequences
 
 WITH_WORDS = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
 

@@ -18,9 +18,8 @@ from nep_studio.run.controller import Ended
 from nep_studio.run.session import Ending
 from nep_studio.study.records import Reply, Sitting, StudyFolder
 from nep_studio.study.sus import BROOKE
-from nep_studio.ui.plugins.help import add_help
 from nep_studio.ui.plugins.help.help_controller import HelpDesk
-from nep_studio.ui.plugins.study import StudySign, add_study
+from nep_studio.ui.plugins.study import StudySign
 from nep_studio.ui.plugins.study.form import QuestionnaireDialog
 from nep_studio.ui.plugins.study.recorder import StudyRecorder
 from nep_studio.ui.plugins.study.results import ResultsDialog
@@ -32,9 +31,7 @@ Click = Callable[[QWidget, str], None]
 
 @pytest.fixture
 def recorder(window: MainWindow) -> StudyRecorder:
-    if not window.findChildren(HelpDesk):
-        add_help(window)
-    return window.findChild(StudyRecorder) or add_study(window)
+    return window.findChild(StudyRecorder)
 
 
 def dialog(window: MainWindow, kind: type[QDialog], action: str) -> QDialog:
@@ -283,8 +280,6 @@ def test_a_study_goes_on_in_another_language_and_after_a_new_start(
     recorder.start(Sitting("P01"))
 
     window.studio.choose_language("es")
-    if window.findChild(StudySign) is None or not window.actions_by_name.by_name.get("study_stop"):
-        add_study(window)
 
     assert window.findChildren(StudyRecorder) == [recorder]
     assert sign(window).isVisible()

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, cast
 
-from PySide6.QtCore import QObject, QSize, Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QHideEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -21,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.background import Background
+from nep_studio.ui.jobs import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
@@ -30,66 +29,6 @@ if TYPE_CHECKING:
     from robots.naoqi.discovery import FoundRobot
 
 log = logging.getLogger(__name__)
-
-
-Tell = Callable[[object], None]
-Work = Callable[[threading.Event, Tell], None]
-"""Works until the event is set, and tells its news."""
-
-
-class Job(QObject):
-    """One thing at a time in a thread; a new one, or ``stop``, lets the old one end unheard.
-
-    The libraries are loaded in the thread: the window must not wait for them.
-    """
-
-    ended = Signal(str)
-    """The problem, in the words of the system; "" when there was none."""
-
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._background = Background(self)
-        self._cancelled = threading.Event()
-        self._thread: threading.Thread | None = None
-        self.is_running = False
-        """Whether it works."""
-
-    def stop(self) -> None:
-        """Let it end; nothing is told of it any more."""
-        self._cancelled.set()
-        self.is_running = False
-
-    def _start(self, work: Work, tell: Tell) -> None:
-        """Work in a thread; ``tell`` is called here for each of its news."""
-        self.stop()
-        cancelled = self._cancelled = threading.Event()
-        self.is_running = True
-
-        def tell_if_wanted(what: object) -> None:
-            if not cancelled.is_set():
-                tell(what)
-
-        def end(problem: str) -> None:
-            if not cancelled.is_set():
-                self.stop()
-                self.ended.emit(problem)
-
-        def told(what: object) -> None:
-            self._background.post(partial(tell_if_wanted, what))
-
-        done = partial(_problem_of, work, cancelled, told)
-        self._thread = self._background.start(done, end, name="search")
-
-
-def _problem_of(work: Work, cancelled: threading.Event, tell: Tell) -> str:
-    try:
-        work(cancelled, tell)
-    except OSError as error:
-        return str(error)
-    except Exception as error:  # the dialog must not wait for ever
-        log.exception("looking for robots")
-        return str(error)
-    return ""
 
 
 class RobotSearch(Job):

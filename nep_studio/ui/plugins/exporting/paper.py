@@ -15,11 +15,12 @@ from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
-from nep_studio.ui.plugins.picture.writing import Part, What, scene_of
 from nep_studio.ui.theme.colours import LIGHT, load_theme
 from nep_studio.ui.theme.look import code_font, text_font
 from nep_studio.ui.words import is_right_to_left, tr
 from nep_studio.ui.workbench.pages_bar import page_title
+
+from .picture import Part, What, scene_of
 
 # Where a long drawing is cut into pages: between its pieces, never through one that fits.
 

@@ -20,12 +20,12 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.ui.canvas.host import CanvasHost
-from nep_studio.ui.plugins.picture.writing import What
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 
 from .paper import PrintOptions, print_program
+from .picture import What
 
 
 class ProgramPrintDialog(QDialog):

@@ -24,8 +24,8 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.watches.status import WatchStatus
 from nep_studio.ui.theme.icons import fit_icons, icon
+from nep_studio.ui.watch_view.status import WatchStatus
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards

@@ -16,8 +16,8 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_animations import AnimationKind
+from nep_studio.ui.actions import Actions
 from nep_studio.ui.messages import announce
-from nep_studio.ui.shell.menus import Actions
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr

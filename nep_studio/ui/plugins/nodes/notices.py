@@ -17,11 +17,10 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.run.session import PROGRAM
 from nep_studio.ui.messages import Answer, Kind
-from nep_studio.ui.plugins.connecting import open_connecting
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 Fix = Literal[
@@ -239,21 +238,21 @@ def could_not_start(name: str, problem: Problem, at: Circumstances) -> Notice:
 
 
 class NodeFixes:
-    """Fixes of one window; ``open_log`` shows the log of a node."""
+    """Does the fixes; ``open_log`` shows the log of a node."""
 
-    def __init__(self, window: MainWindow, open_log: Callable[[str], None]) -> None:
-        self._window, self._open_log = window, open_log
+    def __init__(self, host: Host, open_log: Callable[[str], None]) -> None:
+        self._host, self._open_log = host, open_log
 
     def plan_of(self, name: str) -> PlannedNode | None:
         """How a node is wanted now: as the project says, else as it was started."""
-        runner = self._window.running.runner
+        runner = self._host.services.runner
         found = {one.name: one for one in runner.planned()}
         return found.get(name) or runner.local.planned.get(name)
 
     def block_of(self, name: str) -> str:
         """The block that a node comes from; "" when it has none on a page."""
         plan = self.plan_of(name)
-        blocks = self._window.workbench.canvas.editor.project.blocks
+        blocks = self._host.workbench.canvas.editor.project.blocks
         return plan.block_id if plan is not None and plan.block_id in blocks else ""
 
     def answer(self, fix: Fix, name: str) -> Answer:
@@ -278,34 +277,34 @@ class NodeFixes:
             case "start":
                 self.start(name)
             case "restart":
-                self._window.running.runner.restart_node(name)
+                self._host.services.runner.restart_node(name)
             case "show_log":
                 self._open_log(name)
             case "show_settings":
-                self._window.workbench.show_block(self.block_of(name))
+                self._host.workbench.show_block(self.block_of(name))
             case "use_virtual":
                 self._use_virtual(name)
             case "test_connection":
-                open_connecting(self._window, name)
+                self._host.ask("connecting.open", name)
             case "change_address":
                 self._change_address(name)
             case "run":
-                self._window.running.runner.run()
+                self._host.services.runner.run()
             case "stop":
-                self._window.running.stop()
+                self._host.services.running.stop()
 
     def start(self, name: str) -> None:
         """Start a node as it is wanted now; or the network, when its master is gone."""
         if name == MASTER:
-            self._window.running.runner.open_network()
+            self._host.services.runner.open_network()
             return
         plan = self.plan_of(name)
         if plan is not None:
-            self._window.running.runner.start_node(plan)
+            self._host.services.runner.start_node(plan)
 
     def _use_virtual(self, name: str) -> None:
         """Let the robot be the one on the screen: in the project, where it can be undone."""
-        block, workbench = self._robot_block(name), self._window.workbench
+        block, workbench = self._robot_block(name), self._host.workbench
         if not block:
             return
         editor = workbench.canvas.editor
@@ -313,18 +312,18 @@ class NodeFixes:
             with editor.transaction(tr("use the robot on the screen")):
                 editor.apply(SetField(block, "driver", "virtual"))
         except EditRefused as refusal:
-            self._window.messages.refuse(refusal.sentence, refusal.checklist)
+            self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
         self.start(name)  # the running one is as it was before, so it is started anew
 
     def _change_address(self, name: str) -> None:
         """Show the robot's block with its address open to be written."""
-        block, workbench = self._robot_block(name), self._window.workbench
+        block, workbench = self._robot_block(name), self._host.workbench
         if block:
             workbench.show_block(block)
             workbench.canvas.fields.open(block, "address")
 
     def _robot_block(self, name: str) -> str:
         block = self.block_of(name)
-        project = self._window.workbench.canvas.editor.project
+        project = self._host.workbench.canvas.editor.project
         return block if block and project.blocks[block].type == ROBOT_BLOCK else ""

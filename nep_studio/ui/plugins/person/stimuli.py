@@ -17,7 +17,7 @@ from nep_studio.blocks.program import ALL_ROBOTS
 from nep_studio.project.surroundings import AHEAD_M, SIZES, named
 from nep_studio.project.triggers import Happening, state_of
 from nep_studio.run.plan import VIRTUAL_WATCH
-from nep_studio.ui.plugins.robots.floor import Floor
+from nep_studio.ui.floor import Floor
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.words import tr
 

@@ -23,7 +23,7 @@ from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.words import tr
 
-from .writing import SCALES, Format, PictureOptions, What, copy_picture, write_picture
+from .picture import SCALES, Format, PictureOptions, What, copy_picture, write_picture
 
 
 class PictureDialog(QDialog):

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.wire.messages import IMU, Imu
+from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard, Tap
-
-from .connectors import SMARTWATCH
 
 RATE_OVER_S = 2.0
 MOVED_OVER_S = 1.0
@@ -232,7 +231,7 @@ class WatchEar(QObject):
             (
                 planned
                 for name, planned in self._runner.local.planned.items()
-                if planned.node == SMARTWATCH and name in nodes and nodes[name].is_there
+                if planned.node == WATCH and name in nodes and nodes[name].is_there
             ),
             None,
         )

@@ -27,6 +27,7 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.operations.copying import copy, to_text
 from nep_studio.blocks.operations.selection import members, runs
+from nep_studio.project import picture_files
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
@@ -35,8 +36,6 @@ from nep_studio.ui.canvas.layout.page import PageLayout, boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.pages_bar import page_title
-
-from . import embedding
 
 # Words of an SVG file that stay inside their blocks, whatever fonts the computer has.
 
@@ -234,7 +233,9 @@ def png_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     image_of(canvas, options).save(buffer, "PNG")  # type: ignore[call-overload]  # takes a device
     png = bytes(buffer.data().data())
     return (
-        embedding.png_with_program(png, program_of(canvas, options)) if options.has_program else png
+        picture_files.png_with_program(png, program_of(canvas, options))
+        if options.has_program
+        else png
     )
 
 
@@ -255,7 +256,7 @@ def svg_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     svg = fitted(bytes(buffer.data().data()), canvas)
     if not options.has_program:
         return svg
-    return embedding.svg_with_program(svg, program_of(canvas, options))
+    return picture_files.svg_with_program(svg, program_of(canvas, options))
 
 
 def pdf_of(canvas: CanvasHost, options: PictureOptions) -> bytes:

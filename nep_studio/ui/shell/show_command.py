@@ -12,11 +12,10 @@ from nep_studio.settings import MOST_RESTARTS, ShowOptions
 
 def main(arguments: list[str]) -> int:
     """Show the project; 0 when somebody left on purpose and closed the studio."""
-    from nep_studio.ui.shell.app import StopSignals, Studio, make_application
+    from nep_studio.ui.services import Studio
+    from nep_studio.ui.shell.app import StopSignals, make_application
     from nep_studio.ui.shell.crash_handler import LastResort
     from nep_studio.ui.shell.main_window import MainWindow
-
-    from . import ShowMode
 
     options = parser().parse_args(arguments)
     app = make_application()
@@ -24,9 +23,8 @@ def main(arguments: list[str]) -> int:
         window = MainWindow(Studio(app))
         last_resort.watch(window)
         window.workbench.restore(window.fontMetrics().height())
-        mode = window.findChild(ShowMode) or ShowMode(window)
         chosen = show_options(options, window.settings.show_options)
-        mode.begin(chosen, Path(options.file).absolute())
+        window.host.ask("show.begin", chosen, Path(options.file).absolute())
         code = app.exec()
         window.running.close()
         window.deleteLater()

@@ -17,7 +17,7 @@ from .robot_voices import MakeVoice, RobotSounds, RobotVoices
 from .voices import find_voice
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 # The voice of a window: it listens to the robots while sound is on and somebody runs them.
@@ -108,7 +108,7 @@ class Sound(QObject):
         self.sounds.forget()
 
 
-def sound_of(window: MainWindow) -> Sound:
-    """The sound of a window, made when it is first asked for."""
-    runner = window.running.runner
-    return runner.findChild(Sound) or Sound(runner, window.settings, runner)
+def sound_of(host: Host) -> Sound:
+    """The one sound, made when it is first asked for."""
+    settings, runner = host.services.settings, host.services.runner
+    return host.keep(Sound, lambda: Sound(runner, settings, runner))
