@@ -46,7 +46,7 @@ NOT_SHOWN = (
     "nep_studio/support/report.py",
     "nep_studio/support/report.py",
     "nep_studio/support/report.py",
-    "nep_studio/ui/plugins/show/command.py",
+    "nep_studio/ui/shell/show_command.py",
     "nep_studio/ui/shell/window_picture.py",
     "nep_core/networks/zenoh_session.py",
     "nep_core/recordings/file.py",
