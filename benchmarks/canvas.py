@@ -21,6 +21,8 @@ from .virtual_display import NoDisplay, virtual_display
 PEER_SIZES = (100, 1_000, 5_000)
 PEER_PASSES = 3
 LARGEST_MB = 160.0
+LIMIT_S = 1800
+"""Programs to compare with are fetched first, when they are asked for."""
 CHILD_S = 400
 
 BUDGETS_MS = {

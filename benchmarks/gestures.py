@@ -32,6 +32,8 @@ from benchmarks._gesture_simulated import paper_figure
 from benchmarks._gesture_trials import hold_trials, plan_trials
 from nep_core.errors import RecordingError
 
+LIMIT_S = 5400
+"""Every person's recordings are learned and recognised many times over."""
 EXAMPLES = (1, 2, 3, 5)
 QUICK_EXAMPLES = (5,)
 

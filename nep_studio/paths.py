@@ -28,7 +28,7 @@ ENGLISH, FIRST = "en", "index.html"
 
 
 def documentation_folder() -> Path:
-    """In a frozen program beside its resources; in a checkout where docs/build_site.py makes it."""
+    """In a frozen program beside its resources, else where tools/build_site.py puts it."""
     frozen = getattr(sys, "_MEIPASS", None)
     if frozen:
         return Path(frozen) / "documentation"

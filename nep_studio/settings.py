@@ -139,10 +139,6 @@ class Settings:
         """Put a project first in the list."""
         self._set_recent([path, *(one for one in self.recent_files if one != path)])
 
-    def forget_recent(self, path: Path) -> None:
-        """Take a project out of the list."""
-        self._set_recent(one for one in self.recent_files if one != path)
-
     def _set_recent(self, paths: Iterable[Path]) -> None:
         self._values.setValue("files/recent", [kept_name(path) for path in paths][:MOST_RECENT])
 

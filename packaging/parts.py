@@ -14,7 +14,7 @@ FOLDERS = ("resources", "examples")
 """Shipped as they are, beside the program's code."""
 
 DOCUMENTATION = "documentation"
-"""The folder of the program with the pages for a browser, which docs/build_site.py makes."""
+"""The folder of the program with the pages for a browser, which tools/build_site.py makes."""
 
 NOT_SHIPPED = (
     *("__pycache__", "node_modules", ".ruff_cache", "build", "make_fonts.py", ".gitignore"),

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QImage
 
 import dev
 
-SCRIPT = Path(dev.__file__).parent / "docs" / "animation_strips.py"
+SCRIPT = Path(dev.__file__).parent / "tools" / "animation_strips.py"
 
 
 def make_strips(*arguments: str) -> subprocess.CompletedProcess:

@@ -1,13 +1,40 @@
 """The runner of benchmarks: what it finds, what it asks of a figure, and when it fails."""
 
+from __future__ import annotations
+
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
+import psutil
 import pytest
 
 from benchmarks import __main__ as runner
 
 GOOD = 'def run():\n    print("chatter")\n    return [{"name": "a", "value": 2.0, "unit": "s"}]\n'
+
+WAITING = """
+import subprocess, sys, tempfile, time
+from pathlib import Path
+
+LIMIT_S = {limit_s}
+
+def run():
+    folder = Path(tempfile.mkdtemp(prefix="left-"))
+    sleep = [sys.executable, "-c", "import time; time.sleep(600)"]
+    child = subprocess.Popen(sleep, start_new_session=True)
+    part = Path(__file__).with_name("told.part")
+    part.write_text(f"{{child.pid}} {{folder}}")
+    part.rename(part.with_name("told.txt"))
+    {then}
+"""
+"""A benchmark that starts a process of its own, and waits."""
+
+ALONE = pytest.mark.skipif(os.name != "posix", reason="Windows has no such signals")
 
 
 @pytest.fixture
@@ -110,3 +137,83 @@ def test_an_unknown_benchmark_is_refused_with_the_known_ones(
 
     assert ending.value.code == 2
     assert "no benchmark is called quik; there are: quick" in capsys.readouterr().err
+
+
+def wait_until(is_so, seconds: float = 20.0) -> bool:
+    """Look until something is so."""
+    end = time.monotonic() + seconds
+    while not (found := is_so()) and time.monotonic() < end:
+        time.sleep(0.02)
+    return bool(found)
+
+
+def is_running(pid: int) -> bool:
+    return psutil.pid_exists(pid) and psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
+
+
+def left_of(folder: Path) -> tuple[int, Path]:
+    """The process that a benchmark started, and its temporary folder."""
+    pid, place = (folder / "told.txt").read_text().split()
+    return int(pid), Path(place)
+
+
+def test_a_benchmark_that_runs_past_its_limit_is_ended_named_and_fails(
+    folder: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "endless.py").write_text(WAITING.format(limit_s=3, then="time.sleep(600)"))
+    (folder / "quick.py").write_text("\n" + GOOD)
+
+    code = runner.main([])
+
+    told = capfd.readouterr()
+    pid, place = left_of(folder)
+    assert code == 1
+    assert "endless ran past its 3 s" in told.err
+    assert "goal to end within 3 s: MISSED" in told.out.splitlines()[0]
+    assert told.out.splitlines()[1].split()[:3] == ["a", "2", "s"]
+    assert not is_running(pid) and not place.exists()
+
+
+def test_a_benchmark_that_asks_a_person_gets_no_answer_and_fails(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "asking.py").write_text('\ndef run():\n    input("Go on? ")\n')
+
+    assert runner.main(["asking"]) == 1
+    assert "asking" in capsys.readouterr().out
+
+
+def test_what_a_benchmark_left_running_ends_with_it(folder: Path) -> None:
+    then = 'return [{"name": "a", "value": 1, "unit": ""}]'
+    (folder / "careless.py").write_text(WAITING.format(limit_s=30, then=then))
+
+    code = runner.main([])
+
+    pid, place = left_of(folder)
+    assert code == 0
+    assert not is_running(pid) and not place.exists()
+
+
+@ALONE
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_a_runner_that_is_stopped_leaves_no_process_and_no_folder(folder: Path, name: str) -> None:
+    (folder / "endless.py").write_text(WAITING.format(limit_s=300, then="time.sleep(600)"))
+    command = [sys.executable, "-m", "benchmarks"]
+    with subprocess.Popen(command, cwd=folder.parent, stderr=subprocess.DEVNULL) as running:
+        assert wait_until((folder / "told.txt").exists)
+
+        running.send_signal(getattr(signal, name))
+        code = running.wait(30)
+
+    pid, place = left_of(folder)
+    assert code == 128 + getattr(signal, name)
+    assert not is_running(pid) and not place.parent.exists()
+
+
+def test_every_limit_is_read_without_running_the_benchmark() -> None:
+    limits = {
+        name: runner.limit_of(Path(runner.__file__).with_name(f"{name}.py"))
+        for name in ("start", "gestures", "registry")
+    }
+
+    assert limits["gestures"] > limits["start"] > limits["registry"] == runner.USUAL_LIMIT_S

@@ -22,7 +22,7 @@ only_on_linux = pytest.mark.skipif(
 
 
 def make_images(*arguments: str) -> subprocess.CompletedProcess:
-    command = [sys.executable, str(DOCS / "make_images.py"), *arguments]
+    command = [sys.executable, str(DOCS.parent / "tools" / "make_images.py"), *arguments]
     return subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
 
 

@@ -14,7 +14,7 @@ DOCS = Path(dev.__file__).parent / "docs"
 
 
 def make_figures(*arguments: str) -> subprocess.CompletedProcess:
-    command = [sys.executable, str(DOCS / "gesture_figures.py"), *arguments]
+    command = [sys.executable, str(DOCS.parent / "tools" / "gesture_figures.py"), *arguments]
     return subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
 
 

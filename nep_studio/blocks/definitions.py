@@ -10,8 +10,9 @@ help = "blocks/say"
 defaults = { text = "Hello" }   # what a new block holds
 minimum = { part = 2 }          # how often a group is there at least
 flags = ["takes_time"]          # see FLAGS
-call = { ... }                  # see definition_call.py; or
+call = { ... }                  # see below; or
 generator = "repeat"            # a function in generate/, by name
+translations = { de = "{robot} sagt {text} mit {gesture}" }    # see language.py
 """
 
 from __future__ import annotations
@@ -30,13 +31,22 @@ from .slots import FieldValue
 #     call = { on = "robot", method = "say", arguments = ["text"], keywords = { gesture = "face" } }
 #     call = { function = "wait", arguments = ["seconds"] }
 #
+#     call = { on = "robot", method = "leds", arguments = ["group"], constants = { seconds = 1 } }
+#
 # ``arguments`` and ``keywords`` name slots. A keyword whose slot holds its default is left out
-# when it is listed in ``optional``. Functions are those of nep_core; no other module can be
+# when it is listed in ``optional``. ``constants`` are keywords that are the same in every such
+# call: texts, numbers, true and false. Functions are those of nep_core; no other module can be
 # reached.
 
 
 class CallError(ValueError):
     """A call that cannot be made; its text says why."""
+
+
+Constant = str | int | float | bool
+_CALL_KEYS = frozenset(
+    ("method", "on", "function", "arguments", "keywords", "optional", "constants")
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,13 +58,14 @@ class Call:
     arguments: tuple[str, ...] = ()
     keywords: Mapping[str, str] = field(default_factory=dict)
     optional: frozenset[str] = frozenset()
+    constants: Mapping[str, Constant] = field(default_factory=dict)
 
 
 def read_call(data: object, slots: Collection[str]) -> Call:
     """Check a call read from TOML against the slots of its block, or raise CallError."""
     if not isinstance(data, dict):
         raise CallError("call must be a table")
-    unknown = set(data) - {"method", "on", "function", "arguments", "keywords", "optional"}
+    unknown = set(data) - _CALL_KEYS
     if unknown:
         raise CallError(f"call has no key “{min(unknown)}”")
     if ("method" in data) == ("function" in data) or ("method" in data) != ("on" in data):
@@ -65,11 +76,14 @@ def read_call(data: object, slots: Collection[str]) -> Call:
         tuple(_slot_names(data.get("arguments", []), slots)),
         _keywords(data.get("keywords", {}), slots),
         frozenset(_slot_names(data.get("optional", []), slots)),
+        _constants(data.get("constants", {})),
     )
     if call.on and call.on not in slots:
         raise CallError(f"call is on slot “{call.on}”, which the sentence does not have")
     if not call.optional <= set(call.keywords.values()):
         raise CallError("optional slots must be among the keywords")
+    if twice := call.constants.keys() & call.keywords.keys():
+        raise CallError(f"“{min(twice)}” is a keyword and a constant")
     return call
 
 
@@ -78,6 +92,15 @@ def _keywords(data: object, slots: Collection[str]) -> dict[str, str]:
         raise CallError("keywords must be a table")
     _slot_names(list(data.values()), slots)
     return {_identifier(name): slot for name, slot in data.items()}
+
+
+def _constants(data: object) -> dict[str, Constant]:
+    if not isinstance(data, dict):
+        raise CallError("constants must be a table")
+    for name, value in data.items():
+        if not isinstance(value, str | int | float | bool):
+            raise CallError(f"the constant “{name}” must be a text, a number, true or false")
+    return {_identifier(name): value for name, value in data.items()}
 
 
 def _slot_names(data: object, slots: Collection[str]) -> list[str]:
@@ -143,6 +166,7 @@ class Definition:
     flags: frozenset[str] = frozenset()
     call: Call | None = None
     generator: str = ""
+    translations: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def page(self) -> str:

@@ -124,7 +124,6 @@ def program_in_svg(svg: bytes) -> bytes | None:
 # Open a picture of a program as the program that is inside it.
 
 LARGEST_FILE = 256_000_000
-PICTURE_ENDINGS = (".png", ".svg")
 _FIRST_BYTES = 4096
 
 

@@ -66,10 +66,6 @@ class Floor(QObject):
         """The thing of an id."""
         return next((thing for thing in self.things if thing.id == thing_id), None)
 
-    def is_visitor(self, thing_id: str) -> bool:
-        """Whether a thing is not kept in the project."""
-        return thing_id in self._visitors
-
     # What the project keeps
 
     def add(self, thing: Thing) -> None:

@@ -72,7 +72,8 @@ def assert_tame(text: str, language: Language) -> ast.Module:
     tree = parse(text)
     made = names_made(tree)
     calls = [d.call for d in language.definitions.values() if d.call is not None]
-    known = {call.name for call in calls} | {name for call in calls for name in call.keywords}
+    known = {call.name for call in calls}
+    known |= {name for call in calls for name in (*call.keywords, *call.constants)}
     strange = (
         names_used(tree)
         - made

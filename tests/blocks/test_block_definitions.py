@@ -11,6 +11,8 @@ from block_building import B, build
 from nep_core import Robot
 from nep_studio.blocks.definition_files import load_profile
 from nep_studio.blocks.errors import DefinitionError
+from nep_studio.blocks.from_python.names import SourceNames
+from nep_studio.blocks.from_python.values import ValueReader
 from nep_studio.blocks.generate.names import API
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.sentence import Group, SentenceError, Slot, parse
@@ -67,6 +69,18 @@ def test_a_pack_of_blocks_is_data_only(tmp_path):
         ((GOOD, DEFAULTS, CALL.replace('["text"]', '["song"]')), "uses slot “song”"),
         ((GOOD, DEFAULTS, CALL.replace('"robot"', '"text"')), "called on a robot slot"),
         ((GOOD, DEFAULTS, CALL.replace("on", "off")), "call has no key “off”"),
+        ((GOOD, DEFAULTS, CALL.replace(" }", ", constants = 1 }")), "constants must be a table"),
+        ((GOOD, DEFAULTS, CALL.replace(" }", ", constants = { a = [] } }")), "the constant “a”"),
+        (
+            (
+                GOOD,
+                DEFAULTS,
+                CALL.replace(" }", ', keywords = { a = "text" }, constants = { a = 1 } }'),
+            ),
+            "“a” is a keyword and a constant",
+        ),
+        ((GOOD, DEFAULTS, CALL, "translations = 5\n"), "must be tables"),
+        ((GOOD, DEFAULTS, CALL, "translations = { de = 5 }\n"), "sentences by their language"),
         ((GOOD, DEFAULTS, "call = { arguments = [] }\n"), "either a function, or a method"),
         ((GOOD, DEFAULTS, 'call = { function = "exec" }\n'), "nep_core has no function “exec”"),
         ((GOOD, DEFAULTS, 'call = { function = "Robot" }\n'), "nep_core has no function “Robot”"),
@@ -79,6 +93,23 @@ def test_what_is_wrong_with_a_definition_is_told_with_file_and_block(tmp_path, l
 
     assert reason in str(refused.value.sentence)
     assert str(refused.value.sentence).startswith("In my.toml, block “sing”")
+
+
+def test_a_block_brings_what_is_the_same_in_every_call_and_python_becomes_it_again(tmp_path):
+    call = CALL.replace(" }", ', constants = { loud = true, pitch = -0.5, voice = "low" } }')
+    plain = "[blocks.plain]\n" + GOOD.replace("sings", "plainly sings") + DEFAULTS + CALL
+    begin = '[blocks.begin]\nsentence = "begin"\nshape = "hat"\ngenerator = "when_started"\n'
+    language = load(tmp_path, GOOD, DEFAULTS, call, plain, begin)
+    code = 'nao.sing("la", loud=True, pitch=-0.5, voice="low")'
+    reader = ValueReader(language, SourceNames(robots={"nao": "NAO"}))
+
+    editor = build(language, [B("my.begin"), B("my.sing")])
+    made = [one.type for one in reader.called(ast.parse(code, mode="eval").body)]
+    others = ast.parse('nao.sing("la", loud=1, pitch=-0.5, voice="low")', mode="eval").body
+
+    assert code in generate_program(editor.project, language).text
+    assert made == ["my.sing"]
+    assert list(reader.called(others)) == []
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 
 import pytest
 
@@ -106,4 +107,20 @@ def test_a_program_reads_in_the_other_language_and_makes_the_same_code(english) 
 def test_every_table_translates_every_block_category_and_choice(english, table) -> None:
     data = tomllib.loads(table.read_text(encoding="utf-8"))
 
-    assert [str(fault) for fault in faults(english, data)] == []
+    assert [str(fault) for fault in faults(english, data, table.stem)] == []
+
+
+def test_a_block_may_bring_its_translation_and_a_table_goes_before_it(english: Language) -> None:
+    off = english.definitions["robot_lights.off"]
+    own = replace(off, translations={"es": "{robot} apaga {group}", "it": "{robot} spegne"})
+    brought = replace(english, definitions={own.id: own}, categories=(), choices={})
+    table = {"blocks": {own.id: "apagar {group} de {robot}"}}
+
+    alone = translated(brought, {}, "es").definitions[own.id]
+    beside = translated(brought, table, "es").definitions[own.id]
+
+    assert names(alone.parts) == ["robot", "group"]
+    assert names(beside.parts) == ["group", "robot"]
+    assert translated(brought, {}, "fr").definitions[own.id].parts == off.parts
+    assert list(faults(brought, {}, "es")) == []
+    assert [fault.place for fault in faults(brought, {}, "it")] == [own.id]

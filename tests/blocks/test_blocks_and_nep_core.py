@@ -20,7 +20,8 @@ def test_every_call_of_a_block_fits_its_function(language):
         function = getattr(nep_core.Robot if made.on else nep_core, made.name)
         itself = [None] if made.on else []
 
-        inspect.signature(function).bind(*itself, *made.arguments, **made.keywords)
+        named = {**made.keywords, **made.constants}
+        inspect.signature(function).bind(*itself, *made.arguments, **named)
 
 
 def test_defaults_that_are_left_out_are_the_defaults_of_the_function(language):

@@ -15,8 +15,6 @@ from tests.docs.terminals import wait_until
 
 LANGUAGES = ("en", "ja")
 
-sys.path.append(str(PROJECT / "docs"))  # where the room "website" is
-
 
 class MadeSite:
     """The files of the site, read once."""
@@ -63,7 +61,7 @@ def made_site(tmp_path_factory: pytest.TempPathFactory) -> MadeSite:
 
 def _make(folder: Path, said: Path) -> None:
     """Make the site; what that said is in a file when it is done."""
-    command = [sys.executable, str(PROJECT / "docs" / "build_site.py"), "--folder", str(folder)]
+    command = [sys.executable, str(PROJECT / "tools" / "build_site.py"), "--folder", str(folder)]
     done = subprocess.run([*command, "--languages", *LANGUAGES], capture_output=True, text=True)
     written = said.with_suffix(".part")
     written.write_text(done.stdout + done.stderr, encoding="utf-8")

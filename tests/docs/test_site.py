@@ -141,7 +141,8 @@ def test_messages_commands_and_guides_are_there(made_site: MadeSite) -> None:
 
 
 def test_every_picture_is_made_by_a_script(made_site: MadeSite) -> None:
-    scripts = [*DOCS.glob("*.py"), PROJECT / "tests" / "stories" / "test_window_story.py"]
+    story = PROJECT / "tests" / "stories" / "test_window_story.py"
+    scripts = [*(PROJECT / "tools").glob("*.py"), story]
     text = "".join(script.read_text(encoding="utf-8") for script in scripts)
     made = set(re.findall(r'(?:scene|step)\("([\w-]+)"|"([\w-]+?)(?:-\{\w+\})?(?:\.png)?"', text))
     shown = [path.stem for path in (made_site.folder / "images").glob("*.png")]

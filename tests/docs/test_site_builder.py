@@ -6,18 +6,16 @@ import sys
 from pathlib import Path
 
 import pytest
-from website.colours import NAMES, USED_WHEN
-from website.frame import Site
-from website.markup import for_browsers, slug
-from website.page import Page
-from website.words import word
-from website.written import WrongPage, page_of
 
 from nep_studio.paths import documentation_folder, first_page
 from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.words import available_languages
 from tests.conftest import PROJECT
 from tests.ui.theme.colour_seeing import contrast
+from tools.website.frame import Site
+from tools.website.page import Page, for_browsers, slug, word
+from tools.website.pictures import NAMES, USED_WHEN
+from tools.website.written import WrongPage, page_of
 
 GROUPS = {"en": {"start": "Begin here"}, "de": {"start": "Anfang"}}
 READ_ON = ("canvas", "panel", "panel_alt", "info_panel", "menu")

@@ -10,7 +10,7 @@ BEGINNING = """# Every block about robots
 
 Each block was run twice, as a program of its own: on the robot on the screen, and on a robot that
 is reached over NAOqi by the driver that also moves a real NAO. Then the state of the robot itself
-was looked at, not the answer to the call. `python docs/make_robot_blocks.py` makes this table;
+was looked at, not the answer to the call. `python tools/robot_pages.py blocks` makes this table;
 `tests/stories/test_robot_blocks_on_both_robots.py` runs the same blocks.
 
 | block | what was looked at | on the screen | over NAOqi |

@@ -2,7 +2,7 @@
 
 The phone is a process that sends as the app Sensor Logger does; it plays recordings of a real
 person, of simulated ones where there are none. With NEP_STORY_IMAGES=FOLDER a picture of each step
-is kept; docs/story_images.py does so on a virtual screen.
+is kept; tools/story_images.py does so on a virtual screen.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ import pytest
 import dev
 from benchmarks.virtual_display import missing_programs
 
-STORY_IMAGES = Path(dev.__file__).parent / "docs" / "story_images.py"
+STORY_IMAGES = Path(dev.__file__).parent / "tools" / "story_images.py"
 STEPS = ["welcome", "example", "impressive", "stopped", "own-rule", "what-is-missing", "fixed"]
 
 

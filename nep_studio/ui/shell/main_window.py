@@ -58,13 +58,13 @@ MODULES = (
     "nep_studio.ui.canvas.editing.commands",
     "nep_studio.ui.canvas.layout.page",
     "nep_studio.ui.canvas.editing.menu",
-    "nep_studio.ui.canvas.view",
     "nep_studio.ui.canvas.fields.editors",
     "nep_studio.ui.canvas.canvas",
     "nep_studio.ui.workbench.code",
     "nep_studio.ui.workbench.palette.palette",
     "nep_studio.ui.workbench.workbench",
     "nep_studio.run.session",
+    "nep_studio.run.controller",
     "nep_studio.ui.running.control",
     "nep_studio.help.texts",
     "nep_studio.ui.shell.command_palette",
@@ -229,6 +229,7 @@ class MainWindow(QMainWindow):
         self.messages, self.files = self.services.messages, self.services.files
         self._opening_message: Message | None = None
         self._may_close = False
+        self._shown_problems: tuple[object, ...] = ()
         self.later = Later(self)
         self.setAcceptDrops(True)
         self.resize(*FIRST_SIZE)
@@ -292,8 +293,8 @@ class MainWindow(QMainWindow):
         """Follow the workbench, now that it and all around it are made."""
         workbench = self.workbench
         workbench.problems_found.connect(self._on_problems_found)
-        workbench.canvas.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
-        workbench.canvas.layout_changed.connect(self.update_actions)
+        workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
+        workbench.canvas.news.layout_changed.connect(self.update_actions)
         workbench.canvas.selection.changed.connect(self.update_actions)
         self.update_actions()
         self.start_page.gallery.paint_pictures()
@@ -358,8 +359,6 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{document.title}[*]" if document is not None else tr("Start"))
         self.setWindowModified(document is not None and document.is_modified)
         self.setWindowFilePath("" if document is None else str(document.path or ""))
-        if self.later.is_done:
-            self.workbench.show_folder(document)
         can_compare = document is not None and document.path is not None and document.is_modified
         self.actions_by_name.enable(can_compare, "compare")
 
@@ -368,6 +367,10 @@ class MainWindow(QMainWindow):
         is_open = document is not None
         if document is not None and not document.project.blocks:
             problems = []  # that nothing happens yet is no news to somebody who begins
+        shown = (list(problems), is_open, self.look.theme, self.toolbar)
+        if shown == self._shown_problems:
+            return  # as after most keys: nothing has changed on the toolbar
+        self._shown_problems = shown
         dress_check(self.actions_by_name["check"], problems, self.look.theme, is_open=is_open)
         size_toolbar(self.toolbar)
 
@@ -394,7 +397,7 @@ class MainWindow(QMainWindow):
     def _rebuild(self) -> None:
         """Make the contents of the window anew, and show the same place of the same project."""
         old, page = self.workbench, self.workbench.canvas.page
-        camera, selected = replace(old.canvas.camera), old.canvas.selection.ids
+        camera, selected = replace(old.canvas.sight.camera), old.canvas.selection.ids
         was_mirrored = self._is_mirrored
         old.retire()
         self.menuBar().clear()
@@ -410,11 +413,11 @@ class MainWindow(QMainWindow):
         if self.files.document is not None:
             canvas.show_page(page)
             canvas.selection.set(selected)
-            canvas.zoom(camera.scale)
+            canvas.sight.zoom(camera.scale)
             if was_mirrored == self._is_mirrored:
-                canvas.move_camera(camera.x, camera.y)
+                canvas.sight.move_camera(camera.x, camera.y)
             else:  # the page is read from its other side now
-                canvas.show_beginning()
+                canvas.sight.show_beginning()
             if selected:
                 canvas.show_block(selected[0])
 

@@ -315,7 +315,7 @@ def add_view_menu(window: MainWindow) -> QMenu:
 
     def zoom(factor: float) -> None:
         canvas = window.workbench.canvas
-        canvas.zoom(canvas.camera.scale * factor)
+        canvas.sight.zoom(canvas.sight.camera.scale * factor)
 
     menu.addActions(
         [
@@ -337,7 +337,7 @@ def add_view_menu(window: MainWindow) -> QMenu:
             add(
                 "zoom_fit",
                 tr("Show all"),
-                lambda: window.workbench.canvas.fit(),
+                lambda: window.workbench.canvas.sight.fit(),
                 icon_name="maximize",
                 keys="Ctrl+9",
             ),

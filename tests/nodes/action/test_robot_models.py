@@ -16,12 +16,13 @@ import pytest
 from nep_core.errors import NodeStartError
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program.robot import Robot
-from nep_core.wire.messages import ROBOT_STATE, ActionRequest, ActionResult, RobotState, Thing
+from nep_core.wire.messages import ROBOT_STATE
 from nep_core.wire.pubsub import Subscriber
-from nodes.resources import resource_folder
+from nodes.resources import model_folder, model_of, resource_folder
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import NO_GESTURE, load_animations
-from robots.body.body import Body, load_body, model_of, robot_folder
+from robots.body.body import Body, load_body
+from robots.body.messages import ActionRequest, ActionResult, RobotState, Thing
 from robots.body.motion import keyframe_motion
 from robots.body.pose import VirtualRobot
 from robots.body.speech import CONTEXTUAL, RANDOM
@@ -162,16 +163,16 @@ def test_pepper_says_which_postures_it_has() -> None:
 
 def test_an_unknown_model_is_told_with_those_that_there_are() -> None:
     with pytest.raises(NodeStartError, match='no robot model "zora"') as told:
-        robot_folder("zora")
+        model_folder("zora")
 
     assert "nao, pepper" in str(told.value.checklist[0])
 
 
 def test_a_model_is_named_by_its_folder(tmp_path: Path) -> None:
-    assert model_of(robot_folder("nao")) == ""
-    assert model_of(robot_folder("pepper")) == "pepper"
+    assert model_of(model_folder("nao")) == ""
+    assert model_of(model_folder("pepper")) == "pepper"
     shutil.copy(PEPPER / "body.json", tmp_path)
-    assert model_of(robot_folder(str(tmp_path))) == str(tmp_path.resolve())
+    assert model_of(model_folder(str(tmp_path))) == str(tmp_path.resolve())
 
 
 @pytest.fixture

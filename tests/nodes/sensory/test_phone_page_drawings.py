@@ -17,7 +17,7 @@ NAMES = [f"warning_{phone}_{theme}" for phone in ("android", "ios") for theme in
 
 
 def test_the_drawings_are_those_of_their_script() -> None:
-    command = [sys.executable, str(ROOT / "docs" / "phone_page_images.py"), "--check"]
+    command = [sys.executable, str(ROOT / "tools" / "phone_page_images.py"), "--check"]
 
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
 

@@ -75,5 +75,5 @@ def test_pages_that_are_not_there_are_told_with_what_to_do(
 
     [told] = [each.message for each in messages.history]
     assert told.title == "The documentation cannot be shown"
-    assert "docs/build_site.py" in str(told.checklist[0]) and "F1" in str(told.checklist[-1])
+    assert "tools/build_site.py" in str(told.checklist[0]) and "F1" in str(told.checklist[-1])
     assert browser.opened == []

@@ -121,7 +121,7 @@ def test_the_background_is_the_theme_or_nothing(canvas):
     painted = image_of(canvas, PictureOptions())
     bare = image_of(canvas, PictureOptions(is_transparent=True))
 
-    assert painted.pixelColor(1, 1) == canvas.theme.colour("canvas")
+    assert painted.pixelColor(1, 1) == canvas.look.theme.colour("canvas")
     assert bare.pixelColor(1, 1).alpha() == 0
 
 

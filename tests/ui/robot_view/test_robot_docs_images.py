@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-DOCS = Path(__file__).resolve().parents[3] / "docs"
+TOOLS = Path(__file__).resolve().parents[3] / "tools"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems draw letters in another way")
 def test_the_robots_in_the_documentation_look_as_they_do_now() -> None:
-    command = [sys.executable, str(DOCS / "robot_images.py"), "--check"]
+    command = [sys.executable, str(TOOLS / "robot_images.py"), "--check"]
 
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
 

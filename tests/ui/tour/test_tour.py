@@ -49,8 +49,8 @@ def drag_say_block(window: MainWindow) -> None:
         if entry.drawer.id == "robot" and entry.kind == "block"
     )
     rect = shelf.rect_of(next(wanted))
-    hat = canvas.view_rect_of(canvas.editor.project.pages["behaviour"][0].body[0])
-    is_mirrored = canvas.measures.is_mirrored
+    hat = canvas.sight.view_rect_of(canvas.editor.project.pages["behaviour"][0].body[0])
+    is_mirrored = canvas.look.measures.is_mirrored
     side = -1 if is_mirrored else 1
     start = (rect.topRight() if is_mirrored else rect.topLeft()) + QPoint(5 * side, 10)
     corner = (hat.bottomRight() if is_mirrored else hat.bottomLeft()).toPoint()

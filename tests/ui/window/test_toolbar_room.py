@@ -86,17 +86,17 @@ def test_keys_that_no_keyboard_has_are_not_listed(karate) -> None:
 
 
 def test_another_language_shows_the_same_place_and_another_direction_the_beginning(karate) -> None:
-    karate.workbench.canvas.zoom(0.8)
-    karate.workbench.canvas.pan(60, 90)
-    before = replace(karate.workbench.canvas.camera)
+    karate.workbench.canvas.sight.zoom(0.8)
+    karate.workbench.canvas.sight.pan(60, 90)
+    before = replace(karate.workbench.canvas.sight.camera)
 
     karate.studio.choose_language("de")
 
-    after = karate.workbench.canvas.camera
+    after = karate.workbench.canvas.sight.camera
     assert (after.x, after.y, after.scale) == pytest.approx((before.x, before.y, 0.8), abs=0.5)
 
     karate.studio.choose_language("qps-rtl")
 
     canvas = karate.workbench.canvas
-    seen, blocks = canvas.visible_page_rect(), canvas.page_layout.index.bounds()
+    seen, blocks = canvas.sight.visible_page_rect(), canvas.page_layout.index.bounds()
     assert seen.x < blocks.right < seen.right

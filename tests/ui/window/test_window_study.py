@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.help.page_names import block_page
 from nep_studio.problems import Problem
+from nep_studio.run.controller import Ended
 from nep_studio.run.session import Ending
 from nep_studio.study.records import Reply, Sitting, StudyFolder
 from nep_studio.study.sus import BROOKE
@@ -122,7 +123,10 @@ def test_what_happens_in_a_session_is_kept(
     window.running.runner.run_asked.emit()
     for state in ("starting", "running", "paused", "running", "stopping", "idle"):
         window.running.runner.state_changed.emit(state)
-    window.running.runner.ended.emit(Ending(Problem("NAO does not answer")))
+    ending = Ending(Problem("NAO does not answer"))
+    end = Ended(ending, was_stopped=False, had_begun=True, runs_again=False)
+    window.running.runner.told.emit(end)
+    window.running.runner.ended.emit(ending)
     window.actions_by_name["shortcuts"].trigger()
 
     events = {event.what: event for event in recorder.folder.events()}

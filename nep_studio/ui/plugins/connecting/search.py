@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.jobs import Job, News
+from nep_studio.ui.jobs import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
@@ -40,10 +40,10 @@ class RobotSearch(Job):
     def start(self, seconds: float, interfaces: Sequence[str] = ()) -> None:
         """Listen for some seconds; ``interfaces`` as in ``find_robots``."""
 
-        def work(cancelled: threading.Event, news: News) -> None:
+        def work(cancelled: threading.Event, tell: Tell) -> None:
             from robots.naoqi.discovery import find_robots
 
-            find_robots(news.put, cancelled, seconds=seconds, interfaces=interfaces)
+            find_robots(tell, cancelled, seconds=seconds, interfaces=interfaces)
 
         self._start(work, self._tell_found)
 
@@ -61,7 +61,7 @@ class RobotTest(Job):
     def start(self, address: str, user: str, password: str, robot: str) -> None:
         """Try every step; the login is used when there is a password."""
 
-        def work(cancelled: threading.Event, news: News) -> None:
+        def work(cancelled: threading.Event, tell: Tell) -> None:
             from robots.naoqi.probe import probe
             from robots.naoqi.wire.frames import Login
 
@@ -69,7 +69,7 @@ class RobotTest(Job):
             for check in probe(address, login, robot):
                 if cancelled.is_set():
                     return
-                news.put(check)
+                tell(check)
 
         self._start(work, self.checked.emit)
 

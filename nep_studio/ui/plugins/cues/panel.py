@@ -26,6 +26,7 @@ from PySide6.QtWidgets import (
 
 from nep_core.wire.messages import GESTURE_REQUEST, HUMAN_BEHAVIOR, GestureRequest, HumanBehavior
 from nep_studio.blocks.edits.content import SetExtra
+from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import KEY, Cue, arranged, cues_of, kept_cues, own_cue, to_keep
 from nep_studio.run.plan import VIRTUAL_WATCH
 from nep_studio.ui.messages import announce
@@ -47,8 +48,6 @@ if TYPE_CHECKING:
 
 # The cues of the project that is open, as they are at the moment.
 
-SOON_MS = 200
-
 
 class ProjectCues(QObject):
     """``changed`` tells, soon after, that they may be others."""
@@ -57,7 +56,7 @@ class ProjectCues(QObject):
 
     def __init__(self, files: Files, parent: QObject) -> None:
         super().__init__(parent)
-        self._project = OpenProject(files, self, SOON_MS)
+        self._project = OpenProject(files, self)
         self._project.changed.connect(self.changed)
 
     @property
@@ -290,7 +289,7 @@ class CuePanel(QWidget):
     def _on_said(self) -> None:
         try:
             cue = own_cue(self.words.text(), is_word=True)
-        except ValueError:
+        except EditRefused:
             self.words.setFocus()
             return
         if self.send(cue):

@@ -28,7 +28,7 @@ from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.operations.copying import copy, to_text
 from nep_studio.blocks.operations.selection import members, runs
 from nep_studio.project import picture_files
-from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
@@ -43,17 +43,17 @@ _TEXT = re.compile(r'(<text [^>]*font-weight="(\d+)"[^>]*?)\s*>([^<]*)</text>')
 _FAMILY = re.compile(r'font-family="([^"]*)"')
 
 
-def fitted(svg: bytes, canvas: Canvas) -> bytes:
+def fitted(svg: bytes, canvas: CanvasHost) -> bytes:
     """The file with the width of each word, and with a usual font after ours."""
     text = svg.decode()
     text = _FAMILY.sub(r'font-family="\1,sans-serif"', text)
-    weight = str(int(canvas.block_font.weight()))
+    weight = str(int(canvas.look.block_font.weight()))
 
     def with_width(match: re.Match[str]) -> str:
         opening, its_weight, said = match.groups()
         if its_weight != weight or not said.strip():
             return match.group(0)
-        width = canvas.measures.text_width(html.unescape(said))
+        width = canvas.look.measures.text_width(html.unescape(said))
         return f'{opening} textLength="{width:g}" lengthAdjust="spacingAndGlyphs">{said}</text>'
 
     return _TEXT.sub(with_width, text).encode()
@@ -99,17 +99,17 @@ class Scene:
         return part.bounds.height + (self.title_height if part.title else 0.0)
 
 
-def scene_of(canvas: Canvas, what: What, margin: float = MARGIN) -> Scene:
+def scene_of(canvas: CanvasHost, what: What, margin: float = MARGIN) -> Scene:
     """What of a canvas is asked for; a scene without parts when there are no blocks."""
-    scene = Scene(title_height=canvas.measures.line * 2.2, margin=margin)
+    scene = Scene(title_height=canvas.look.measures.line * 2.2, margin=margin)
     if what == "selection":
         chains = _selected(canvas)
         scene.parts = [Part(chains, _bounds(chains))] if chains else []
         return scene
     project = canvas.editor.project
-    pages = list(project.pages) if what == "pages" else [canvas.page]
+    pages = list(project.pages) if what == "pages" else [canvas.page_layout.page]
     for page in pages:
-        layout = PageLayout(project, canvas.editor.language, canvas.measures)
+        layout = PageLayout(project, canvas.editor.language, canvas.look.measures)
         layout.show(page)
         chains = list(layout.chains.values())
         if chains:
@@ -118,17 +118,19 @@ def scene_of(canvas: Canvas, what: What, margin: float = MARGIN) -> Scene:
     return scene
 
 
-def paint_scene(painter: QPainter, scene: Scene, canvas: Canvas, scale: float) -> None:
+def paint_scene(painter: QPainter, scene: Scene, canvas: CanvasHost, scale: float) -> None:
     """Paint it from (0, 0) on; the painter counts in canvas units."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    blocks = BlockPainter(canvas.theme, canvas.editor.language, canvas.measures, canvas.block_font)
+    blocks = BlockPainter(
+        canvas.look.theme, canvas.editor.language, canvas.look.measures, canvas.look.block_font
+    )
     y = scene.margin
     for part in scene.parts:
         if part.title:
             _paint_title(painter, part.title, QPointF(scene.margin, y), scene, canvas)
             y += scene.title_height
         left = scene.margin
-        if canvas.measures.is_mirrored:
+        if canvas.look.measures.is_mirrored:
             left = scene.width - scene.margin - part.bounds.width
         painter.translate(left - part.bounds.x, y - part.bounds.y)
         for chain in part.chains:
@@ -137,20 +139,22 @@ def paint_scene(painter: QPainter, scene: Scene, canvas: Canvas, scale: float) -
         y += part.bounds.height + scene.margin
 
 
-def _paint_title(painter: QPainter, title: str, at: QPointF, scene: Scene, canvas: Canvas) -> None:
-    font = QFont(canvas.block_font)
+def _paint_title(
+    painter: QPainter, title: str, at: QPointF, scene: Scene, canvas: CanvasHost
+) -> None:
+    font = QFont(canvas.look.block_font)
     font.setPointSizeF(font.pointSizeF() * 1.3)
     font.setBold(True)
     painter.setFont(font)
-    painter.setPen(canvas.theme.colour("text"))
+    painter.setPen(canvas.look.theme.colour("text"))
     row = QRectF(at.x(), at.y(), scene.width - 2 * scene.margin, scene.title_height)
     painter.drawText(row, title)
 
 
-def _selected(canvas: Canvas) -> list[Chain]:
+def _selected(canvas: CanvasHost) -> list[Chain]:
     """The selected blocks, where they lie on the page."""
     project = canvas.editor.project
-    layout = Layout(project, canvas.editor.language, canvas.measures)
+    layout = Layout(project, canvas.editor.language, canvas.look.measures)
     chains = []
     for run in runs(project, canvas.selection.ids):
         placed = canvas.page_layout.placed(run.first)
@@ -196,7 +200,7 @@ class PictureOptions:
     has_program: bool = True
 
 
-def write_picture(canvas: Canvas, path: Path, kind: Format, options: PictureOptions) -> None:
+def write_picture(canvas: CanvasHost, path: Path, kind: Format, options: PictureOptions) -> None:
     """Write a picture into a file; raises EditRefused when there is nothing, or no room.
 
     A file that is there is replaced only once the new one is whole.
@@ -217,12 +221,12 @@ def write_picture(canvas: Canvas, path: Path, kind: Format, options: PictureOpti
         ) from error
 
 
-def copy_picture(canvas: Canvas, options: PictureOptions) -> None:
+def copy_picture(canvas: CanvasHost, options: PictureOptions) -> None:
     """Put a picture on the clipboard; raises EditRefused when there is nothing to show."""
     QGuiApplication.clipboard().setImage(image_of(canvas, options))
 
 
-def png_of(canvas: Canvas, options: PictureOptions) -> bytes:
+def png_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     """A PNG file, with the program in it if it is asked for."""
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
@@ -235,7 +239,7 @@ def png_of(canvas: Canvas, options: PictureOptions) -> bytes:
     )
 
 
-def svg_of(canvas: Canvas, options: PictureOptions) -> bytes:
+def svg_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     """An SVG file, its words as text, with the program in it if it is asked for."""
     scene = _scene(canvas, options)
     buffer = QBuffer()
@@ -255,7 +259,7 @@ def svg_of(canvas: Canvas, options: PictureOptions) -> bytes:
     return picture_files.svg_with_program(svg, program_of(canvas, options))
 
 
-def pdf_of(canvas: Canvas, options: PictureOptions) -> bytes:
+def pdf_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     """A PDF file with one page as large as the blocks, to be printed."""
     scene = _scene(canvas, options)
     data = QByteArray()
@@ -281,7 +285,7 @@ def pdf_of(canvas: Canvas, options: PictureOptions) -> bytes:
     return bytes(data.data())
 
 
-def image_of(canvas: Canvas, options: PictureOptions) -> QImage:
+def image_of(canvas: CanvasHost, options: PictureOptions) -> QImage:
     """The picture; raises EditRefused when there is nothing to show."""
     scene = _scene(canvas, options)
     scale = fitting_scale(scene, options.scale)
@@ -306,16 +310,18 @@ def fitting_scale(scene: Scene, wanted: float) -> float:
     return min(wanted, side, area)
 
 
-def program_of(canvas: Canvas, options: PictureOptions) -> bytes:
+def program_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     """The text of the project that is shown, or of the selected blocks."""
     editor = canvas.editor
     if options.what == "selection":
         ids = canvas.selection.ids
-        return to_text(copy(editor.project, editor.language, ids, canvas.corners(ids))).encode()
+        return to_text(
+            copy(editor.project, editor.language, ids, canvas.page_layout.corners(ids))
+        ).encode()
     return to_bytes(editor.project)
 
 
-def _scene(canvas: Canvas, options: PictureOptions) -> Scene:
+def _scene(canvas: CanvasHost, options: PictureOptions) -> Scene:
     scene = scene_of(canvas, options.what, options.margin)
     if not scene.parts:
         words = (
@@ -328,9 +334,9 @@ def _scene(canvas: Canvas, options: PictureOptions) -> Scene:
 
 
 def _paint(
-    painter: QPainter, scene: Scene, canvas: Canvas, options: PictureOptions, scale: float
+    painter: QPainter, scene: Scene, canvas: CanvasHost, options: PictureOptions, scale: float
 ) -> None:
     if not options.is_transparent:
         whole = QRectF(0, 0, scene.width, scene.height)
-        painter.fillRect(whole, canvas.theme.colour("canvas"))
+        painter.fillRect(whole, canvas.look.theme.colour("canvas"))
     paint_scene(painter, scene, canvas, scale)

@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.words import tr
 
 from .picture import SCALES, Format, PictureOptions, What, copy_picture, write_picture
@@ -33,9 +33,9 @@ class PictureDialog(QDialog):
     """
 
     def __init__(
-        self, canvas: Canvas, folder: Path, name: str, parent: QWidget | None = None
+        self, canvas: CanvasHost, folder: Path, name: str, parent: QWidget | None = None
     ) -> None:
-        super().__init__(parent or canvas.window())
+        super().__init__(parent or canvas.area.window())
         self._canvas, self._folder, self._name = canvas, folder, name
         self.setWindowTitle(tr("Picture of the blocks"))
         self.what = QComboBox(self)
@@ -58,7 +58,7 @@ class PictureDialog(QDialog):
         self.transparent = QCheckBox(tr("Nothing behind the blocks (transparent)"), self)
         self.program = QCheckBox(tr("With the program inside: the picture can be opened"), self)
         self.program.setChecked(True)
-        self.reason = ReasonBubble(canvas.theme, self)
+        self.reason = ReasonBubble(canvas.look.theme, self)
         self.format.currentIndexChanged.connect(self._on_format_changed)
         self._arrange()
 

@@ -79,7 +79,6 @@ def shape_for(wide: float, high: float) -> Shape:
 
 Step = Literal["project", "connect", "name", "record", "more", "another", "train", "try"]
 ENOUGH_TAKES = 3
-MANY_TAKES = 5
 
 
 def next_step(desk: TrainerDesk) -> tuple[Step, str]:

@@ -221,7 +221,7 @@ class HelpDesk(QObject):
         opening.page_asked.connect(self.open)
         opening.is_page_shown = lambda: panel.isVisible()
         self._canvas: Canvas = opening.canvas
-        self._canvas.menu_requested.connect(self._on_menu_requested)
+        self._canvas.news.menu_requested.connect(self._on_menu_requested)
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         app.focusChanged.connect(self._on_focus_changed)
@@ -334,7 +334,7 @@ def open_documentation(messages: Messages) -> None:
     page = first_page(language_code())
     if page is None:
         sentence = tr("Its pages are not on this computer.")
-        steps = [tr("In a copy of the source, docs/build_site.py makes the pages.")]
+        steps = [tr("In a copy of the source, tools/build_site.py makes the pages.")]
     elif QDesktopServices.openUrl(QUrl.fromLocalFile(str(page))):
         return
     else:

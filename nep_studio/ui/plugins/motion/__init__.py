@@ -16,7 +16,7 @@ from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
     from .teleoperation import TeleoperationWindow
     from .window import MotionWindow
@@ -96,7 +96,7 @@ class MotionKit(QObject):
         motion = self.make()
         motion.project.guard(lambda: motion.project.open(name))
 
-    def section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+    def section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of a block that plays a motion offers."""
         if place.hit is None:
             return []

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QCursor, QKeySequence
 from PySide6.QtWidgets import QInputDialog, QMenu
 
-from nep_core.errors import NepError
+from faults import FaultError
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.animations import Use
 from nep_studio.blocks.own_animations import OwnAnimation, free_name
@@ -310,7 +310,7 @@ class ProjectCommands:
             return
         try:
             self._show(self.kept.load(name), "")
-        except NepError as error:
+        except FaultError as error:
             self.tell_error(error)
 
     def _opener(self, name: str) -> Callable[[], None]:
@@ -334,7 +334,7 @@ class ProjectCommands:
             name = self.kept.save(self.desk.motion, self.desk.name, self._use)
         except EditRefused as refused:
             step = tr("Give it a name and at least one pose, then keep it again.")
-            self._tell(tr("The motion could not be kept"), tr(str(refused)), step)
+            self._tell(tr("The motion could not be kept"), tr(refused.sentence), step)
             return False
         self._use = None
         self.desk.saved(name)
@@ -410,7 +410,7 @@ class ProjectCommands:
         """The door for messages; they are shown in the main window."""
         return self.window.host.services.messages
 
-    def tell_error(self, error: NepError) -> None:
+    def tell_error(self, error: FaultError) -> None:
         """Say what went wrong, over this window."""
         problem = problem_of(error)
         ok = Answer(tr("OK"), lambda: None, "primary")

@@ -24,7 +24,8 @@ from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons, icon_room
 from nep_studio.ui.widgets.labels import room_around
 from nep_studio.ui.words import tr
-from robots.body.body import NAO, load_body, robot_folder
+from nodes.resources import NAO, model_folder
+from robots.body.body import load_body
 
 from . import MOTION_WINDOW
 from .bars import Header, NotesBar, Transport
@@ -49,7 +50,7 @@ class MotionWindow(QDialog):
         self.setWindowFlag(Qt.WindowType.WindowMaximizeButtonHint)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         language = host.services.language
-        self.model, folder = model, robot_folder(model or NAO)
+        self.model, folder = model, model_folder(model or NAO)
         body = load_body(folder)
         self.desk = MotionDesk(body, self)
         self.player = Player(self.desk, self)

@@ -198,7 +198,7 @@ class NodeCard(QFrame):
         manifest = manifest_of(status.node)
         title = tr(manifest.title) if manifest else ""
         kind = type_words(status.type)
-        described = tr(status.description.partition("\n")[0].strip())
+        described = tr(status.fault.sentence).partition("\n")[0].strip()
         self.name.set_words(entry.name)
         self.kind.set_words(f"{title} · {kind}" if title else kind)
         self.state.set_words(f"{look.word}: {described}" if described else look.word)

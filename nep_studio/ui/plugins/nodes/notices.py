@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from nep_core.processes.process import STEP
-from nep_studio.blocks.deployment import ROBOT_BLOCK
+from faults import Text, Words
+from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.program import ROBOT_BLOCK
 from nep_studio.problems import Problem
 from nep_studio.run.local_network import MASTER
 from nep_studio.run.node_board import NodeStatus
@@ -33,9 +34,6 @@ Fix = Literal[
     "run",
     "stop",
 ]
-
-STARTED_AGAIN = "; it is started again"
-"""How the studio's own words for a crashed node end when it has another try (see herald.py)."""
 
 BAD = frozenset({"warning", "frozen", "crashed"})
 WELL = frozenset({"ready", "busy"})
@@ -96,8 +94,8 @@ def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
 
 
 def _same(before: NodeStatus, after: NodeStatus) -> bool:
-    mine = (before.health, before.event, before.description)
-    return mine == (after.health, after.event, after.description)
+    mine = (before.health, before.event, before.fault)
+    return mine == (after.health, after.event, after.fault)
 
 
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
@@ -121,20 +119,14 @@ def _silent(name: str) -> str:
     return tr("“{name}” has said nothing for three seconds.", name=name)
 
 
-def _steps(lines: Sequence[str]) -> tuple[str, ...]:
-    """The checklist that a node tells below its sentence."""
-    return tuple(tr(line.removeprefix(STEP.lstrip())) for line in lines if line.strip())
-
-
 def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
     """The node's own words are a sentence and a checklist."""
-    first, *rest = status.description.splitlines() or [""]
-    steps = _steps(rest)
+    fault = status.fault
     where = tr(
         "The program could not reach {name} at {address}.", name=status.name, address=at.address
     )
-    sentence = tr(first) if first else where
-    problem = Problem(tr("{name} does not answer", name=status.name), sentence, steps)
+    title = tr("{name} does not answer", name=status.name)
+    problem = Problem(title, fault.sentence or where, fault.checklist)
     fixes: tuple[Fix, ...] = (
         ("use_virtual", "test_connection", "change_address") if at.has_block else ()
     )
@@ -143,37 +135,35 @@ def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
 
 def _warning(status: NodeStatus, at: Circumstances) -> Notice:
     name = status.name
-    described, *rest = status.description.splitlines() or [""]
-    steps: tuple[str, ...]
+    steps: tuple[Words, ...]
     if status.event == "disconnected":
         title = tr("“{name}” has lost its connection", name=name)
         steps = (tr("It goes on trying by itself."), tr("Is the device switched on and near?"))
     else:
         title = tr("“{name}” needs attention", name=name)
         steps = (tr("Look into its log."), tr("Look at its settings."))
-    steps = _steps(rest) or steps
-    problem = Problem(title, tr(described), steps)
+    problem = Problem(title, status.fault.sentence, status.fault.checklist or steps)
     fixes: list[Fix] = ["show_log"] if at.is_ours or at.is_program else []
     if at.has_block:
         fixes.append("show_settings")
-    return Notice(name, f"warning {described}", "warning", problem, tuple(fixes))
+    return Notice(name, f"warning {status.fault}", "warning", problem, tuple(fixes))
 
 
 def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
     name = status.name
     steps: tuple[str, ...]
-    described = tr(status.description.partition(STARTED_AGAIN)[0])
+    described = _how_it_ended(status)
     if not at.is_ours:
         title = tr("“{name}” has ended unexpectedly", name=name)
         steps = (tr("Start it again where it was started."),)
         return Notice(name, "ended", "warning", Problem(title, described, steps))
-    if status.description.endswith(STARTED_AGAIN):
+    if status.fault.code == PROCESS_RESTARTS:
         title = tr("“{name}” ended unexpectedly and is started again", name=name)
         steps = (tr("Wait a moment: it comes back by itself."), tr("Look into its log."))
         return Notice(
             name, "restarting", "warning", Problem(title, described, steps), ("show_log",)
         )
-    if not status.description.startswith(f"{name} "):
+    if status.fault.code != PROCESS_ENDED:
         return None  # its own last words; what became of its process follows at once
     if not at.was_ready:
         return None  # who started it is told why it could not start
@@ -184,16 +174,21 @@ def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
 
 def _program_ended(status: NodeStatus) -> Notice | None:
     """Only when it was killed: what else may end it, Run tells of."""
-    described, words, _ = status.description.partition(STARTED_AGAIN)
-    if not words:
+    if status.fault.code != PROCESS_RESTARTS:
         return None
     title = tr("The program ended unexpectedly and begins again")
     steps = (
         tr("Stop it, if it should not begin again."),
         tr("Does it use more and more memory? Its log may say so."),
     )
-    problem = Problem(title, tr(described), steps)
+    problem = Problem(title, _how_it_ended(status), steps)
     return Notice(status.name, "restarting", "warning", problem, ("stop", "show_log"))
+
+
+def _how_it_ended(status: NodeStatus) -> Text:
+    """That alone; what becomes of the node then is in the title."""
+    outcome = status.fault.values.get("outcome")
+    return outcome if isinstance(outcome, Text) else status.fault.sentence
 
 
 def started_again(name: str, problem: Problem) -> Notice:
@@ -207,15 +202,15 @@ def started_again(name: str, problem: Problem) -> Notice:
     return Notice(name, "started again", "info", again, ("show_log",), passes=True)
 
 
-def master_notice(event: str, sentence: str) -> Notice:
+def master_notice(event: str, sentence: Words) -> Notice:
     """What to tell of a master that ended unexpectedly."""
     if event == "restarting":
         title = tr("The network ended unexpectedly and is opened again")
         steps = (tr("Wait a moment: what runs goes on."), tr("Look into its log."))
-        problem = Problem(title, tr(sentence), steps)
+        problem = Problem(title, sentence, steps)
         return Notice(MASTER, "restarting", "warning", problem, ("show_log",))
     steps = (tr("Start it again: what runs goes on."), tr("Look into its log: why did it end?"))
-    problem = Problem(tr("The network ended unexpectedly"), tr(sentence), steps)
+    problem = Problem(tr("The network ended unexpectedly"), sentence, steps)
     return Notice(MASTER, "gone", "error", problem, ("start", "show_log"))
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer
 
+from faults import Words
 from nep_core.errors import NepError
 from nep_studio.problems import Problem, problem_of
 from nep_studio.run.local_network import MASTER
@@ -164,7 +165,7 @@ class NodeTelling(QObject):
         if key == "restarting" and message is not None and not self._is_ending:
             self.tell(started_again(name, Problem(message.title, message.sentence)))
 
-    def _on_master_changed(self, event: str, sentence: str) -> None:
+    def _on_master_changed(self, event: str, sentence: Words) -> None:
         if event == "back":
             self._recover(MASTER)
         else:

@@ -17,11 +17,11 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.problems import Problem, problem_of
+from nep_studio.run.controller import Request
 from nep_studio.run.session import Ending
 from nep_studio.run.timeline import Line, Timeline
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.messages import Told
-from nep_studio.ui.running.runner import Request
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -189,8 +189,7 @@ class Performance(QObject):
         except (BlocksError, NepError) as error:
             self._fail(problem_of(error))
             return
-        self._host.services.running.stage.begin(code)
-        self._runner.start(Request(code, tuple(nodes)))
+        self._runner.start(Request(code, tuple(nodes), is_watched=False))
 
     def _fail(self, problem: Problem) -> None:
         self.problem = problem

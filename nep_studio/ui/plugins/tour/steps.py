@@ -127,7 +127,7 @@ def add_say(host: Host) -> None:
 
 def _show_say(host: Host) -> None:
     show_blocks(host)
-    host.workbench.canvas.show_beginning()
+    host.workbench.canvas.sight.show_beginning()
     host.workbench.helpers.palette.open_drawer("robot")
 
 
@@ -141,7 +141,7 @@ def _say_place(host: Host) -> QRect:
     """Where the block is on the page; the page where it is out of sight."""
     canvas, block = host.workbench.canvas, say_block(host)
     page = place_of(host, canvas.viewport())
-    rect = canvas.view_rect_of(block.id) if block is not None else None
+    rect = canvas.sight.view_rect_of(block.id) if block is not None else None
     if rect is None:
         return page
     seen = rect.toAlignedRect().translated(page.topLeft()).intersected(page)

@@ -374,7 +374,7 @@ class Tour(QObject):
             QApplication.activePopupWidget() is not None
             or QApplication.activeModalWidget() is not None
             or isinstance(QApplication.focusWidget(), QLineEdit | QPlainTextEdit)
-            or canvas.gesture is not None
+            or canvas.pointing.gesture is not None
             or canvas.fields.widget is not None
         )
 

@@ -236,7 +236,7 @@ class WatchDialog(QDialog):
         if self.trial.state != "listening":
             return tr("Getting ready…"), ""
         status = self.ear.status
-        told = tr(status.description) if status is not None else ""
+        told = tr(status.fault.sentence) if status is not None else ""
         if page.way.listens and not page.network.is_open:
             return tr("Let this network in first"), told
         return tr("Waiting for the first movement…"), told

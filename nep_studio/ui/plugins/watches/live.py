@@ -115,9 +115,9 @@ class LiveView(QFrame):
     def _told(self) -> list[str]:
         """How the node understands what arrives, and what it warns of."""
         status = self._ear.status
-        if status is None or not status.description:
+        if status is None or not status.fault.sentence:
             return []
-        told = tr(status.description)
+        told = tr(status.fault.sentence)
         if status.event == "warning":
             return [*self._understood, told]
         self._understood = [told]
