@@ -72,7 +72,7 @@ class Bench:
         if isinstance(view, ReferenceView):
             view.look_at(CORNER)
         else:
-            view.move_camera(CORNER.x(), CORNER.y())
+            view.sight.move_camera(CORNER.x(), CORNER.y())
         driver.settle()
         return view, driver, load_ms
 
@@ -152,7 +152,7 @@ def dragging(view: View, driver: Driver, name: str) -> Figures:
 
 def is_carrying(view: View) -> bool:
     """Whether a stack is being dragged."""
-    return view.sprite is not None if isinstance(view, Canvas) else view.is_carrying
+    return view.layers.sprite is not None if isinstance(view, Canvas) else view.is_carrying
 
 
 def gap_of(view: View) -> object:
@@ -165,7 +165,7 @@ def grip(view: View) -> QPointF:
     stack = view.editor.project.stacks[FIRST_STACK]
     place = QPointF(stack.x, stack.y) + FIRST_BLOCK
     if isinstance(view, Canvas):
-        return view.camera.to_view(place.x(), place.y())
+        return view.sight.camera.to_view(place.x(), place.y())
     return QPointF(view.mapFromScene(place))
 
 
@@ -181,17 +181,17 @@ def undoing(view: View, driver: Driver, name: str) -> Figures:
 
 def looking(view: Canvas, driver: Driver) -> Figures:
     """Scroll and zoom with the wheel, and paint all anew."""
-    before = view.camera.y
+    before = view.sight.camera.y
     found = {"scroll": _median(driver, lambda: driver.wheel(-1))}
     zoom_ms = _median(driver, lambda: driver.wheel(-1, is_zooming=True), rounds=6)
-    if view.camera.y == before or view.camera.scale == 1.0:
+    if view.sight.camera.y == before or view.sight.camera.scale == 1.0:
         raise NotPainted("The wheel did not scroll and zoom.")
     found["zoom"] = zoom_ms
-    view.zoom(1.0)
+    view.sight.zoom(1.0)
     driver.settle()
-    view.sharpen.stop()
+    view.layers.sharpen.stop()
     found["full repaint"] = _median(driver, view.repaint_all)
-    view.move_camera(CORNER.x(), CORNER.y())
+    view.sight.move_camera(CORNER.x(), CORNER.y())
     return found
 
 
@@ -203,7 +203,7 @@ def typing(view: Canvas, driver: Driver) -> Figures:
             driver, lambda: view.editor.apply(SetField(EDITED, "text", next(texts)))
         )
     }
-    place = view.view_rect_of(EDITED)
+    place = view.sight.view_rect_of(EDITED)
     if place is not None:
         driver.click(place.center())
         line = QApplication.focusWidget()

@@ -24,9 +24,8 @@ from nep_studio.run.node_board import FROZEN_S
 from nep_studio.run.plan import PlannedNode
 from nep_studio.run.session import PROGRAM
 from nep_studio.settings import Settings
-from nep_studio.ui.plugins.nodes import add_nodes_panel
-from nep_studio.ui.plugins.nodes.panel import NodesPanel
-from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.app import make_application
 from nep_studio.ui.shell.main_window import MainWindow
 
 ROUNDS = 2
@@ -152,8 +151,6 @@ def measure(folder: Path) -> dict[str, float]:
     window.show()
     window.start(None)
     window.files.open_example(paths.examples() / "karate_greeting.nep")
-    if window.findChild(NodesPanel) is None:
-        add_nodes_panel(window)
     clock = Clock(window)
     faults: dict[str, Callable[[], float]] = {
         name: lambda name=name: kill(window, clock, name)  # type: ignore[misc]

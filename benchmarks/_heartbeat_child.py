@@ -16,7 +16,8 @@ from PySide6.QtCore import QEventLoop, QTimer
 from benchmarks.gui_loads import LOADS, PREPARATIONS
 from benchmarks.heartbeat import Heartbeat
 from nep_studio.settings import Settings
-from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.app import make_application
 from nep_studio.ui.shell.main_window import MainWindow
 
 LONGEST_S = 90.0

@@ -20,10 +20,11 @@ from typing import Any
 
 import psutil
 
-from nep_core.wire.messages import ActionRequest, ActionResult
+from nodes.resources import model_folder
 from robots.body.actor import Actor
 from robots.body.animations import load_animations
-from robots.body.body import load_body, robot_folder
+from robots.body.body import load_body
+from robots.body.messages import ActionRequest, ActionResult
 from robots.body.pose import VirtualRobot
 from robots.naoqi.driver.driver import NaoqiDriver
 
@@ -46,7 +47,7 @@ class Pilot:
     """Our driver, and what it tells."""
 
     def __init__(self, port: int) -> None:
-        folder = robot_folder("nao")
+        folder = model_folder("nao")
         body = load_body(folder)
         robot = VirtualRobot("NAO", body, load_animations(folder / "animations", body))
         self.driver = NaoqiDriver(robot, f"127.0.0.1:{port}")

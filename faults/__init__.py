@@ -43,6 +43,12 @@ LONGEST = 2000
 DEEPEST = 4
 """So deep are texts from another program in each other; ours are three deep."""
 MOST_VALUES = 50
+MOST_STEPS = 20
+"""More steps of a checklist than a person would read are left out."""
+
+_STOPS = ".。"
+_GOES_ON = tuple(".。;,:)；、，）")  # noqa: RUF001 - Japanese has signs of its own
+"""Before these a sentence within another loses its full stop."""
 
 _SAID = "{said}"
 _PLACE = re.compile(r"\{(\w+)\}")
@@ -71,6 +77,12 @@ class Fault(msgspec.Struct, frozen=True, omit_defaults=True):
 
     def __str__(self) -> str:
         return str(self.sentence)
+
+
+class _Inner(str):
+    """The words of a text that stands within another."""
+
+    __slots__ = ()
 
 
 class Tr(Protocol):
@@ -105,7 +117,13 @@ def filled(template: str, values: Mapping[str, object]) -> str:
     """
     if not values:
         return template
-    return _PLACE.sub(lambda found: str(values.get(found[1], found[0])), template)
+
+    def fill(found: re.Match[str]) -> str:
+        value = values.get(found[1], found[0])
+        goes_on = template[found.end() : found.end() + 1] in _GOES_ON
+        return value.rstrip(_STOPS) if isinstance(value, _Inner) and goes_on else str(value)
+
+    return _PLACE.sub(fill, template)
 
 
 def fault_of(
@@ -245,7 +263,7 @@ def _value(value: object) -> Value:
 def _told(value: object, tr: Tr) -> object:
     match value:
         case Text():
-            return told(value, tr)
+            return _Inner(told(value, tr))
         case list():
             return ", ".join(told(one, tr) if isinstance(one, Text) else str(one) for one in value)
     return value
@@ -268,6 +286,25 @@ def heard(told: object, deepest: int = DEEPEST) -> Text:
         case {"text": str(text)}:
             return Text(_cut(text))
     return verbatim(_cut(repr(told)) if deepest else "…")
+
+
+def heard_fault(told: object) -> Fault | None:
+    """Return what came as the object of a fault; None when it says nothing."""
+    if not isinstance(told, dict):
+        return None
+    sentence, steps = heard(told.get("sentence", "")), told.get("checklist")
+    checklist = tuple(map(heard, steps[:MOST_STEPS])) if isinstance(steps, list) else ()
+    code, details = told.get("code"), told.get("details")
+    return (
+        Fault(
+            code if isinstance(code, str) else "",
+            sentence,
+            checklist,
+            details if isinstance(details, str) else "",
+        )
+        if sentence
+        else None
+    )
 
 
 def _heard(value: object, deepest: int) -> Value:

@@ -10,7 +10,7 @@ from importlib import import_module
 
 JOBS = {
     "run": "nep_studio.commands.run:main",
-    "show": "nep_studio.ui.plugins.show.command:main",
+    "show": "nep_studio.ui.shell.show_command:main",
     "code": "nep_studio.commands.project:code",
     "check": "nep_studio.commands.project:check",
     "doctor": "nep_studio.commands.doctor:main",

@@ -20,6 +20,7 @@ from .support.portable import kept_name, not_kept, path_of
 FOLDER_VARIABLE = "NEP_STUDIO_FOLDER"
 """Another place for settings, journals and logs than the user's folder."""
 
+MINIMAP = "Minimap"
 SYSTEM = "system"
 """The choice that follows the computer: for the theme and for the language."""
 
@@ -137,10 +138,6 @@ class Settings:
     def add_recent(self, path: Path) -> None:
         """Put a project first in the list."""
         self._set_recent([path, *(one for one in self.recent_files if one != path)])
-
-    def forget_recent(self, path: Path) -> None:
-        """Take a project out of the list."""
-        self._set_recent(one for one in self.recent_files if one != path)
 
     def _set_recent(self, paths: Iterable[Path]) -> None:
         self._values.setValue("files/recent", [kept_name(path) for path in paths][:MOST_RECENT])
@@ -261,6 +258,11 @@ class Settings:
     def is_shown(self, panel: str, *, default: bool) -> bool:
         """Whether a person left a panel open."""
         return self._text(f"panels/{panel}", "yes" if default else "no") == "yes"
+
+    @property
+    def is_minimap_shown(self) -> bool:
+        """Whether the person left the minimap open."""
+        return self.is_shown(MINIMAP, default=False)
 
     def is_chosen(self, panel: str) -> bool:
         """Whether a person has ever shown or hidden a panel."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import re
 import socket
 import threading
 import time
@@ -15,8 +14,10 @@ from typing import Literal
 import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from faults import Fault, Text
 from nep_core.errors import NepError, NetworkError
 from nep_core.networks.security.addresses import endpoint_at, is_ours
+from nep_core.networks.security.curve import NOT_LET_IN
 from nep_core.networks.security.keys import Computer, Keys
 from nep_core.networks.security.opening import DOOR_PORT, MASTER_PORT, Opening
 from nep_core.networks.security.pairing import Code, DoorEvent
@@ -34,12 +35,8 @@ RefusalKind = Literal["stranger", "own_program", "unable", "wrong_code", "code_u
 
 MOST = 20
 
-_TOLD: tuple[tuple[RefusalKind, re.Pattern[str]], ...] = (
-    ("stranger", re.compile(r"A program at (?P<places>.+?) showed no key of this network")),
-    ("own_program", re.compile(r"A program of this computer showed no key of this network")),
-    ("unable", re.compile(r"The program at (?P<places>.+?) does not have the keys")),
-)
-"""How nep_core/networks/security/curve.py tells of those who were not let in."""
+_TOLD: tuple[RefusalKind, ...] = ("stranger", "own_program", "unable")
+"""Of these the network itself tells."""
 
 
 @dataclass(frozen=True)
@@ -76,13 +73,23 @@ class Refusals:
         return list(reversed(self._known.values()))
 
 
-def refusals_in(told: str) -> Iterator[Refusal]:
+def refusals_in(fault: Fault) -> Iterator[Refusal]:
     """What a warning says of those who were refused; nothing when it is about something else."""
-    for kind, pattern in _TOLD:
-        for found in pattern.finditer(told):
-            places = found.groupdict().get("places", "")
-            for address in places.partition(" and ")[0].split(", "):
-                yield Refusal(kind, address, time.time())
+    if fault.code == NOT_LET_IN:
+        yield from _refusals(fault.sentence)
+
+
+def _refusals(text: Text) -> Iterator[Refusal]:
+    for name, told in text.values.items():
+        if not isinstance(told, Text):
+            continue
+        kind = next((one for one in _TOLD if one == name), None)
+        if kind is None:
+            yield from _refusals(told)  # a broker tells for its master too
+            continue
+        addresses = told.values.get("addresses")
+        for address in addresses if isinstance(addresses, list) else ():
+            yield Refusal(kind, str(address), time.time())
 
 
 State = Literal["closed", "busy", "open", "joined"]
@@ -105,7 +112,7 @@ class Sharing(QObject):
     refused = Signal(object)
     failed = Signal(object)
     went_down = Signal()
-    _heard = Signal(str)
+    _heard = Signal(object)  # Fault
 
     def __init__(
         self,
@@ -334,7 +341,7 @@ class Sharing(QObject):
     def _on_message(self, _topic: str, message: msgspec.Struct) -> None:
         """In a thread of the network: the master, or a node, tells whom it refused."""
         if isinstance(message, NodeState) and message.event == "warning":
-            self._heard.emit(message.description)
+            self._heard.emit(message.fault)
 
     def _on_look(self) -> None:
         """Once a second: whom our own sockets refused."""
@@ -344,8 +351,8 @@ class Sharing(QObject):
         elif network is not None and (told := network.take_warning()):
             self._on_heard(told)
 
-    def _on_heard(self, told: str) -> None:
-        for refusal in refusals_in(told):
+    def _on_heard(self, fault: Fault) -> None:
+        for refusal in refusals_in(fault):
             self._note(refusal)
 
     def _on_happened(self, event: DoorEvent) -> None:

@@ -9,6 +9,8 @@ from pathlib import Path
 from nep_core.errors import NodeStartError
 
 OVERRIDE = "NEP_RESOURCES"
+NAO = "nao"
+BODY_FILE = "body.json"
 
 
 def resource_folder() -> Path:
@@ -41,3 +43,37 @@ def _candidates() -> list[Path]:
     # The wheel goes first: beside an installed package, "resources" could be anybody's.
     root = Path(__file__).resolve().parent.parent
     return [root / "nep_studio" / "resources", root / "resources"]
+
+
+# Which robots there are: each is a folder with its body, its animations and its looks.
+
+
+def model_folder(model: str) -> Path:
+    """Return the folder of a robot, one of those that come with us or a path to one's own.
+
+    Raises NodeStartError with the models that there are.
+    """
+    robots = resource_folder() / "robots"
+    known = sorted(path.parent.name for path in robots.glob(f"*/{BODY_FILE}"))
+    if model in known:
+        return robots / model
+    if model and (Path(model) / BODY_FILE).is_file():
+        return Path(model)
+    raise NodeStartError(
+        'There is no robot model "{model}".',
+        checklist=(
+            "Choose one of these: {known}.",
+            "Or name a folder with a {body_file} in it, such as a changed copy of one of them.",
+        ),
+        model=model,
+        known=", ".join(known),
+        body_file=BODY_FILE,
+    )
+
+
+def model_of(folder: Path) -> str:
+    """Return how RobotState names the model in a folder: "" a NAO, a name, or the folder's path."""
+    shipped = resource_folder() / "robots"
+    if folder.parent != shipped:
+        return str(folder.resolve())
+    return "" if folder.name == NAO else folder.name

@@ -58,7 +58,7 @@ def test_the_steps_of_an_error_get_the_values_that_they_name() -> None:
 
     assert str(error.sentence) == "NAO sees a ball."
     assert tuple(map(str, error.checklist)) == ("Look at NAO.", "Wait.")
-    assert [told(step, german) for step in map(str, error.fault.checklist)] == [
+    assert [told(step, german) for step in error.fault.checklist] == [
         "Sieh NAO an.",
         "Wait.",
     ]

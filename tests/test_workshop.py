@@ -17,7 +17,7 @@ import dev
 
 ROOT = Path(dev.__file__).parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-LONGEST_FILE_LINES = 300
+LONGEST_FILE_LINES = 800
 MADE_BY_MACHINES = {"build", "dist", "__pycache__"}
 MACHINE_PATH = re.compile(
     r"(?<![\w.~-])/(?:tmp|root|work|home/(?!nao/)\w+|Users/\w+)/|\b[A-Z]:\\Users\\"
@@ -86,7 +86,7 @@ def test_every_program_of_the_project_can_be_started(program: str) -> None:
     assert callable(getattr(importlib.import_module(module), function))
 
 
-def test_every_file_is_short_and_says_what_it_is_for() -> None:
+def test_every_file_has_a_good_size_and_says_what_it_is_for() -> None:
     assert shape_problems(ROOT) == []
 
 
@@ -100,7 +100,7 @@ def test_a_long_file_and_a_silent_one_are_found(tmp_path: Path) -> None:
 
     problems = shape_problems(tmp_path)
 
-    assert problems == ["long.py has 301 lines", "silent.py has no docstring"]
+    assert problems == ["long.py has 801 lines", "silent.py has no docstring"]
 
 
 def test_no_file_names_a_path_of_one_machine() -> None:
@@ -178,9 +178,19 @@ print(resources(), examples(), node_folders()[-1], sep="\\n")"""
     assert (nodes / "__init__.py").exists()
 
 
-def test_every_word_of_the_glossary_says_what_to_avoid() -> None:
-    glossary = (ROOT / "GLOSSARY.md").read_text(encoding="utf-8")
-    entries = re.split(r"^\*\*(?=.+\*\*: )", glossary, flags=re.MULTILINE)[1:]
+TERMS_OF_THE_FIELD = (
+    *("Threshold", "Confidence", "False positive", "Null class", "Hard negatives", "Repetition"),
+    *("Sample", "Dataset", "Classifier", "Connector", "Controller", "Plugin", "Crash handler"),
+    *("Lazy initialiser", "Participant", "Trigger", "Joint", "Posture", "Stiffness", "Endpoint"),
+    *("High-water mark", "Publisher", "Subscriber", "Fault", "Template"),
+)
 
-    assert len(entries) > 50
-    assert [entry for entry in entries if len(re.findall(r"^\*Avoid\*: .", entry, re.M)) != 1] == []
+
+def test_the_glossary_has_the_terms_of_the_field_and_forbids_none_without_a_reason() -> None:
+    glossary = (ROOT / "GLOSSARY.md").read_text(encoding="utf-8")
+    terms = re.findall(r"^\*\*(.+?)\*\*: ", glossary, re.MULTILINE)
+    avoided = re.findall(r"^\*Avoid\*: (.+)\.$", glossary, re.MULTILINE)
+
+    assert len(terms) == len(set(terms)) > 150
+    assert [term for term in TERMS_OF_THE_FIELD if term not in terms] == []
+    assert [words for words in avoided if words.count("(") <= words.count("),")] == []

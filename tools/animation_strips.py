@@ -24,12 +24,13 @@ THEMES = ("light", "dark")
 os.environ |= {"LC_ALL": "C.UTF-8", "LANGUAGE": "en", "QT_QPA_PLATFORM": "offscreen"}
 sys.path.insert(0, str(ROOT))
 
+import msgspec
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter
 from PySide6.QtWidgets import QApplication
 
-from nep_core.wire.messages import ActionRequest, RobotState
+from nep_core.wire import messages as m
 from nep_studio.ui.robot_view.camera import Camera, Lens
 from nep_studio.ui.robot_view.figure import load_figure
 from nep_studio.ui.robot_view.painter import ScenePainter
@@ -38,6 +39,7 @@ from nep_studio.ui.theme.colours import load_theme
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import Animation, load_animations
 from robots.body.body import load_body
+from robots.body.messages import ActionRequest, RobotState
 from robots.body.motion import TICK_S
 from robots.body.pose import VirtualRobot
 from robots.body.virtual import VirtualDriver
@@ -84,6 +86,11 @@ BEFORE_S = 20.0
 """No posture takes longer to be reached."""
 
 
+def _seen(state: RobotState) -> m.RobotState:
+    """The state as the window gets it, by a message."""
+    return msgspec.convert(msgspec.to_builtins(state), m.RobotState)
+
+
 class Strips:
     """Sheets of one robot in one theme."""
 
@@ -94,7 +101,7 @@ class Strips:
         self._figure = load_figure(folder)
         self._theme = load_theme(theme)
         self._painter = ScenePainter(self._theme)
-        standing = self._figure.pose(self._actor("Stand")[0].state())
+        standing = self._figure.pose(_seen(self._actor("Stand")[0].state()))
         self._times_nao = float(standing.corners()[:, 2].max()) / NAO_HIGH_M
 
     def animations(self, names: Sequence[str]) -> QImage:
@@ -145,8 +152,8 @@ class Strips:
         painter.drawText(box, Qt.AlignmentFlag.AlignVCenter, words)
 
     def _draw(self, painter: QPainter, at: QPointF, state: RobotState, camera: Camera) -> None:
-        placed = self._figure.pose(state)
-        robot = SceneRobot(state.robot, self._figure, state, placed)
+        told = _seen(state)
+        robot = SceneRobot(state.robot, self._figure, told, self._figure.pose(told))
         frame = QImage(WIDE, HIGH, QImage.Format.Format_RGB32)
         on_frame = QPainter(frame)
         scene = Scene((robot,), has_floor=False, has_bubbles=False)

@@ -12,7 +12,7 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.places import InStack
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.gestures.panel import TrainerPanel
+from nep_studio.ui.plugins.gestures import TrainerPanel
 from nep_studio.ui.plugins.show import ShowMode
 from nep_studio.ui.plugins.watches.dialog import WatchDialog
 from nep_studio.ui.shell.main_window import MainWindow
@@ -60,7 +60,7 @@ def _canvas(window: MainWindow) -> Canvas:
 
 def _rect(canvas: Canvas, block: str) -> QRectF:
     """Where a block is in the view."""
-    rect = canvas.view_rect_of(block)
+    rect = canvas.sight.view_rect_of(block)
     assert rect is not None
     return rect
 
@@ -116,7 +116,7 @@ def replace_preview(stage: Stage) -> QImage:
         placed = canvas.page_layout.placed(walk)
         assert placed is not None
         piece = next(piece for piece in placed.box.pieces if piece.key == "forward")
-        corner = canvas.camera.to_view(placed.x + piece.x, placed.y + piece.y)
+        corner = canvas.sight.camera.to_view(placed.x + piece.x, placed.y + piece.y)
         drag(canvas, value, corner + QPointF(6, 8))
         rect = _rect(canvas, walk)
         place = canvas.viewport().mapTo(window, rect.topLeft().toPoint())
@@ -175,7 +175,7 @@ def context_menu(stage: Stage) -> QImage:
     with stage.window() as window:
         canvas = _canvas(window)
         rect = _rect(canvas, block_of(canvas, "control.together"))
-        canvas.request_menu((rect.topLeft() + QPointF(40, 16)).toPoint())
+        canvas.pointing.request_menu((rect.topLeft() + QPointF(40, 16)).toPoint())
         quiet()
         assert canvas.menu is not None
         return picture(window, part_of(window, canvas.menu, margin=60))
@@ -242,8 +242,7 @@ def _panel(window: MainWindow, name: str) -> QWidget:
 def help_page(stage: Stage) -> QImage:
     """The page of a block, with its example."""
     with stage.window() as window:
-        assert window.later.desk is not None
-        window.later.desk.open("block/robot.say")
+        window.host.ask("help.open", "block/robot.say")
         quiet()
         quiet()
         return picture(window)

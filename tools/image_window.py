@@ -25,8 +25,8 @@ from nep_studio import paths
 from nep_studio.settings import Settings
 from nep_studio.ui import words
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.canvas.view import ScrollingView
-from nep_studio.ui.shell.app import Studio, make_application
+from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.app import make_application
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.theme.look import load_fonts
@@ -133,7 +133,7 @@ def part_of(window: QWidget, *widgets: QWidget, margin: int = 0) -> QRect:
 
 def around(canvas: Canvas, block: str, size: tuple[int, int]) -> QRect:
     """A part of the window that begins a little before a block."""
-    rect = canvas.view_rect_of(block)
+    rect = canvas.sight.view_rect_of(block)
     assert rect is not None
     corner = canvas.viewport().mapTo(canvas.window(), rect.topLeft().toPoint())
     return QRect(corner - QPoint(28, 28), QSize(*size))
@@ -147,7 +147,7 @@ def block_of(canvas: Canvas, kind: str, number: int = 0) -> str:
 
 def drag(canvas: Canvas, block: str, to: QPointF) -> None:
     """Take a block with the mouse, so that its corner comes to a point of the view, and hold it."""
-    rect = canvas.view_rect_of(block)
+    rect = canvas.sight.view_rect_of(block)
     assert rect is not None
     grip = rect.topLeft() + QPointF(5, 14)
     _mouse(canvas, QEvent.Type.MouseButtonPress, grip)
@@ -169,7 +169,7 @@ def _mouse(canvas: Canvas, kind: QEvent.Type, at: QPointF) -> None:
 
 
 def _close(window: MainWindow) -> None:
-    window.workbench.canvas.cancel_gesture()
+    window.workbench.canvas.pointing.cancel()
     window.workbench.canvas.fields.close()
     for popup in QApplication.topLevelWidgets():
         if popup is not window and popup.isVisible():
@@ -208,20 +208,20 @@ def _examples(stage: Stage, language: str, theme: str) -> list[QImage]:
     return pictures
 
 
-def _whole_page(canvas: ScrollingView) -> QImage:
+def _whole_page(canvas: Canvas) -> QImage:
     """All blocks of a page, drawn by a view that is large enough for them."""
-    view = ScrollingView(
+    view = Canvas(
         canvas.editor,
-        canvas.theme,
-        font=canvas.block_font,
-        is_mirrored=canvas.measures.is_mirrored,
+        canvas.look.theme,
+        font=canvas.look.block_font,
+        is_mirrored=canvas.look.measures.is_mirrored,
     )
     bounds = view.page_layout.bounds()
     assert bounds is not None
     size = QSize(round(bounds.width) + 2 * EDGE, round(bounds.height) + 2 * EDGE)
     view.resize(size.boundedTo(LARGEST))
     view.show()
-    view.move_camera(bounds.x - EDGE, bounds.y - EDGE)
+    view.sight.move_camera(bounds.x - EDGE, bounds.y - EDGE)
     quiet(120)
     image = view.viewport().grab().toImage()
     image.setDevicePixelRatio(1.0)

@@ -33,7 +33,7 @@ def main() -> int:
 
 
 def _services(*, is_check: bool) -> int:
-    from tests.nodes.action.naoqi.services_table import page
+    from tests.robots.naoqi.services_table import page
 
     if is_check:
         return _compared(SERVICES, page())

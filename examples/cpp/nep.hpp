@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <fstream>
 
 #include "nep/outbox.hpp"
 #include "nep/subscription.hpp"
@@ -242,6 +244,15 @@ class Node {
     Clock::time_point next_alive_ = next_heartbeat_ + std::chrono::seconds(1);
 };
 
+// Tells the launcher, if there is one, why the node cannot go on: a person sees it.
+inline void hand_over(const Error& error) {
+    const char* place = std::getenv("NEP_FAULT_FILE");
+    if (place == nullptr || *place == 0) return;
+    const json fault = {
+        {"code", "refused"}, {"sentence", error.what()}, {"checklist", error.checklist}};
+    std::ofstream(place) << fault.dump();
+}
+
 // Runs a node to its end; what its main() returns.
 //
 // The launcher says how the node is called and what is set: --name NAME setting=value ...
@@ -272,7 +283,8 @@ inline int run(const std::string& usual_name, const std::string& type, int count
             throw;
         }
         return node.exit_code();
-    } catch (const Error& error) {  // a person sees the last lines that a node has written
+    } catch (const Error& error) {
+        hand_over(error);
         std::cerr << error.what() << std::endl;
         for (const auto& step : error.checklist) std::cerr << "  [ ] " << step << std::endl;
     } catch (const std::exception& error) {

@@ -1,6 +1,7 @@
 // NEP for JavaScript: a node that joins the master, talks, tells how it is doing, and stops when
 // asked. docs/wire.md describes what goes over the wire, in the words that are used here.
 import { randomUUID } from 'node:crypto'
+import { writeFileSync } from 'node:fs'
 import { hostname } from 'node:os'
 import { setTimeout as sleep } from 'node:timers/promises'
 import { Dealer, Subscriber, XPublisher } from 'zeromq'
@@ -382,6 +383,16 @@ export class Node {
 
 // Runs a node to its end. The launcher says how it is called and what is set:
 // --name NAME setting=value ...
+/** Tells the launcher, if there is one, why the node cannot go on: a person sees it. */
+function handOver(error) {
+  const place = process.env.NEP_FAULT_FILE
+  if (!place || !(error instanceof NepError)) return
+  const fault = { code: 'refused', sentence: error.message, checklist: error.checklist }
+  try {
+    writeFileSync(place, JSON.stringify(fault), { flag: 'wx' })
+  } catch { /* the launcher then has the last line that was written */ }
+}
+
 export async function run(usualName, type, work) {
   const words = process.argv.slice(2)
   const at = words.indexOf('--name')
@@ -395,8 +406,9 @@ export async function run(usualName, type, work) {
     await node.join()
     await work(node)
     await node.close()
-  } catch (error) { // a person sees the last lines that a node has written
+  } catch (error) {
     await node.close('crashed', error.message)
+    handOver(error)
     console.error(error instanceof NepError ? error.message : error)
     for (const step of error.checklist ?? []) console.error(`  [ ] ${step}`)
     process.exitCode = 1

@@ -17,9 +17,11 @@ import traceback
 from importlib import import_module
 from typing import NoReturn
 
+from faults import FaultError
 from nep_core.cli.lessons import EXIT_CODES, FIRST_STEPS, LESSONS
 from nep_core.errors import NepError
 from nep_core.places import log_folder
+from nep_core.processes.handover import hand_over
 
 from .console import near
 
@@ -173,6 +175,7 @@ def run_command(options: argparse.Namespace) -> int:
     try:
         return int(module.run(options))
     except NepError as error:
+        hand_over(error.fault)
         print(explain(error), file=sys.stderr)
         return 1
     except KeyboardInterrupt:
@@ -189,8 +192,12 @@ def run_command(options: argparse.Namespace) -> int:
 
 def explain(error: NepError) -> str:
     """An error as text: its title, its sentence and its checklist."""
-    steps = [f"  [ ] {step}" for step in error.checklist]
-    return "\n".join([error.title, str(error), *steps])
+    return "\n".join([error.title, str(error), *steps_of(error)])
+
+
+def steps_of(error: FaultError) -> list[str]:
+    """What to try, as lines for a person at a terminal."""
+    return [f"  [ ] {step}" for step in error.checklist]
 
 
 def _explain_mistake(error: Exception) -> str:

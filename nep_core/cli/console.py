@@ -19,16 +19,10 @@ import msgspec
 from faults import reason_of
 from nep_core.errors import NepError
 from nep_core.networks import transports
-from nep_core.networks.endpoints import master_endpoint
 from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
 from nep_core.networks.transports import topics_of
 from nep_core.recordings.raw import RawMessage
-
-
-def endpoint_of(options: argparse.Namespace) -> str:
-    """Where the master is: --master, else NEP_MASTER, else port 7100. NetworkError."""
-    return options.master or master_endpoint()
 
 
 def join(options: argparse.Namespace, name: str = "") -> Network:

@@ -169,7 +169,7 @@ def _program(told: Registration, state: NodeState | None) -> Program:
         told.node,
         state.type if state else "",
         state.event if state else "",
-        state.description if state else "",
+        str(state.fault) if state else "",
         told.pid,
         told.host,
         told.endpoint,

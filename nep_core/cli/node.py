@@ -11,14 +11,15 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from faults import FaultError
 from nep_core.errors import ManifestError, NepError, ParameterError
 from nep_core.places import node_folders
-from nep_core.processes import lifeline
+from nep_core.processes import handover, lifeline
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_core.processes.node import Node, check_node_name
 from nep_core.processes.process import ASKED
 
-from . import explain
+from . import explain, steps_of
 
 log = logging.getLogger(__name__)
 
@@ -29,7 +30,7 @@ log = logging.getLogger(__name__)
 def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
     """Run a Python node until it ends or is stopped; the exit code.
 
-    A NepError ends it with its sentence and code 1; anything else is a fault of the node and
+    A FaultError ends it with its sentence and code 1; anything else is a fault of the node and
     shows its traceback (the launcher keeps it in the node's log). A launched node that somebody in
     the network asked to stop ends with a code that says so: it is not started again.
     """
@@ -40,7 +41,7 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
         is_launched = lifeline.on_parent_end(node.stop)
         try:
             run(node, **parameters)
-        except NepError as error:
+        except FaultError as error:
             if node.stopping:
                 log.info("after it was asked to stop: %s", error)
             else:
@@ -48,11 +49,10 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
     return ASKED if is_launched and node.was_asked else 0
 
 
-def _failed(node: Node, error: NepError) -> int:
+def _failed(node: Node, error: FaultError) -> int:
     node.close("crashed", error.fault)
-    print(error.sentence, file=sys.stderr)
-    for step in error.checklist:
-        print(f"  [ ] {step}", file=sys.stderr)
+    handover.hand_over(error.fault)
+    print("\n".join([str(error), *steps_of(error)]), file=sys.stderr)
     return 1
 
 
@@ -93,6 +93,7 @@ def main(arguments: list[str]) -> int:
         name = check_node_name(options.name or manifest.name)
         return run_node(manifest, name, settings(options.settings))
     except NepError as error:
+        handover.hand_over(error.fault)
         print(explain(error), file=sys.stderr)
         return 1
 

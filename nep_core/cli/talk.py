@@ -173,7 +173,7 @@ def _launch(options: argparse.Namespace) -> int:
         if outcome.was_successful or launched.ready.is_set() or again:  # else wait_ready() tells
             log_file = launcher.logs / log_file_name(launched.name)
             log = "" if outcome.was_successful else f" Its log: {log_file}"
-            say(f"{outcome}{'; it is started again' if again else ''}.{log}")
+            say(f"{str(outcome.fault(again=again)).rstrip('.')}.{log}")
         if not again:
             endings.put(outcome)
 
@@ -220,5 +220,6 @@ class _Story:
 
     def tell(self, state: NodeState) -> None:
         if state.node == self._name and state.event not in TOLD_OTHERWISE:
-            about = f": {state.description}" if state.description else ""
+            told = str(state.fault)
+            about = f": {told}" if told else ""
             say(f"{state.node} is {state.event.replace('_', ' ')}{about}")

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import zmq
 
+from faults import Fault, fault_of
 from nep_core.errors import BrokerNotFound, MasterNotFound, NotLetIn
 from nep_core.wire.inbox import Inbox
 from nep_core.wire.outbox import HIGH_WATER_MARK, bind
@@ -48,13 +49,13 @@ class Broker:
         """Wait until the broker is closed."""
         self._thread.join(timeout_s)
 
-    def take_warning(self) -> str:
-        """Who was refused since the last time, and what to do; "" when nobody was."""
-        told = (
-            self._security.take_warning() if self._security else "",
-            self._master.take_warning(),
-        )
-        return " ".join(dict.fromkeys(filter(None, told)))
+    def take_warning(self) -> Fault | None:
+        """Who was refused since the last time, and what to do; None when nobody was."""
+        first = self._security.take_warning() if self._security else None
+        other = self._master.take_warning()
+        if first is None or other is None or first == other:
+            return first or other
+        return fault_of("{first} {other}", code=first.code, first=first, other=other)
 
     def close(self) -> None:
         """Stop passing messages on."""

@@ -20,6 +20,7 @@ import msgspec
 import psutil
 import zmq
 
+from faults import Fault
 from nep_core.errors import NameTaken, NetworkError, PortTaken
 from nep_core.wire.io_thread import Wake
 from nep_core.wire.outbox import bind
@@ -231,9 +232,9 @@ class Master:
         self._socket.close(linger=200)
         self._context.term()
 
-    def take_warning(self) -> str:
-        """Who was refused since the last time, and what to do; "" when nobody was."""
-        return self._security.take_warning() if self._security else ""
+    def take_warning(self) -> Fault | None:
+        """Who was refused since the last time, and what to do; None when nobody was."""
+        return self._security.take_warning() if self._security else None
 
     def _admit_by_keys(self) -> Admission | None:
         if self._security is None:
@@ -369,6 +370,7 @@ class Master:
                 version=request.version,
                 sentence=str(error),
                 checklist=list(map(str, error.checklist)),
+                fault=error.fault,
             )
         self._processes.register(told)
         self._news.note(told.instance, changed)

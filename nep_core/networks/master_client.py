@@ -14,6 +14,7 @@ from typing import NamedTuple, Self
 import msgspec
 import zmq
 
+from faults import heard_fault, verbatim
 from nep_core.errors import NameTaken, NetworkError
 from nep_core.wire.io_thread import IoThread, Wake
 
@@ -122,7 +123,9 @@ class MasterClient:
         if not answered or answer is None:
             raise no_master(self.master)
         if isinstance(answer, says.Refused):
-            raise NameTaken(answer.sentence, checklist=tuple(answer.checklist))
+            if (fault := heard_fault(answer.fault)) is not None:
+                raise NameTaken.of(fault)
+            raise NameTaken(verbatim(answer.sentence), checklist=tuple(answer.checklist))
         return ends
 
     def change_later(self, edit: Callable[[Registration], None]) -> None:

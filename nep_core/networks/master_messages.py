@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from typing import Self, TypeVar
+from typing import Any, Self, TypeVar
 
 import msgspec
 import zmq
@@ -100,11 +100,15 @@ class Registered(msgspec.Struct, tag="registered", tag_field="do", kw_only=True)
 
 
 class Refused(msgspec.Struct, tag="refused", tag_field="do", kw_only=True):
-    """The answer to a Register that cannot be: the name is taken."""
+    """The answer to a Register that cannot be: the name is taken.
+
+    ``sentence`` and ``checklist`` are in English, ``fault`` is the same as data; it may be missing.
+    """
 
     version: int
     sentence: str
     checklist: list[str]
+    fault: Any = None
 
 
 class Heard(msgspec.Struct, tag="heard", tag_field="do", kw_only=True):

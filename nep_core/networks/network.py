@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import Any, Literal, Protocol, Self
 from weakref import WeakSet
 
+from faults import Fault
 from nep_core.errors import NetworkError
 from nep_core.wire.frames import Encoding
 from nep_core.wire.io_thread import IoThread
@@ -142,9 +143,9 @@ class Network(ABC):
                 self._shared[key] = make()
             return self._shared[key]
 
-    def take_warning(self) -> str:
-        """What a person should know about the network since the last time; "" for nothing."""
-        return ""
+    def take_warning(self) -> Fault | None:
+        """What a person should know about the network since the last time; None for nothing."""
+        return None
 
     def interrupt(self) -> None:
         """End every wait for messages; safe in a signal handler."""

@@ -20,6 +20,7 @@ from urllib.parse import quote, unquote
 
 import msgspec
 
+from faults import Fault, fault_of
 from nep_core.errors import NetworkError, PortTaken, RouterNotFound
 
 from .registry import Registration
@@ -289,11 +290,13 @@ class ZenohRouter:
         """How many other routers it is connected with now."""
         return len(self._session.info.routers_zid())
 
-    def take_warning(self) -> str:
-        """How many other sites are connected, if that has changed since the last time; or ""."""
+    def take_warning(self) -> Fault | None:
+        """How many other sites are connected, if that has changed since the last time."""
         before, self._told_sites = self._told_sites, self.sites()
         changed = self._told_sites != before
-        return f"Connected with other sites: {self._told_sites}." if changed else ""
+        if not changed:
+            return None
+        return fault_of("Connected with other sites: {count}.", count=self._told_sites)
 
     def close(self) -> None:
         """Stop passing messages on."""

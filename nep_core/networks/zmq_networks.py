@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import zmq
 
-from faults import reason_of
+from faults import Fault, reason_of
 from nep_core.errors import NetworkError
 from nep_core.wire.inbox import WAKE_ENDPOINT, Inbox
 from nep_core.wire.outbox import HIGH_WATER_MARK, Outbox
@@ -82,9 +82,9 @@ class ZmqNetwork(Network):
         """Give back the inboxes that were closed: they end only when the waker looks up."""
         self._waker.getsockopt(zmq.EVENTS)
 
-    def take_warning(self) -> str:
+    def take_warning(self) -> Fault | None:
         """Who was refused since the last time, and what to do."""
-        return self.security.take_warning() if self.security else ""
+        return self.security.take_warning() if self.security else None
 
     def _key_at(self, endpoint: str) -> str:
         return self.security.key_at(endpoint) if self.security else ""

@@ -12,11 +12,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from faults import fault_in
 from nep_core.errors import NameTaken, NepError, NodeStartError
 from nep_core.networks.endpoints import MASTER_VARIABLE, master_endpoint
 from nep_core.networks.network import Network
 from nep_core.places import log_folder, node_folders
-from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.messages import NODE_STATE, NodeState, described
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 from .guard import GUARD
@@ -148,9 +149,9 @@ class Herald:
             node=launched.name,
             type=launched.manifest.type if launched.manifest else "cognitive",
             event="stopped" if outcome.asked else "crashed",
-            description=f"{outcome}; it is started again" if again else str(outcome),
             pid=launched.pid,
             host=self._host,
+            **described(outcome.fault(again=again)),
         )
         with self._lock:
             if self._states is not None and not self._states.network.closed:
@@ -350,8 +351,7 @@ class Launcher:
             outcome = replace(outcome, asked=True)
         except (NepError, OSError) as error:
             log.warning("%s", error)
-            steps = error.checklist if isinstance(error, NepError) else ()
-            outcome = Outcome(launched.name, 1, last_words=str(error), checklist=steps)
+            outcome = Outcome(launched.name, 1, refusal=fault_in(error))
         self._tell_end(launched, outcome, again=False)
 
     def _on_node_state(self, state: NodeState) -> None:

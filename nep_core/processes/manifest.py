@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from dataclasses import dataclass
+from functools import lru_cache
 from keyword import iskeyword
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -21,6 +22,9 @@ Restart = Literal["on-crash", "always", "on-kill", "never"]
 also when it ended by itself (always); only when it was killed (on-kill); never."""
 READY_S = 10.0
 MOST_READY_S = 3600.0
+MOST_KEPT = 256
+"""So many manifests are remembered, more than there are nodes to choose from."""
+
 Value = str | float | int | bool
 
 _EXAMPLES: dict[str, str] = {
@@ -175,7 +179,23 @@ def _boolean(value: object) -> bool | None:
 
 
 def read_manifest(path: Path) -> Manifest:
-    """The manifest in ``path``; raises ManifestError that names the file and the place."""
+    """The manifest in ``path``; raises ManifestError that names the file and the place.
+
+    One that is read again, as by each check of a project, is read from the disk only when its file
+    has changed.
+    """
+    try:
+        state = path.stat()
+    except OSError as error:
+        raise _wrong(path, error) from error
+    manifest = _read(path, state.st_mtime_ns, state.st_size)
+    if not manifest.command and not Path(manifest.module).is_file():
+        raise _wrong(path, f"there is no {path.stem}.py beside it, and it has no command")
+    return manifest
+
+
+@lru_cache(maxsize=MOST_KEPT)
+def _read(path: Path, _changed_ns: int, _size: int) -> Manifest:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         manifest = msgspec.convert(data, Manifest)
@@ -187,8 +207,6 @@ def read_manifest(path: Path) -> Manifest:
         raise _wrong(path, str(error)) from error
     if (manifest.type, manifest.name) != (path.parent.name, path.stem):
         raise _wrong(path, f"it describes {manifest.id}, but its place says otherwise")
-    if not manifest.command and not Path(manifest.module).is_file():
-        raise _wrong(path, f"there is no {path.stem}.py beside it, and it has no command")
     return manifest
 
 

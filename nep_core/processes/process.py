@@ -23,10 +23,11 @@ from typing import Any, TypeVar
 
 import psutil
 
-from faults import Text, Words, reason_of, text_of
+from faults import Fault, Text, Words, fault_of, reason_of, text_of, verbatim
 from nep_core.errors import NodeStartError
+from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED
 
-from . import lifeline
+from . import handover, lifeline
 from .lifeline import ORPHANED
 from .node_log import NodeLog
 
@@ -103,14 +104,15 @@ class Outcome:
     """How a node's process ended.
 
     ``code`` is its exit code, negative for a signal; ``asked`` whether the launcher stopped it;
-    ``last_words`` the last line that it wrote, and ``checklist`` the steps that it wrote below.
+    ``refusal`` why it would not go on, where it handed that over; ``last_words`` the last line
+    that it wrote.
     """
 
     node: str
     code: int
     asked: bool = False
     last_words: str = ""
-    checklist: tuple[Words, ...] = ()
+    refusal: Fault | None = None
 
     @property
     def was_successful(self) -> bool:
@@ -122,6 +124,24 @@ class Outcome:
         """How it ended, without the final full stop."""
         values = {"number": -self.code, "name": self._signal, "reason": self._reason}
         return text_of(self._words, node=self.node, **values)
+
+    @property
+    def checklist(self) -> tuple[Text, ...]:
+        """What to try, where the node knew that."""
+        return self.refusal.checklist if self.refusal is not None else ()
+
+    @property
+    def why(self) -> Text:
+        """Why it ended, in its own words; nothing when it said none."""
+        return self.refusal.sentence if self.refusal is not None else verbatim(self.last_words)
+
+    def fault(self, *, again: bool = False) -> Fault:
+        """What is told for the node; ``again``: it is started again."""
+        if again:
+            words = "{outcome}; it is started again"
+            return fault_of(words, code=PROCESS_RESTARTS, outcome=self.text)
+        code = PROCESS_STOPPED if self.asked else PROCESS_ENDED
+        return Fault(code, self.text, self.checklist)
 
     @property
     def _words(self) -> str:
@@ -147,7 +167,9 @@ class Outcome:
 
     @property
     def _reason(self) -> Words:
-        return self.last_words.rstrip(".") or text_of("exit code {code}", code=self.code)
+        if self.refusal is None and self.last_words:
+            return verbatim(self.last_words.rstrip("."))
+        return self.why or text_of("exit code {code}", code=self.code)
 
     def __str__(self) -> str:
         return str(self.text)
@@ -194,9 +216,6 @@ def _work(wishes: SimpleQueue[tuple[Callable[[], Any], Future[Any]]]) -> None:
 
 ON_WINDOWS = sys.platform == "win32"
 STOP_SIGNAL: int = getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM)
-STEP = "  [ ] "
-"""What a step of a checklist begins with in a node's output."""
-
 KEPT_LINES = 200
 LINE_BYTES = 65_536
 """A longer line is read in pieces, so that it cannot fill the memory."""
@@ -235,7 +254,8 @@ class ChildProcess:
         self._children_ended = threading.Event()
         self._mark = uuid.uuid4().hex
         marks = f"{environment.get(VARIABLE, '')} {self._mark}".strip()
-        environment = {**environment, VARIABLE: marks}
+        self._refusal = handover.place()
+        environment = {**environment, VARIABLE: marks, handover.VARIABLE: str(self._refusal)}
         self._popen, self._job = in_lasting_thread(partial(_start, name, command, environment))
         self._reader = threading.Thread(target=self._read, name=f"nep-log-{name}", daemon=True)
         self._reader.start()
@@ -309,7 +329,8 @@ class ChildProcess:
         self._reader.join(1.0)  # one that we may not end may hold the pipe open
         if self._popen.stdin is not None:
             self._popen.stdin.close()
-        self._on_end(Outcome(self.name, code, self._asked, *last_words(self.last_lines)))
+        words, refusal = last_words(self.last_lines), handover.take(self._refusal)
+        self._on_end(Outcome(self.name, code, self._asked, words, refusal))
 
 
 def _start(
@@ -354,15 +375,11 @@ def _can_send_signals() -> bool:
     return bool(ctypes.windll.kernel32.GetConsoleCP())
 
 
-def last_words(lines: list[str]) -> tuple[str, tuple[str, ...]]:
-    """The last line that says something, and the steps of the checklist below it."""
-    steps: list[str] = []
-    for line in reversed(lines):
-        if line.startswith(STEP):
-            steps.insert(0, line.removeprefix(STEP))
-        elif line.strip():
-            return line.strip(), tuple(steps)
-    return "", tuple(steps)
+def last_words(lines: list[str]) -> str:
+    """The last line that says something, one without an indent if there is any; else ""."""
+    said = [line for line in lines if line.strip()]
+    whole = [line for line in said if not line[0].isspace()] or said
+    return whole[-1].strip() if whole else ""
 
 
 def program_command(*words: str) -> list[str]:

@@ -98,6 +98,7 @@ class ActionClient:
                     ),
                     robot=result.robot,
                     action=action,
+                    code=result.fault.code,
                     description=result.fault.sentence,
                 )
 

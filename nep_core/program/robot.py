@@ -64,11 +64,26 @@ def robot_listener(network: Network | None = None) -> RobotListener:
     return cast(RobotListener, place.shared("robots", lambda: RobotListener(place)))
 
 
-# How a Robot asks and looks: requests to all its robots, and the newest state of the first.
+# A robot, or several: what it can be asked to do, and what it measures.
+
+CLOSE_M, MIDDLE_M = 1.0, 2.0
+TOUCHES = {
+    "head": ("head_front", "head_middle", "head_rear"),
+    "hand": ("hand_left", "hand_right"),
+    "bumper": ("bumper_left", "bumper_right"),
+}
+"""Parts with several touch sensors."""
+HEAD_UP_M = 0.45
+"""How high the eyes of a standing robot are."""
 
 
-class RobotRequests:
-    """One robot by name, or several that act at once; what it measures is of the first."""
+class Robot:
+    """One robot by name, or several that act at once.
+
+    Every call returns when all of them are done; it raises RobotNotAnswering or ActionFailed.
+    What is measured is measured by the first; names of sensors are those of ``/robot_state``, and
+    groups of lights are "FaceLeds", "ChestLeds", "AllLeds", ...
+    """
 
     def __init__(self, robots: str | list[str], *, network: Network | None = None) -> None:
         self.robots = [robots] if isinstance(robots, str) else list(robots)
@@ -80,69 +95,69 @@ class RobotRequests:
         self._network = network
         robot_listener(network)  # what robots tell from now on is known when it is asked for
 
-    def _perform(self, action: str, **args: Any) -> None:
-        action_client(self._network).perform(self.robots, action, args)
+    def stop(self) -> None:
+        """Stop all that the robot does, at once; does not wait."""
+        self._send("stop")
 
-    def _begin(self, action: str, **args: Any) -> str:
-        """Ask without waiting; the id of the request, which ends when this part is cancelled."""
-        return action_client(self._network).begin(self.robots, action, args)
+    # Its voice and its ears
 
-    def _end(self, action: str, request_id: str) -> None:
-        """End an action that was begun."""
-        action_client(self._network).end(self.robots, action, request_id)
+    def say(
+        self,
+        text: object,
+        gesture: str = "no_gesture",
+        language: str = "",
+        *,
+        speed: float = 100.0,
+        pitch: float = 100.0,
+    ) -> None:
+        """Say a text aloud, perhaps with a gesture, in a language such as "en".
 
-    def _send(self, action: str, **args: Any) -> None:
-        """Ask without waiting, whatever comes."""
-        action_client(self._network).send(self.robots, action, args)
+        ``speed`` and ``pitch`` are percent of the usual ones, 50 to 200.
+        """
+        voice = {"speed": speed, "pitch": pitch}
+        changed = {name: value for name, value in voice.items() if value != 100.0}
+        self._perform("say", text=str(text), gesture=gesture, language=language, **changed)
 
-    def _state(self) -> RobotState:
-        """The newest state, told after all that the robot was seen to do, or told of the person."""
-        robot = self.robots[0]
-        done = action_client(self._network).last_done.get(robot, 0.0)
-        told = human_listener(self._network).told_s(robot)  # a rule may have fired just now
-        state = robot_listener(self._network).newest(robot, max(done, told))
-        if state is None:
-            raise not_answering(robot)
-        return state
+    def ask(self, question: object, words: list[str] | None = None, seconds: float = 10.0) -> str:
+        """Ask something, and give the word that is heard; "" when none is in time.
 
+        With ``words``, only those count as an answer.
+        """
+        with human_listener(self._network).following() as heard:
+            self.say(question)
+            heard.clear()  # what was said before the question ended answers nothing
+            return self._listen(words or [], seconds, heard)
 
-# The part of Robot that lights its lights.
+    def wait_for_word(self, *words: str, seconds: float = LONGEST_WAIT_S) -> str:
+        """Wait until one of the words is heard, and give it; "" when none is in time."""
+        with human_listener(self._network).following() as heard:
+            return self._listen(list(words), seconds, heard)
 
+    def set_volume(self, percent: float) -> None:
+        """Set how loud it speaks, 0 to 100."""
+        self._perform("volume", percent=percent)
 
-class RobotLights(RobotRequests):
-    """What a robot does with its lights; groups are "FaceLeds", "ChestLeds", "AllLeds", ..."""
+    def volume(self) -> float:
+        """How loud it speaks, 0 to 100."""
+        return float(self._state().settings.get("volume", 0.0))
 
-    def leds(self, group: str, colour: str, seconds: float = 0.0) -> None:
-        """Let a group of lights shine in a colour such as "#ff8800", reached in some seconds."""
-        fade = {"seconds": seconds} if seconds else {}
-        self._perform("leds", group=group, colour=colour, **fade)
+    def set_language(self, language: str) -> None:
+        """Set the language that it speaks and understands, such as "en"."""
+        self._perform("language", language=language)
 
-    def leds_brightness(self, group: str, percent: float) -> None:
-        """Set how bright a group of lights is, 0 to 100."""
-        self._perform("intensity", group=group, percent=percent)
+    def language(self) -> str:
+        """The language that it speaks and understands."""
+        return str(self._state().settings.get("language", ""))
 
-    def leds_off(self, group: str) -> None:
-        """Switch a group of lights off."""
-        self._perform("intensity", group=group, percent=0.0)
+    def _listen(self, words: list[str], seconds: float, heard: list[str]) -> str:
+        wanted = {state_of_word(word): word for word in words}
+        request = self._begin("listen", words=words, seconds=min(seconds, LONGEST_WAIT_S))
+        try:
+            return next_word(heard, wanted, seconds)
+        finally:
+            self._end("listen", request)
 
-    def leds_reset(self, group: str) -> None:
-        """Light a group as it was at the start."""
-        self._perform("reset_leds", group=group)
-
-    def random_eyes(self, seconds: float) -> None:
-        """Let the eyes shine in colours by chance for some seconds."""
-        self._perform("random_eyes", seconds=seconds)
-
-    def rotate_eyes(self, seconds: float) -> None:
-        """Let green, yellow and red go round the eyes for some seconds."""
-        self._perform("rotate_eyes", seconds=seconds)
-
-
-# The part of Robot that moves the body: hands, joints, walking, gaze, sleep.
-
-
-class RobotMoves(RobotRequests):
-    """What a robot does with its body."""
+    # Its body: hands, joints, walking, gaze, sleep
 
     def do(self, posture: str) -> None:
         """Take a posture: "posture_stand", "posture_sit", ..."""
@@ -249,25 +264,34 @@ class RobotMoves(RobotRequests):
         """Keep the "head" or the whole "body" turned to something it sees; "off" ends it."""
         self._perform("track", thing=thing, using=using)
 
+    # Its lights
 
-def _is_on(on: object) -> bool:
-    """Whether something is switched on: True, or the word "on"."""
-    return on is True or on == "on"
+    def leds(self, group: str, colour: str, seconds: float = 0.0) -> None:
+        """Let a group of lights shine in a colour such as "#ff8800", reached in some seconds."""
+        fade = {"seconds": seconds} if seconds else {}
+        self._perform("leds", group=group, colour=colour, **fade)
 
+    def leds_brightness(self, group: str, percent: float) -> None:
+        """Set how bright a group of lights is, 0 to 100."""
+        self._perform("intensity", group=group, percent=percent)
 
-# The part of Robot that tells what it feels, sees and is doing, and what needs its cameras.
+    def leds_off(self, group: str) -> None:
+        """Switch a group of lights off."""
+        self._perform("intensity", group=group, percent=0.0)
 
-CLOSE_M, MIDDLE_M = 1.0, 2.0
-TOUCHES = {
-    "head": ("head_front", "head_middle", "head_rear"),
-    "hand": ("hand_left", "hand_right"),
-    "bumper": ("bumper_left", "bumper_right"),
-}
-"""Parts with several touch sensors."""
+    def leds_reset(self, group: str) -> None:
+        """Light a group as it was at the start."""
+        self._perform("reset_leds", group=group)
 
+    def random_eyes(self, seconds: float) -> None:
+        """Let the eyes shine in colours by chance for some seconds."""
+        self._perform("random_eyes", seconds=seconds)
 
-class RobotSenses(RobotRequests):
-    """What a robot measures; names of sensors are those of ``/robot_state``."""
+    def rotate_eyes(self, seconds: float) -> None:
+        """Let green, yellow and red go round the eyes for some seconds."""
+        self._perform("rotate_eyes", seconds=seconds)
+
+    # What it feels, sees and is doing, and what needs its cameras
 
     def sensor(self, name: str) -> float:
         """What a sensor measures: "sonar_left" in cm, "angle_x" in degrees, "battery" in percent.
@@ -372,9 +396,37 @@ class RobotSenses(RobotRequests):
         """Play a sound file of the robot, for the one on the screen of this computer."""
         self._perform("play_sound", file=file)
 
+    # How it asks and looks: requests to all its robots, and the newest state of the first
 
-HEAD_UP_M = 0.45
-"""How high the eyes of a standing robot are."""
+    def _perform(self, action: str, **args: Any) -> None:
+        action_client(self._network).perform(self.robots, action, args)
+
+    def _begin(self, action: str, **args: Any) -> str:
+        """Ask without waiting; the id of the request, which ends when this part is cancelled."""
+        return action_client(self._network).begin(self.robots, action, args)
+
+    def _end(self, action: str, request_id: str) -> None:
+        """End an action that was begun."""
+        action_client(self._network).end(self.robots, action, request_id)
+
+    def _send(self, action: str, **args: Any) -> None:
+        """Ask without waiting, whatever comes."""
+        action_client(self._network).send(self.robots, action, args)
+
+    def _state(self) -> RobotState:
+        """The newest state, told after all that the robot was seen to do, or told of the person."""
+        robot = self.robots[0]
+        done = action_client(self._network).last_done.get(robot, 0.0)
+        told = human_listener(self._network).told_s(robot)  # a rule may have fired just now
+        state = robot_listener(self._network).newest(robot, max(done, told))
+        if state is None:
+            raise not_answering(robot)
+        return state
+
+
+def _is_on(on: object) -> bool:
+    """Whether something is switched on: True, or the word "on"."""
+    return on is True or on == "on"
 
 
 def _key(thing: str, name: object) -> str:
@@ -384,81 +436,6 @@ def _key(thing: str, name: object) -> str:
 def _word(posture: str) -> str:
     letters = "".join(letter for letter in posture if letter.isalnum()).casefold()
     return letters.removeprefix("posture")
-
-
-# The part of Robot that speaks and listens.
-
-
-class RobotVoice(RobotRequests):
-    """What a robot does with its voice and its ears."""
-
-    def say(
-        self,
-        text: object,
-        gesture: str = "no_gesture",
-        language: str = "",
-        *,
-        speed: float = 100.0,
-        pitch: float = 100.0,
-    ) -> None:
-        """Say a text aloud, perhaps with a gesture, in a language such as "en".
-
-        ``speed`` and ``pitch`` are percent of the usual ones, 50 to 200.
-        """
-        voice = {"speed": speed, "pitch": pitch}
-        changed = {name: value for name, value in voice.items() if value != 100.0}
-        self._perform("say", text=str(text), gesture=gesture, language=language, **changed)
-
-    def ask(self, question: object, words: list[str] | None = None, seconds: float = 10.0) -> str:
-        """Ask something, and give the word that is heard; "" when none is in time.
-
-        With ``words``, only those count as an answer.
-        """
-        with human_listener(self._network).following() as heard:
-            self.say(question)
-            heard.clear()  # what was said before the question ended answers nothing
-            return self._listen(words or [], seconds, heard)
-
-    def wait_for_word(self, *words: str, seconds: float = LONGEST_WAIT_S) -> str:
-        """Wait until one of the words is heard, and give it; "" when none is in time."""
-        with human_listener(self._network).following() as heard:
-            return self._listen(list(words), seconds, heard)
-
-    def set_volume(self, percent: float) -> None:
-        """Set how loud it speaks, 0 to 100."""
-        self._perform("volume", percent=percent)
-
-    def volume(self) -> float:
-        """How loud it speaks, 0 to 100."""
-        return float(self._state().settings.get("volume", 0.0))
-
-    def set_language(self, language: str) -> None:
-        """Set the language that it speaks and understands, such as "en"."""
-        self._perform("language", language=language)
-
-    def language(self) -> str:
-        """The language that it speaks and understands."""
-        return str(self._state().settings.get("language", ""))
-
-    def _listen(self, words: list[str], seconds: float, heard: list[str]) -> str:
-        wanted = {state_of_word(word): word for word in words}
-        request = self._begin("listen", words=words, seconds=min(seconds, LONGEST_WAIT_S))
-        try:
-            return next_word(heard, wanted, seconds)
-        finally:
-            self._end("listen", request)
-
-
-class Robot(RobotMoves, RobotVoice, RobotLights, RobotSenses):
-    """One robot by name, or several that act at once.
-
-    Every call returns when all of them are done; it raises RobotNotAnswering or ActionFailed.
-    What is measured is measured by the first.
-    """
-
-    def stop(self) -> None:
-        """Stop all that the robot does, at once; does not wait."""
-        self._send("stop")
 
 
 # Colours written as texts such as "#ff8800": made from their parts, and mixed.

@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from faults import Fault, Words, heard, text_of, verbatim
+from faults import MOST_STEPS, Fault, Words, heard, text_of, verbatim
 
 NODE_STATE = "/node_state"
 IMU = "/imu"
@@ -59,8 +59,10 @@ ProgramEvent = Literal[
     "failed",
 ]
 
-MOST_STEPS = 20
-"""More steps of a checklist than a person would read are left out."""
+PROCESS_ENDED = "process_ended"
+PROCESS_RESTARTS = "process_restarts"
+PROCESS_STOPPED = "process_stopped"
+"""Codes of what is told for a node that has ended, by who started it."""
 
 LONGEST_SOURCE = 60
 """So much of a sensor's name is told."""

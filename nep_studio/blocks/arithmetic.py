@@ -13,6 +13,7 @@ import operator
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from decimal import Decimal
 from functools import lru_cache
 
 from faults import Text, text_of
@@ -181,3 +182,35 @@ def _small(value: Number) -> Number:
             largest_number=f"{LARGEST_NUMBER:,}",
         )
     return value
+
+
+# Numbers as people type them into a field.
+
+_PLAIN = re.compile(r"[+-]?(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)")
+
+
+def is_number_text(text: str) -> bool:
+    """Whether a text is one number, not arithmetic."""
+    return _PLAIN.fullmatch(text.strip()) is not None
+
+
+def typed_number(text: str) -> Number | str:
+    """The number that a text is; what is arithmetic (or nothing) stays a text.
+
+    Both a point and a comma are taken for the decimal sign.
+    """
+    plain = text.strip().replace("−", "-")  # noqa: RUF001 the minus sign that some keyboards give
+    if not is_number_text(plain):
+        return text.strip()
+    plain = plain.replace(",", ".")
+    number = float(plain)
+    if "." in plain and not number.is_integer():
+        return number
+    return int(Decimal(plain)) if math.isfinite(number) else number
+
+
+def number_text(value: object) -> str:
+    """A number as a person would write it."""
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return "" if value is None else str(value)

@@ -12,7 +12,7 @@ from .definitions import FLAGS, CallError, Category, Definition, Shape, read_cal
 from .errors import DefinitionError
 from .program import PAGES
 from .sentence import SentenceError, groups_of, parse, slots_of
-from .slots import RESULTS, why_not_value
+from .slots import RESULTS, why_not_line
 
 _BLOCK_KEYS = frozenset(
     ("sentence", "shape", "result", "help", "defaults", "minimum", "flags", "call", "generator")
@@ -79,7 +79,7 @@ def _read_table(path: Path, name: str, table: Mapping[str, Any]) -> dict[str, st
     labels: dict[str, str] = {}
     for value, entry in table.items():
         label = entry.get("label") if isinstance(entry, dict) else entry
-        if not isinstance(label, str) or why_not_value("choice", value) is not None:
+        if not isinstance(label, str) or why_not_line(value) is not None:
             raise DefinitionError(
                 "In {name}, choice “{value}” of {name_2} has no label.",
                 name=path.name,
@@ -261,16 +261,13 @@ def load_profile(path: Path) -> RobotProfile:
     return RobotProfile(data["name"], data["title"], data["node"], choices, standing)
 
 
-def drivers_beside(path: Path, profile: RobotProfile) -> dict[str, Mapping[str, str]]:
-    """The table of drivers with those of the robots in the folders beside a robot's own.
+def load_profiles(path: Path) -> tuple[RobotProfile, ...]:
+    """Read a robot.toml, and those of the robots in the folders beside it, the first one first.
 
-    So a folder with another robot adds it to the Robots page. Raises DefinitionError.
+    So a folder with another robot adds it. Raises DefinitionError.
     """
-    own = profile.choices.get("drivers")
-    if own is None or path.parent.name != profile.name:
-        return {}
-    drivers = dict(own)
-    for other in sorted(path.parent.parent.glob("*/robot.toml")):
-        for driver, label in load_profile(other).choices.get("drivers", {}).items():
-            drivers.setdefault(driver, label)
-    return {"drivers": drivers}
+    own = load_profile(path)
+    if path.parent.name != own.name:
+        return (own,)
+    others = sorted(other for other in path.parent.parent.glob("*/robot.toml") if other != path)
+    return (own, *map(load_profile, others))

@@ -8,13 +8,12 @@ from typing import cast
 
 from .language import Language
 from .procedures import DEFINE
-from .program import Block, Project
-from .slots import FieldValue, Setting
+from .program import ROBOT_BLOCK, Block, Project
+from .slices import Steps, at_once
+from .slots import GESTURE_STATE, FieldValue, Setting
 
-ROBOT_BLOCK = "robots.robot"
 NODE_BLOCK = "nodes.launch"
 GESTURE_NODE = "perceptual/gesture"
-GESTURE_STATE = "gesture_"
 """What the human state of a recognised gesture begins with."""
 
 
@@ -64,21 +63,35 @@ def node_entries(project: Project, language: Language) -> tuple[NodeEntry, ...]:
 
 def robots_used(project: Project, language: Language) -> dict[str, str]:
     """The robots that rules name, each with the first block that does; "*" is all of them."""
+    return at_once(find_robots_used(project, language))
+
+
+def find_robots_used(project: Project, language: Language) -> Steps[dict[str, str]]:
+    """The same in steps."""
     used: dict[str, str] = {}
-    for block, key in _slots_of_kind(project, language, "robot"):
-        name = str(language.definitions[block.type].value(block, key))
-        used.setdefault(name, block.id)
+    for block, keys in _slots_of_kind(project, language, "robot"):
+        yield
+        for key in keys:
+            name = str(language.definitions[block.type].value(block, key))
+            used.setdefault(name, block.id)
     return used
 
 
 def gestures_used(project: Project, language: Language) -> dict[str, str]:
     """The gestures that rules and questions name, each with the first block that does."""
+    return at_once(find_gestures_used(project, language))
+
+
+def find_gestures_used(project: Project, language: Language) -> Steps[dict[str, str]]:
+    """The same in steps."""
     used: dict[str, str] = {}
     for kind in ("gesture", "state"):
-        for block, key in _slots_of_kind(project, language, kind):
-            name = str(language.definitions[block.type].value(block, key))
-            if kind == "gesture" or name.startswith(GESTURE_STATE):
-                used.setdefault(name.removeprefix(GESTURE_STATE), block.id)
+        for block, keys in _slots_of_kind(project, language, kind):
+            yield
+            for key in keys:
+                name = str(language.definitions[block.type].value(block, key))
+                if kind == "gesture" or name.startswith(GESTURE_STATE):
+                    used.setdefault(name.removeprefix(GESTURE_STATE), block.id)
     return used
 
 
@@ -124,8 +137,10 @@ def chains(project: Project, language: Language) -> Iterator[list[str]]:
             yield stack.body
 
 
-def _slots_of_kind(project: Project, language: Language, kind: str) -> Iterator[tuple[Block, str]]:
-    """The blocks in rules that have slots of this kind, and the key of each."""
+def _slots_of_kind(
+    project: Project, language: Language, kind: str
+) -> Iterator[tuple[Block, list[str]]]:
+    """The blocks in rules, and of each the keys of its slots of this kind, mostly none."""
     has_kind: dict[str, bool] = {}
     for chain in chains(project, language):
         for block in project.within(chain, enabled=True):
@@ -135,9 +150,8 @@ def _slots_of_kind(project: Project, language: Language, kind: str) -> Iterator[
             if block.type not in has_kind:
                 slots = definition.slots.values()
                 has_kind[block.type] = any(slot.kind.name == kind for slot in slots)
-            if has_kind[block.type]:
-                keys = definition.keys(block.groups)
-                yield from ((block, key) for key, slot in keys if slot.kind.name == kind)
+            keys = definition.keys(block.groups) if has_kind[block.type] else ()
+            yield block, [key for key, slot in keys if slot.kind.name == kind]
 
 
 def _entries(project: Project, page: str, block_type: str) -> Iterator[Block]:

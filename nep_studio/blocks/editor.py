@@ -236,6 +236,7 @@ class Editor:
         self.project = project
         self.history = History(project)
         self._language = language.of(project)
+        self._offered = dict(self._language.choices)
         self.history.listen(self._on_changes)
 
     @property
@@ -246,6 +247,7 @@ class Editor:
     def use_language(self, language: Language) -> None:
         """Go on with the same blocks in other words."""
         self._language = language.of(self.project)
+        self._offered = dict(self._language.choices)
 
     def transaction(self, label: Words) -> AbstractContextManager[object]:
         """Everything applied inside is one step of undo."""
@@ -341,9 +343,14 @@ class Editor:
             self.apply(RemovePage(page))
 
     def _on_changes(self, changes: Changes) -> None:
-        """Bring the language up to date before anybody else is told; see Language.of."""
-        if changes.whole:
-            self._language.of(self.project)
+        """Bring the language up to date before anybody else is told; see Language.of.
+
+        Another kind of robot concerns the words of all blocks.
+        """
+        choices = self.language.choices
+        if choices != self._offered:
+            self._offered = dict(choices)
+            changes.whole = True
 
     def _followers(self, edit: SetField) -> list[str]:
         """The keys of the choices that depend on a field."""

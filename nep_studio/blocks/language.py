@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 from faults import Text, text_of
@@ -15,16 +15,30 @@ from .definitions import Category, Definition
 from .own_animations import choices_with
 from .own_gestures import gestures_with
 from .procedures import definitions_of
-from .program import Block, Project, split_slot
+from .program import ROBOT_BLOCK, Block, Project, split_slot
 from .sentence import Group, Part, SentenceError, Slot, groups_of, tokens
+
+Tables = Mapping[str, Mapping[str, str]]
+"""Choices by table: value to label."""
+
+
+class RobotChoices(NamedTuple):
+    """What one robot of a project can be asked: the title of its kind, and its choices."""
+
+    title: str
+    tables: Tables
 
 
 @dataclass(slots=True)
 class _Own:
-    """The language of one project, and the revision of what it keeps that it was made for."""
+    """The language of one project, and the revisions of what it was made for.
+
+    ``procedures`` are the project's own blocks; ``offered`` what it keeps, and its robots.
+    """
 
     language: Language
-    revision: tuple[int, int] = (-1, -1)
+    procedures: int = -1
+    offered: object = None
 
 
 @dataclass(frozen=True, slots=True, weakref_slot=True)
@@ -32,22 +46,36 @@ class Language:
     """Definitions by block type and choices by table (value to label).
 
     A table that is absent or empty is not known here (no node manifests were given, say), and
-    then any value passes. ``profile`` is the kind of robot. ``words`` are other words of sentences
-    in the language of the person, by the English ones.
+    then any value passes. ``profiles`` are the kinds of robots that there are; the first is what
+    a project without robots is offered. ``words`` are other words of sentences in the language of
+    the person, by the English ones. ``robots`` are those of the project whose language it is, by
+    name; ``choices`` is then what any of them can.
     """
 
     definitions: Mapping[str, Definition] = field(repr=False)
     categories: tuple[Category, ...] = field(repr=False)
-    choices: Mapping[str, Mapping[str, str]] = field(repr=False)
-    profile: RobotProfile
+    choices: Tables = field(repr=False)
+    profiles: tuple[RobotProfile, ...]
     words: Mapping[str, str] = field(default_factory=dict, repr=False)
+    robots: Mapping[str, RobotChoices] = field(default_factory=dict, repr=False)
     _base: Language | None = field(default=None, repr=False, compare=False)
     _own: WeakKeyDictionary[Project, _Own] = field(
         default_factory=WeakKeyDictionary, repr=False, compare=False
     )
+    _joined: dict[tuple[str, ...], Tables] = field(default_factory=dict, repr=False, compare=False)
+
+    @property
+    def profile(self) -> RobotProfile:
+        """The kind of robot that a project has which names none."""
+        return self.profiles[0]
+
+    @property
+    def standing(self) -> frozenset[str]:
+        """The postures from which a robot can walk."""
+        return frozenset().union(*(profile.standing for profile in self.profiles))
 
     def of(self, project: Project) -> Language:
-        """This language with the own blocks and animations of a project, as they are now.
+        """This language with the own blocks, animations and robots of a project, as they are now.
 
         For one project it is always the same object; its definitions and choices follow the
         project.
@@ -60,25 +88,73 @@ class Language:
                     dict(base.definitions),
                     base.categories,
                     dict(base.choices),
-                    base.profile,
+                    base.profiles,
                     base.words,
+                    {},
                     base,
                 )
             )
             base._own[project] = own
-        revision = project.procedure_revision, project.extra_revision
-        if own.revision[0] != revision[0]:
+        if own.procedures != project.procedure_revision:
+            own.procedures = project.procedure_revision
             definitions = own.language.definitions
             assert isinstance(definitions, dict)
             definitions.clear()
             definitions |= base.definitions
             definitions |= definitions_of(project.procedures.values(), base.words)
-        if own.revision[1] != revision[1]:
-            choices = own.language.choices
-            assert isinstance(choices, dict)
-            choices.update(gestures_with(choices_with(base.choices, project), project))
-        own.revision = revision
+        robots = [(stack.id, project.revisions.get(stack.id)) for stack in project.pages["robots"]]
+        if own.offered != (offered := (project.extra_revision, robots)):
+            own.offered = offered
+            base._offer(own.language, project)
         return own.language
+
+    def _offer(self, own: Language, project: Project) -> None:
+        """Let the language of a project offer what its robots can."""
+
+        def with_own(kinds: Iterable[str]) -> dict[str, Mapping[str, str]]:
+            return gestures_with(choices_with(self._tables(tuple(kinds)), project), project)
+
+        kinds = self._kinds_of_robots(project)
+        choices, robots = own.choices, own.robots
+        assert isinstance(choices, dict) and isinstance(robots, dict)
+        offered = with_own(dict.fromkeys(kind.name for kind in kinds.values()))
+        choices.update(offered)
+        for table in choices.keys() - offered.keys():
+            del choices[table]
+        robots.clear()
+        for name, kind in kinds.items():
+            robots[name] = RobotChoices(kind.title, with_own([kind.name]))
+
+    def _kinds_of_robots(self, project: Project) -> dict[str, RobotProfile]:
+        """The kind of each robot of a project, by the robot's name."""
+        kinds = {}
+        for stack in project.pages["robots"]:
+            for block in map(project.blocks.__getitem__, stack.body):
+                definition = self.definitions.get(block.type)
+                if block.type == ROBOT_BLOCK and definition is not None and not block.disabled:
+                    driver = str(definition.value(block, "driver"))
+                    kinds[str(definition.value(block, "name"))] = self._kind_driven_by(driver)
+        return kinds
+
+    def _kind_driven_by(self, driver: str) -> RobotProfile:
+        for profile in self.profiles:
+            if driver in profile.choices.get(DRIVERS, {}):
+                return profile
+        return self.profile
+
+    def _tables(self, kinds: tuple[str, ...]) -> Tables:
+        """What robots of some kinds are offered together; the same objects for the same kinds."""
+        if not kinds or kinds == (self.profile.name,):
+            return self.choices
+        if kinds not in self._joined:
+            tables = [self._of_kind(kind) for kind in self.profiles if kind.name in kinds]
+            self._joined[kinds] = together(tables) if len(tables) > 1 else tables[0]
+        return self._joined[kinds]
+
+    def _of_kind(self, kind: RobotProfile) -> Tables:
+        """A table that a kind of robot does not have is as for the first kind."""
+        own = {name: table for name, table in kind.choices.items() if name != DRIVERS}
+        return {**self.choices, **own}
 
     def word(self, english: str) -> str:
         """A word of the sentences in the language of the person."""
@@ -102,21 +178,64 @@ class Language:
     def choices_of(
         self, slot: Slot, block: Block | None = None, key: str = ""
     ) -> Mapping[str, str]:
-        """The values that a slot of a block offers with their labels; empty when not known."""
-        return self.choices.get(self.table_of(slot, block, key), {})
+        """The values that a slot of a block offers with their labels; empty when not known.
+
+        They are what the block's robot can; what any can, where it names none or all of them.
+        """
+        tables = self.choices
+        if block is not None and len(self.robots) > 1:
+            robot = self.robots.get(self.robot_of(block))
+            tables = tables if robot is None else robot.tables
+        return tables.get(self.table_of(slot, block, key), {})
+
+    def robot_of(self, block: Block) -> str:
+        """The name of the robot that a block asks; "" when it asks none."""
+        definition = self.definitions.get(block.type)
+        slots = definition.slots.values() if definition is not None else ()
+        robot = next((slot for slot in slots if slot.kind.name == "robot"), None)
+        return str(definition.value(block, robot.name)) if definition and robot else ""
+
+    def label_of(self, slot: Slot, value: object, block: Block | None = None, key: str = "") -> str:
+        """What a value of a slot is called, also one that the block's robot does not have."""
+        offered, told = self.choices_of(slot, block, key), str(value)
+        if not offered or told in offered:
+            return offered.get(told, told)
+        return self.known(self.table_of(slot, block, key)).get(told, told)
+
+    def known(self, table: str) -> Mapping[str, str]:
+        """The values of a table that any kind of robot has."""
+        kinds = [self.choices, *(kind.choices for kind in self.profiles)]
+        return together({table: of_kind.get(table, {})} for of_kind in kinds)[table]
 
     def why_not_choice(
         self, slot: Slot, value: object, block: Block | None = None, key: str = ""
     ) -> Text | None:
-        """Why a choice slot cannot hold this value, or None when it can."""
+        """Why a choice slot cannot hold this value, or None when it can.
+
+        It can hold what any kind of robot has: a check tells of what the block's own one lacks.
+        """
         if slot.kind.name != "choice":
             return None
         offered = self.choices_of(slot, block, key)
-        if not offered or value in offered:
+        if not offered or value in offered or value in self.known(self.table_of(slot, block, key)):
             return None
         return text_of(
             "“{value}” is not one of: {offered}.", value=value, offered=", ".join(offered)
         )
+
+
+DRIVERS = "drivers"
+"""The table that says for each kind of robot how the Robots page names it."""
+
+
+def together(tables: Iterable[Tables]) -> dict[str, Mapping[str, str]]:
+    """Choices with those of others after them; the first label of a value counts."""
+    found: dict[str, Mapping[str, str]] = {}
+    for one in tables:
+        for name, table in one.items():
+            known = found.get(name, {})
+            found[name] = {**known, **{v: label for v, label in table.items() if v not in known}}
+    return found
 
 
 # The block language in the words of another one: sentences, categories and choices by a table.
@@ -128,6 +247,8 @@ class Language:
 #     "control.if" = "wenn {condition} {do} [also: sonst wenn {also_condition} {also_do}] ..."
 #     [choices.postures]
 #     posture_stand = "stehen"
+#     [choices."pepper.postures"]
+#     posture_stand_init = "stehen, bereit zum Rollen"
 #     [words]
 #     define = "lege fest"
 #
@@ -164,7 +285,7 @@ def translated(language: Language, table: Table, code: str = "") -> Language:
         },
         tuple(categories.values()),
         {name: _choices(name, known, table) for name, known in language.choices.items()},
-        language.profile,
+        tuple(_profile(profile, table) for profile in language.profiles),
         words=_texts(table, "words"),
     )
 
@@ -209,6 +330,11 @@ def faults(language: Language, table: Table, code: str = "") -> Iterator[Fault]:
     for name, known in language.choices.items():
         labels = _labels(name, table)
         yield from (Fault(f"{name}.{v}", "is not translated") for v in known if v not in labels)
+    for kind in language.profiles[1:]:
+        for name, known in kind.choices.items():
+            labels = {**_labels(name, table), **_labels(f"{kind.name}.{name}", table)}
+            places = (f"{kind.name}.{name}.{v}" for v in known if v not in labels)
+            yield from (Fault(place, "is not translated") for place in places)
 
 
 def _word_or_slot(token: re.Match[str], definition: Definition) -> str | Slot:
@@ -257,6 +383,22 @@ def _definition(
 
 def _category(category: Category, table: Table) -> Category:
     return replace(category, title=_texts(table, "categories").get(category.id, category.title))
+
+
+def _profile(profile: RobotProfile, table: Table) -> RobotProfile:
+    """A kind of robot may have words of its own: they go before those of all kinds."""
+    own = {
+        name: {**_choices(name, known, table), **_own_labels(profile, name, known, table)}
+        for name, known in profile.choices.items()
+    }
+    return replace(profile, choices=own)
+
+
+def _own_labels(
+    profile: RobotProfile, name: str, known: Mapping[str, str], table: Table
+) -> dict[str, str]:
+    labels = _labels(f"{profile.name}.{name}", table)
+    return {value: label for value, label in labels.items() if value in known}
 
 
 def _choices(name: str, known: Mapping[str, str], table: Table) -> dict[str, str]:

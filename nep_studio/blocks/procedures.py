@@ -10,7 +10,7 @@ from faults import Text, text_of
 from .definitions import Category, Definition, Shape
 from .program import Parameter, Procedure, Project
 from .sentence import Part, Slot
-from .slots import KINDS, FieldValue, why_not_line, why_not_name
+from .slots import FieldValue, kind_of, why_not_line, why_not_name
 
 OWN_CATEGORY = Category("my", "My blocks", "my_blocks", 50, "behaviour")
 """The category of own blocks; resources/blocks/my_blocks.toml has those of all projects."""
@@ -22,7 +22,6 @@ MOST_PARTS = 40
 
 NO_WORDS: Mapping[str, str] = {}
 _ID = re.compile(r"[a-z][a-z0-9_]{0,63}")
-_DEFAULTS: dict[str, FieldValue] = {"number": 0, "text": "", "any": 0}
 
 
 def procedure_of(block_type: str) -> str:
@@ -110,9 +109,10 @@ def _why_not_parameter(parameter: Parameter, ids: set[str]) -> Text | None:
 
 def _definitions(procedure: Procedure, words: Mapping[str, str]) -> Iterator[Definition]:
     given = parameters(procedure)
-    slots = {p.id: Slot(p.id, KINDS[p.kind]) for p in given}
+    slots = {p.id: Slot(p.id, kind_of(p.kind)) for p in given}
     pills = {p.id: _pill(procedure, p) for p in given}
-    defaults = {p.id: _DEFAULTS[p.kind] for p in given if p.kind in _DEFAULTS}
+    news = {p.id: kind_of(p.kind).new for p in given}
+    defaults = {name: new for name, new in news.items() if new is not None}
     call_shape: Shape = "reporter" if procedure.gives_value else "statement"
     call = _sentence(procedure, slots)
     header = (words.get("define", "define"), *_sentence(procedure, pills))
@@ -134,7 +134,7 @@ def _definitions(procedure: Procedure, words: Mapping[str, str]) -> Iterator[Def
 
 def _pill(procedure: Procedure, parameter: Parameter) -> Slot:
     block_type = f"{PARAMETER}{procedure.id}.{parameter.id}"
-    return Slot(parameter.id, KINDS["parameter"], block_type, label=parameter.name)
+    return Slot(parameter.id, kind_of("parameter"), block_type, label=parameter.name)
 
 
 def _sentence(procedure: Procedure, slots: dict[str, Slot]) -> tuple[Part, ...]:

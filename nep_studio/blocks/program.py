@@ -20,6 +20,8 @@ PAGES = ("behaviour", "robots", "nodes")
 FARTHEST = 1e6
 """How far from the page's corner a stack can lie, in canvas units."""
 
+ROBOT_BLOCK = "robots.robot"
+"""The block of the Robots page that says which robot takes part."""
 ALL_ROBOTS = "*"
 """The value of a robot field that means every robot of the Robots page."""
 
@@ -138,6 +140,14 @@ class Changes:
 
     def __bool__(self) -> bool:
         return bool(self.stacks or self.owners or self.notes or self.whole)
+
+    def add(self, later: Changes) -> None:
+        """Take in what a later step changed."""
+        self.stacks |= later.stacks
+        self.owners |= later.owners
+        self.notes |= later.notes
+        self.whole |= later.whole
+        self.kept |= later.kept
 
 
 class Project:

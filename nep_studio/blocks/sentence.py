@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from faults import Text, text_of
 
-from .slots import KINDS, Kind, why_not_between, why_not_value
+from .slots import KINDS, Kind, why_not_between
 
 MOST_REPEATS = 20
 
@@ -56,7 +56,7 @@ class Slot:
             )
         if self.low is not None and self.high is not None:
             return why_not_between(value, self.low, self.high)
-        return why_not_value(self.kind.name, value)
+        return self.kind.why_not(value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,42 +1,48 @@
-"""The kinds of slot: how each is drawn, which values may be plugged in, why one is refused."""
+"""The kinds of slot: what fits into each, what a person can type there, how it becomes Python.
+
+A kind of field is one object of `KINDS`. Whoever shows, checks, reads or writes a field asks the
+kind of its slot; nobody else has a table of kinds but the canvas, for the editors of those that
+are not typed in a line (`EDITORS` of `ui/canvas/fields/editors.py`).
+"""
 
 from __future__ import annotations
 
+import ast
 import keyword
+import math
 import re
 import unicodedata
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from datetime import date
+from dataclasses import dataclass, field
 from typing import Literal
 
 from faults import Text, text_of
 
-from .arithmetic import LARGEST_NUMBER, ArithmeticRefused, calculate, number_of
+from .arithmetic import (
+    LARGEST_NUMBER,
+    ArithmeticRefused,
+    calculate,
+    is_number_text,
+    number_of,
+    number_text,
+    typed_number,
+)
+from .errors import BlocksError
 
 SlotShape = Literal["round", "square", "hexagon", "bracket", "pill", "mouth"]
 """The outline of a slot and of what goes in: number, text, yes or no, list, others, a body."""
 
+Mark = Literal["", "dial", "bar", "tick", "swatch"]
+"""What is drawn in a field: beside its text, behind it, or in its place."""
 
-@dataclass(frozen=True, slots=True)
-class Kind:
-    """A kind of slot: what it is called, which block results fit, what a person can type in it.
+Setting = str | int | float | bool
+FieldValue = str | int | float | bool | dict[str, Setting]
 
-    ``fits`` are the result types of blocks that may be plugged in; ``typed`` says that the slot
-    has a field (a default value that comes back when the plugged block leaves).
-    """
-
-    name: str
-    noun: str
-    shape: SlotShape = "pill"
-    fits: frozenset[str] = frozenset()
-    typed: bool = True
-
-    @property
-    def pluggable(self) -> bool:
-        """Whether a reporter block may be put into the slot."""
-        return bool(self.fits)
-
+LONGEST_TEXT = 10_000
+LONGEST_NAME = 100
+MOST_SETTINGS = 100
+GESTURE_STATE = "gesture_"
+"""What the state begins with that a recogniser tells of a gesture."""
 
 RESULTS = {
     "number": "a number",
@@ -48,6 +54,9 @@ RESULTS = {
 }
 """What a reporter gives; ``any`` is known only while the program runs (a variable)."""
 
+TEXT_RESULTS = frozenset({"text", "colour"})
+"""What is a text already where one is needed."""
+
 RESULT_SHAPES: dict[str, SlotShape] = {
     "number": "round",
     "text": "square",
@@ -58,70 +67,12 @@ RESULT_SHAPES: dict[str, SlotShape] = {
 }
 """The outline of a block that gives such a result."""
 
-_NUMBERS = frozenset({"number", "any"})
-_ALL = frozenset(RESULTS)
-
-KINDS: dict[str, Kind] = {
-    kind.name: kind
-    for kind in (
-        Kind("number", "a number", "round", _NUMBERS),
-        Kind("angle", "an angle in degrees", "round", _NUMBERS),
-        Kind("slider", "a number", "round", _NUMBERS),
-        Kind("duration", "a time in seconds", "round", _NUMBERS),
-        Kind("text", "a text", "square", _ALL),  # what is no text is written out by str()
-        Kind("lines", "a text of several lines", "square", _ALL),
-        Kind("line", "one line of text", "square"),
-        Kind("date", "a date", "square"),
-        Kind("file", "a file", "square"),
-        Kind("boolean", "a yes-or-no question", "hexagon", frozenset({"boolean", "any"}), False),
-        Kind("list", "a list", "bracket", frozenset({"list", "any"}), False),
-        Kind("any", "a value", "pill", _ALL),
-        Kind("colour", "a colour", "pill", frozenset({"colour", "any"})),
-        Kind("checkbox", "on or off"),
-        Kind("state", "a human state"),
-        Kind("gesture", "a gesture"),
-        Kind("robot", "a robot"),
-        Kind("variable", "a variable"),
-        Kind("choice", "one of a list"),
-        Kind("settings", "a list of settings"),
-        Kind("parameter", "a value of this block", typed=False),
-        Kind("body", "blocks", "mouth", typed=False),
-    )
-}
-
-
-def why_not_fit(kind: Kind, result: str, block_name: str) -> Text | None:
-    """Why a block whose result is ``result`` cannot be plugged into a slot, or None when it can."""
-    if result in kind.fits:
-        return None
-    if not kind.pluggable:
-        return text_of(
-            "This place takes {noun} that is chosen or typed, not a block.", noun=Text(kind.noun)
-        )
-    return text_of(
-        "This place needs {noun}, and “{block_name}” gives {result}.",
-        noun=Text(kind.noun),
-        block_name=block_name,
-        result=Text(RESULTS[result]),
-    )
-
 
 # What a field may hold: checked when a file is loaded and each time a field is set.
 
-Setting = str | int | float | bool
-FieldValue = str | int | float | bool | dict[str, Setting]
-
-LONGEST_TEXT = 10_000
-LONGEST_NAME = 100
-MOST_SETTINGS = 100
 _HALF = re.compile("[\ud800-\udfff]")
 _JOINERS = "\u200c\u200d"
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
-
-
-def why_not_value(kind_name: str, value: object) -> Text | None:
-    """Why a field of this kind cannot hold ``value``, as a sentence, or None when it can."""
-    return _CHECKS[kind_name](value)
 
 
 def why_not_name(value: object) -> Text | None:
@@ -208,15 +159,6 @@ def _why_not_duration(value: object) -> Text | None:
     return reason
 
 
-def _why_not_date(value: object) -> Text | None:
-    try:
-        if isinstance(value, str) and len(value) == 10 and date.fromisoformat(value):
-            return None
-    except ValueError:
-        pass
-    return text_of("A date is written like 2026-01-31, not {told}.", told=_told(value))
-
-
 def _why_not_checked(value: object) -> Text | None:
     if isinstance(value, bool):
         return None
@@ -277,23 +219,295 @@ def _told(value: object) -> Text:
     return Text("a list or a group of values")
 
 
-_CHECKS: dict[str, Callable[[object], Text | None]] = {
-    "number": why_not_quantity,
-    "angle": why_not_quantity,
-    "slider": why_not_quantity,
-    "duration": _why_not_duration,
-    "text": why_not_text,
-    "lines": why_not_text,
-    "date": _why_not_date,
-    "file": why_not_line,
-    "checkbox": _why_not_checked,
-    "any": _why_not_any,
-    "line": why_not_line,
-    "state": why_not_line,
-    "gesture": why_not_line,
-    "robot": why_not_line,
-    "variable": why_not_line,
-    "colour": _why_not_colour,
-    "choice": why_not_line,
-    "settings": _why_not_settings,
+# What a kind is.
+
+Read = Callable[[str], FieldValue]
+Write = Callable[[object], str]
+WhyNot = Callable[[object], Text | None]
+
+
+def _same(text: str) -> FieldValue:
+    return text
+
+
+def _written(value: object) -> str:
+    return "" if value is None else str(value)
+
+
+def _read_any(text: str) -> FieldValue:
+    return typed_number(text) if is_number_text(text) else text
+
+
+@dataclass(frozen=True, slots=True, eq=False)  # there is one of each
+class Kind:
+    """A kind of slot: what it is called, which block results fit, what a person can type in it.
+
+    ``fits`` are the result types of blocks that may be plugged in; ``typed`` says that the slot
+    has a field (a default value that comes back when the plugged block leaves). ``why_not`` says
+    why a field cannot hold a value; ``read`` makes a value of what is typed, ``write`` a text of a
+    value. ``constants`` are the types of Python's constants that a field can hold.
+    """
+
+    name: str
+    noun: str
+    shape: SlotShape = "pill"
+    fits: frozenset[str] = frozenset()
+    why_not: WhyNot = why_not_line
+    read: Read = _same
+    write: Write = _written
+    typed: bool = True
+    constants: tuple[type, ...] = (str,)
+    """Empty for what stands in Python as a name."""
+    prefix: str = ""
+    """What Python has before the value."""
+    of_nothing: Callable[[], ast.expr] | None = None
+    """What a place without a field is in Python while it is empty."""
+    words: Mapping[str, FieldValue] = field(default_factory=dict)
+    """Words that mean a value, as people type them into the insert bar."""
+    new: FieldValue | None = None
+    """What the field of a new own block holds."""
+    is_number: bool = False
+    lowest: float = -math.inf
+    takes_any_words: bool = False
+    """Whether a field may hold any word: a text, or a name that a person gives."""
+    becomes_text: bool = False
+    """Whether what is plugged in is written out by str() where it is no text."""
+    missing: Text | None = None
+    """What is said of an empty one that must not be empty."""
+    advice: str = "Choose or type one."
+
+    # How it looks
+
+    hint: str = ""
+    """What an empty one says of itself."""
+    unit: str = ""
+    mark: Mark = ""
+    opens: bool = False
+    """Whether its value is chosen in a list or a window: it has an arrow."""
+    has_lines: bool = False
+    is_pressed: bool = False
+    """Whether a press changes it: it needs no editor."""
+
+    @property
+    def pluggable(self) -> bool:
+        """Whether a reporter block may be put into the slot."""
+        return bool(self.fits)
+
+    def to_python(self, value: FieldValue | None) -> ast.expr:
+        """The expression of a field that stands for itself: no name, no arithmetic."""
+        if self.of_nothing is not None:
+            return self.of_nothing()
+        return constant(f"{self.prefix}{value}" if self.prefix else value)
+
+    def from_python(self, value: str | int | float | bool) -> FieldValue | None:
+        """What a field holds so that it makes this constant, or None."""
+        if type(value) not in self.constants:
+            return None
+        if not self.prefix:
+            return value
+        text = str(value)
+        return text.removeprefix(self.prefix) if text.startswith(self.prefix) else None
+
+
+def constant(value: FieldValue | None) -> ast.expr:
+    """A constant of a field; a negative number is a sign and a number, or ``**`` binds wrongly."""
+    if isinstance(value, int | float) and math.copysign(1, value) < 0:
+        return ast.UnaryOp(ast.USub(), ast.Constant(-value))
+    if value is None or isinstance(value, dict):
+        raise TypeError(f"a field of kind {type(value).__name__} is no constant")
+    return ast.Constant(value)
+
+
+# The kinds.
+
+_ALL = frozenset(RESULTS)
+_COLOUR_WORDS: dict[str, FieldValue] = {
+    "red": "#ff0000",
+    "green": "#00ff00",
+    "blue": "#0000ff",
+    "yellow": "#ffff00",
+    "orange": "#ff8800",
+    "purple": "#8800ff",
+    "pink": "#ff66cc",
+    "white": "#ffffff",
+    "black": "#000000",
+    "cyan": "#00ffff",
 }
+_SWITCH_WORDS: dict[str, FieldValue] = {"on": True, "off": False, "yes": True, "no": False}
+
+
+def _number(
+    name: str,
+    noun: str,
+    *,
+    hint: str = "",
+    unit: str = "",
+    mark: Mark = "",
+    why_not: WhyNot = why_not_quantity,
+    lowest: float = -math.inf,
+) -> Kind:
+    """A kind of field that holds a number, or arithmetic that comes to one."""
+    return Kind(
+        name,
+        noun,
+        "round",
+        frozenset({"number", "any"}),
+        why_not,
+        typed_number,
+        number_text,
+        constants=(int, float),
+        new=0,
+        is_number=True,
+        lowest=lowest,
+        hint=hint,
+        unit=unit,
+        mark=mark,
+    )
+
+
+def _words(
+    name: str, noun: str, *, fits: frozenset[str] = frozenset(), has_lines: bool = False
+) -> Kind:
+    """A kind of field that holds a text; where blocks fit, what is no text is written out."""
+    return Kind(
+        name,
+        noun,
+        "square",
+        fits,
+        why_not_text if fits else why_not_line,
+        new="",
+        takes_any_words=True,
+        becomes_text=bool(fits),
+        hint="text",
+        has_lines=has_lines,
+    )
+
+
+def _name(
+    name: str, noun: str, *, prefix: str = "", missing: bool = True, is_said: bool = True
+) -> Kind:
+    """A kind of field that holds a name; one that is not ``is_said`` is a name in Python too."""
+    told = text_of("{noun} is missing.", noun=Text(noun)) if missing else None
+    return Kind(
+        name,
+        noun,
+        constants=(str,) if is_said else (),
+        prefix=prefix,
+        takes_any_words=missing,
+        missing=told,
+        hint=name,
+        opens=True,
+    )
+
+
+KINDS: dict[str, Kind] = {
+    kind.name: kind
+    for kind in (
+        _number("number", "a number", hint="number"),
+        _number("angle", "an angle in degrees", hint="angle", unit="°", mark="dial"),
+        _number("slider", "a number", mark="bar"),
+        _number(
+            "duration",
+            "a time in seconds",
+            hint="time",
+            unit="s",
+            why_not=_why_not_duration,
+            lowest=0.0,
+        ),
+        _words("text", "a text", fits=_ALL),
+        _words("lines", "a text of several lines", fits=_ALL, has_lines=True),
+        _words("line", "one line of text"),
+        Kind(
+            "boolean",
+            "a yes-or-no question",
+            "hexagon",
+            frozenset({"boolean", "any"}),
+            typed=False,
+            of_nothing=lambda: ast.Constant(False),
+            missing=Text("a question is missing."),
+            advice="Put a six-sided block into the slot.",
+            hint="yes or no?",
+        ),
+        Kind(
+            "list",
+            "a list",
+            "bracket",
+            frozenset({"list", "any"}),
+            typed=False,
+            of_nothing=lambda: ast.List([]),
+            missing=Text("a list is missing."),
+            advice="Put a list or a variable into the slot.",
+            hint="list",
+        ),
+        Kind(
+            "any",
+            "a value",
+            "pill",
+            _ALL,
+            _why_not_any,
+            _read_any,
+            number_text,
+            constants=(str, int, float),
+            new=0,
+            hint="value",
+        ),
+        Kind(
+            "colour",
+            "a colour",
+            "pill",
+            frozenset({"colour", "any"}),
+            _why_not_colour,
+            words=_COLOUR_WORDS,
+            mark="swatch",
+            opens=True,
+        ),
+        Kind(
+            "checkbox",
+            "on or off",
+            why_not=_why_not_checked,
+            constants=(bool,),
+            words=_SWITCH_WORDS,
+            mark="tick",
+            is_pressed=True,
+        ),
+        _name("state", "a human state"),
+        _name("gesture", "a gesture", prefix=GESTURE_STATE),
+        _name("robot", "a robot", is_said=False),
+        _name("variable", "a variable", missing=False, is_said=False),
+        Kind("choice", "one of a list", hint="choose", opens=True),
+        Kind(
+            "settings",
+            "a list of settings",
+            why_not=_why_not_settings,
+            constants=(),
+            hint="no settings",
+            opens=True,
+        ),
+        Kind("parameter", "a value of this block", typed=False),
+        Kind("body", "blocks", "mouth", typed=False, constants=()),
+    )
+}
+
+
+def kind_of(name: str) -> Kind:
+    """The kind of a name; raises BlocksError, which names it, when there is none."""
+    kind = KINDS.get(name)
+    if kind is None:
+        raise BlocksError("There is no kind of field called “{name}”.", name=name)
+    return kind
+
+
+def why_not_fit(kind: Kind, result: str, block_name: str) -> Text | None:
+    """Why a block whose result is ``result`` cannot be plugged into a slot, or None when it can."""
+    if result in kind.fits:
+        return None
+    if not kind.pluggable:
+        return text_of(
+            "This place takes {noun} that is chosen or typed, not a block.", noun=Text(kind.noun)
+        )
+    return text_of(
+        "This place needs {noun}, and “{block_name}” gives {result}.",
+        noun=Text(kind.noun),
+        block_name=block_name,
+        result=Text(RESULTS[result]),
+    )

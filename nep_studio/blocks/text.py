@@ -83,4 +83,4 @@ def field_text(
         return language.word("all robots")
     if value is None or value == "":
         return _EMPTY
-    return language.choices_of(slot, block, key).get(str(value), str(value))
+    return language.label_of(slot, value, block, key)

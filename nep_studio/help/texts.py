@@ -12,7 +12,6 @@ from typing import Any
 from nep_studio import paths
 from nep_studio.blocks.deployment import (
     NODE_BLOCK,
-    ROBOT_BLOCK,
     gestures_used,
     node_entries,
     robot_entries,
@@ -23,7 +22,7 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip
-from nep_studio.blocks.program import ALL_ROBOTS, Project
+from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, Project
 from nep_studio.blocks.slots import FieldValue
 
 from . import notation

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import msgspec
 
 from nep_core.program.human import plain, state_of_thing, state_of_word, word_of_state
 from nep_studio.blocks.definitions import Definition
-from nep_studio.blocks.deployment import GESTURE_STATE, chains, rules
+from nep_studio.blocks.deployment import chains, rules
+from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.sentence import Slot
-from nep_studio.blocks.slots import why_not_line
+from nep_studio.blocks.slots import GESTURE_STATE, why_not_line
 from nep_studio.blocks.text import field_text
 
 Kind = Literal[
@@ -47,6 +48,7 @@ class Happening:
     ``value`` is the word, the name of a face ("": anybody), the number of a mark, the part that is
     touched, a state, the name of a sensor. ``words`` is what it is about, for people. ``amount``
     is what a sensor must measure, or for how many seconds nothing may happen; None: anything.
+    ``state`` is the human state that tells a program of it; "" when it only asks or measures.
     """
 
     kind: Kind
@@ -54,6 +56,7 @@ class Happening:
     words: str = ""
     robot: str = ALL_ROBOTS
     amount: float | None = None
+    state: str = field(default="", compare=False)
 
     @property
     def key(self) -> tuple[Kind, str, str, float | None]:
@@ -63,17 +66,19 @@ class Happening:
 
 def happenings_of(project: Project, language: Language) -> list[Happening]:
     """What the program waits for, then what it asks about; each once, in its order."""
-    found = {one.key: one for one in reversed(list(_waited_for(project, language)))}
+    waited_for = _waited_for(project, language, leave_out=REMEMBER)
+    found = {one.key: one for one in reversed(list(waited_for))}
     return list(found.values())[::-1]
 
 
-def _waited_for(project: Project, language: Language) -> Iterator[Happening]:
+def _waited_for(project: Project, language: Language, leave_out: str = "") -> Iterator[Happening]:
+    """What the rules begin with comes first, then what they ask about."""
     hats = [chain[0] for chain in rules(project, language)]
     for hat in hats:
         yield from _of_block(project, project.blocks[hat], language)
     for chain in chains(project, language):
         for block in project.within(chain, enabled=True):
-            if block.id not in hats:
+            if block.id not in hats and block.type != leave_out:
                 yield from _of_block(project, block, language)
 
 
@@ -81,16 +86,19 @@ def _of_block(project: Project, block: Block, language: Language) -> Iterator[Ha
     definition = language.of(project).definitions.get(block.type)
     if definition is None:
         return
-    asked = _Asked(project, block, definition, language)
-    if is_of := _BY_BLOCK.get(_name_of(definition)):
-        yield is_of(asked)
+    asked, name = _Asked(project, block, definition, language), _name_of(definition)
+    if is_of := _BY_BLOCK.get(name):
+        found = is_of(asked)
+        yield replace(found, state=state_of(found)) if _is_told(name, found) else found
     for key, slot in definition.keys(block.groups):
-        if slot.name in _WORD_SLOTS.get(_name_of(definition), ()):
+        if slot.name in _WORD_SLOTS.get(name, ()):
             yield from asked.word(key)
-        elif slot.kind.name == "state" and asked.value(key) and definition.id != REMEMBER:
+        elif slot.kind.name == "state" and asked.value(key):
             yield of_state(asked.value(key), language)
         elif slot.kind.name == "gesture":
-            yield Happening("gesture", asked.value(key), asked.label(key))
+            value = asked.value(key)
+            state = f"{GESTURE_STATE}{value}" if value else ""
+            yield Happening("gesture", value, asked.label(key), state=state)
 
 
 def of_state(state: str, language: Language) -> Happening:
@@ -98,6 +106,10 @@ def of_state(state: str, language: Language) -> Happening:
 
     Of the look of a person and of distances robots tell as they notice them.
     """
+    return replace(_told_by(state, language), state=state)
+
+
+def _told_by(state: str, language: Language) -> Happening:
     if state.startswith(GESTURE_STATE):
         name = state.removeprefix(GESTURE_STATE)
         known = language.choices.get("gestures", {}).get(name, name.replace("_", " "))
@@ -114,6 +126,25 @@ def of_state(state: str, language: Language) -> Happening:
     if word := word_of_state(state):
         return Happening("word", word, word)
     return Happening("state", state, state.replace("_", " "))
+
+
+def state_of(happening: Happening) -> str:
+    """The human state that tells of something."""
+    value = happening.value
+    match happening.kind:
+        case "word":
+            return state_of_word(value or "hello")
+        case "face" | "ball" | "mark" | "sound":
+            return state_of_thing(happening.kind, value)
+        case "touch":
+            return f"touched_{value}"
+        case "distance":
+            return f"person_{value}"
+        case "emotion":
+            return f"emotion_{value}"
+        case "gesture":
+            return f"{GESTURE_STATE}{value}"
+    return value or "touched_head"
 
 
 _THINGS: dict[str, Kind] = {"face": "face", "ball": "ball", "mark": "mark", "sound": "sound"}
@@ -159,7 +190,8 @@ class _Asked:
 
     def word(self, key: str) -> Iterator[Happening]:
         if plain(self.value(key)):
-            yield Happening("word", self.value(key), self.value(key))
+            word = self.value(key)
+            yield Happening("word", word, word, state=state_of_word(word))
 
     def thing(self) -> Happening:
         return self.of(_THINGS.get(self.value("thing"), "face"))
@@ -216,6 +248,22 @@ _BY_BLOCK: dict[str, Callable[[_Asked], Happening]] = {
 }
 """What the blocks wait for or ask about, by what makes their code."""
 
+_TOLD = {
+    "when_touched": True,
+    "when_sees": False,
+    "when_sees_face_of": True,
+    "when_sees_mark": True,
+    "when_person": True,
+    "when_emotion": True,
+    "emotion": True,
+}
+"""The blocks that a human state tells of, by what makes their code, and whether of one by name."""
+
+
+def _is_told(name: str, found: Happening) -> bool:
+    return name in _TOLD and (not _TOLD[name] or bool(plain(found.value)))
+
+
 _WORD_SLOTS = {"when_heard": ("word",), "ask": ("word",), "wait_for_word": ("word", "other")}
 
 
@@ -268,10 +316,10 @@ class Cue(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 def own_cue(text: str, *, is_word: bool = False) -> Cue:
-    """A cue for a state, or for words that somebody says; raises ValueError for no words."""
+    """A cue for a state, or for words that somebody says; raises EditRefused for no words."""
     reason = why_not_line(text)
     if reason is not None or not plain(text):
-        raise ValueError(reason or "A letter or a digit is needed.")
+        raise EditRefused(reason or "A letter or a digit is needed.")
     if is_word:
         return Cue(state_of_word(text), "word", text.strip(), is_own=True)
     return Cue(text.strip(), words=text.strip(), is_own=True)
@@ -279,9 +327,32 @@ def own_cue(text: str, *, is_word: bool = False) -> Cue:
 
 def cues_of(project: Project, language: Language) -> list[Cue]:
     """The cues of the states that the rules of a project wait for or ask about, each once."""
-    return list(
-        {cue.id: cue for cue in reversed(list(_cue_waited_for(project, language)))}.values()
-    )[::-1]
+    cues = [_cue(one, language) for one in _waited_for(project, language) if one.state]
+    return list({cue.id: cue for cue in reversed(cues)}.values())[::-1]
+
+
+def _cue(happening: Happening, language: Language) -> Cue:
+    """The button for something; a rule may hear of it from one robot only."""
+    kind, words = _CUE_KINDS.get(happening.kind, "state"), happening.words
+    if kind == "sight" and not words:
+        words = language.choices.get("things", {}).get(happening.kind, "")
+    if kind == "state" or not words:
+        words = happening.state.removeprefix(PREFIX).replace("_", " ")
+    is_of_any = kind == "emotion" or happening.robot == ALL_ROBOTS
+    return Cue(happening.state, kind, words, SOURCE if is_of_any else happening.robot)
+
+
+_CUE_KINDS: dict[Kind, CueKind] = {
+    "word": "word",
+    "gesture": "gesture",
+    "touch": "touch",
+    "face": "sight",
+    "ball": "sight",
+    "mark": "sight",
+    "sound": "sight",
+    "emotion": "emotion",
+    "distance": "person",
+}
 
 
 def arranged(made: Iterable[Cue], kept: Iterable[Cue]) -> list[Cue]:
@@ -320,83 +391,3 @@ def _is_sound(cue: Cue) -> bool:
     texts = (cue.state, cue.words, cue.source, cue.label, cue.colour)
     is_one_line = all(why_not_line(text) is None and len(text) <= 200 for text in texts)
     return bool(cue.state) and is_one_line and (not cue.key or cue.key in KEYS)
-
-
-def _cue_waited_for(project: Project, language: Language) -> Iterator[Cue]:
-    """What the rules begin with comes first, then what they ask about."""
-    hats = [chain[0] for chain in rules(project, language)]
-    for hat in hats:
-        yield from _cue_of_block(project, project.blocks[hat], language)
-    for chain in chains(project, language):
-        for block in project.within(chain, enabled=True):
-            if block.id not in hats and block.type in language.of(project).definitions:
-                yield from _cue_of_block(project, block, language)
-
-
-def _cue_of_block(project: Project, block: Block, language: Language) -> Iterator[Cue]:
-    definition = language.of(project).definitions[block.type]
-    if (cue := _special(project, block, definition, language)) is not None:
-        yield cue
-    for key, slot in definition.keys(block.groups):
-        if key in block.inputs:
-            continue  # only the running program knows it
-        value = str(definition.value(block, key))
-        label = field_text(project, language, block, slot, value, key)
-        if slot.kind.name == "gesture":
-            yield Cue(f"{GESTURE_STATE}{value}", "gesture", label)
-        elif slot.kind.name == "state" and value:
-            yield _of_state(value, language)
-        elif slot.name in _WORD_SLOTS.get(definition.generator, ()) and plain(value):
-            yield Cue(state_of_word(value), "word", value)
-
-
-def _of_state(state: str, language: Language) -> Cue:
-    if state.startswith(GESTURE_STATE):
-        name = state.removeprefix(GESTURE_STATE)
-        label = language.choices.get("gestures", {}).get(name, name.replace("_", " "))
-        return Cue(state, "gesture", label)
-    if word := word_of_state(state):
-        return Cue(state, "word", word)
-    for prefix, table, kind in _TABLES:
-        label = language.choices.get(table, {}).get(state.removeprefix(prefix), "")
-        if state.startswith(prefix) and label:
-            return Cue(state, kind, label)
-    return Cue(state, "state", state.removeprefix(PREFIX).replace("_", " "))
-
-
-_TABLES: tuple[tuple[str, str, CueKind], ...] = (
-    ("touched_", "touch_parts", "touch"),
-    ("emotion_", "emotions", "emotion"),
-    ("person_", "distances", "person"),
-    ("seen_", "things", "sight"),
-)
-
-
-def _special(
-    project: Project, block: Block, definition: Definition, language: Language
-) -> Cue | None:
-    """The cue of a hat about a robot, which may hear it from that robot only."""
-
-    def value(key: str) -> str:
-        return str(definition.value(block, key)) if key not in block.inputs else ""
-
-    def label(key: str) -> str:
-        slot = definition.slots[key]
-        return field_text(project, language, block, slot, value(key), key)
-
-    robot = value("robot") if "robot" in definition.slots else ALL_ROBOTS
-    source = SOURCE if robot == ALL_ROBOTS else robot
-    match definition.generator:
-        case "when_touched":
-            return Cue(f"touched_{value('part')}", "touch", label("part"), source)
-        case "when_sees":
-            return Cue(state_of_thing(value("thing")), "sight", label("thing"), source)
-        case "when_sees_face_of" if plain(value("name")):
-            return Cue(state_of_thing("face", value("name")), "sight", value("name"), source)
-        case "when_sees_mark" if plain(value("number")):
-            return Cue(state_of_thing("mark", value("number")), "sight", value("number"), source)
-        case "when_person":
-            return Cue(f"person_{value('distance')}", "person", label("distance"), source)
-        case "when_emotion" | "emotion":
-            return Cue(f"emotion_{value('emotion')}", "emotion", label("emotion"))
-    return None

@@ -13,14 +13,9 @@ from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
-from nep_studio.blocks.checks import check
+from nep_studio.blocks.checks import check_steps
 from nep_studio.blocks.checks.problem import Problem
-from nep_studio.blocks.definition_files import (
-    drivers_beside,
-    load_definitions,
-    load_profile,
-    read_toml,
-)
+from nep_studio.blocks.definition_files import load_definitions, load_profiles, read_toml
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NodeEntry,
@@ -30,9 +25,10 @@ from nep_studio.blocks.deployment import (
     robot_entries,
 )
 from nep_studio.blocks.generate.registry import generator_names
-from nep_studio.blocks.language import Language, translated
+from nep_studio.blocks.language import Language, together, translated
 from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
+from nep_studio.blocks.slices import Steps, at_once
 
 RESERVED_NAMES = ("master", "studio", "program", "recording")
 """Names of the parts that every session has."""
@@ -43,11 +39,16 @@ def all_problems(project: Project, language: Language, folder: Path) -> list[Pro
 
     ``folder`` is where the project's own files are.
     """
+    return at_once(problem_steps(project, language, folder))
+
+
+def problem_steps(project: Project, language: Language, folder: Path) -> Steps[list[Problem]]:
+    """The same in steps."""
     catalog = NodeCatalog(node_folders())
     nodes, robots = node_entries(project, language), robot_entries(project, language)
     known = _known_gestures(project, language)
     found = [
-        *check(project, language),
+        *(yield from check_steps(project, language)),
         *(problem for entry in nodes for problem in _node(entry, catalog, known, folder)),
         *(problem for entry in robots for problem in _robot(entry)),
         *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
@@ -140,21 +141,22 @@ def load_language(
     gestures: Mapping[str, str] | None = None,
     nodes: Mapping[str, str] | None = None,
 ) -> Language:
-    """Read the definitions and the robot profile.
+    """Read the definitions and the robot profile, with those of the robots beside it.
 
     ``gestures`` (name to label) and ``nodes`` ("type/name" to label) are what this installation
     can recognise and launch. Raises DefinitionError, which names the file and the block.
     """
     found = load_definitions(blocks_folder, generator_names())
-    profile = load_profile(robot_file)
+    profiles = load_profiles(robot_file)
     choices: dict[str, Mapping[str, str]] = {
         "gestures": gestures or {},
         "nodes": nodes or {},
-        **profile.choices,
-        **drivers_beside(robot_file, profile),
+        **profiles[0].choices,
         **found.choices,
     }
-    return Language(found.definitions, tuple(found.categories), choices, profile)
+    if drivers := together(profile.choices for profile in profiles).get("drivers"):
+        choices["drivers"] = drivers
+    return Language(found.definitions, tuple(found.categories), choices, profiles)
 
 
 # The block language with what this installation can recognise and launch.

@@ -16,7 +16,7 @@ from urllib.parse import urlsplit
 
 import msgspec
 
-from faults import reason_of
+from faults import Words, reason_of, text_of
 from nep_core.cli.console import OWN
 from nep_core.errors import KeyFileError, NameTaken, NodeStartError, PairingError
 from nep_core.networks.endpoints import master_endpoint
@@ -194,7 +194,7 @@ class LocalNetwork:
         """What its own master is told when it is started, as on the command line."""
         self.on_open: Callable[[], None] = lambda: None
         """Called each time that nodes can be started, in the thread that opened it."""
-        self.on_master: Callable[[MasterEvent, str], None] = lambda event, sentence: None
+        self.on_master: Callable[[MasterEvent, Words], None] = lambda event, sentence: None
         """Called when the master ended unexpectedly, from several threads, with how it ended."""
         self.has_master = False
         """Whether its master runs, or is about to be started again by itself."""
@@ -371,12 +371,12 @@ class LocalNetwork:
         if launched.stopping or not self.is_open:
             return  # it was stopped, or never answered: who starts it tells of that
         if again:
-            self.on_master("restarting", f"{outcome}.")
+            self.on_master("restarting", text_of("{outcome}.", outcome=outcome.text))
             args = (launched, self.launcher.master)
             threading.Thread(target=self._await_master, args=args, daemon=True).start()
         else:
             self.has_master = False
-            self.on_master("gone", f"{outcome}.")
+            self.on_master("gone", text_of("{outcome}.", outcome=outcome.text))
 
     def _await_master(self, launched: LaunchedNode, endpoint: str) -> None:
         """Tell when the master that was started again answers."""

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from PySide6.QtCore import QThread, Signal
 
+from faults import Fault, Text
 from nep_core.wire.messages import NodeEvent, NodeState, NodeType
 
 FROZEN_S = 3.0
@@ -36,10 +37,15 @@ HEALTH: dict[NodeEvent, Health] = {
 ENDED: frozenset[Health] = frozenset({"planned", "crashed", "stopped"})
 
 
+NOTHING = Fault("", Text(""))
+"""What a node has told that has told nothing."""
+
+
 @dataclass(frozen=True)
 class NodeStatus:
     """A node as it was heard last; ``node`` is "type/name" of its manifest, "" when not known.
 
+    ``fault`` is what it said of its state, which may be that all is well.
     ``since_s`` is when it took this state, ``heard_s`` when it was heard last (time.time()).
     ``measures`` are the last that it sent; new ones alone are no change of its status.
     """
@@ -48,7 +54,7 @@ class NodeStatus:
     type: NodeType
     node: str = ""
     event: NodeEvent | None = None
-    description: str = ""
+    fault: Fault = NOTHING
     pid: int = 0
     since_s: float = 0.0
     heard_s: float = 0.0
@@ -114,13 +120,6 @@ class NodeBoard:
             if one.is_there and one.health != "frozen":
                 self.nodes[name] = replace(one, heard_s=now_s)
 
-    def all_gone(self) -> list[str]:
-        """The network is closed: nothing runs any more; those that did."""
-        found = [one.name for one in self.nodes.values() if one.is_there]
-        for name in found:
-            self.nodes[name] = replace(self.nodes[name], health="stopped", event="stopped")
-        return found
-
 
 def _heard(before: NodeStatus, state: NodeState) -> NodeStatus:
     if state.measures or state.event == "starting":
@@ -136,7 +135,7 @@ def _heard(before: NodeStatus, state: NodeState) -> NodeStatus:
         before,
         type=state.type,
         event=state.event,
-        description=state.description,
+        fault=state.fault,
         pid=state.pid or before.pid,
         since_s=state.time,
         heard_s=state.time,

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import msgspec
 
+from faults import Text, text_of
 from nep_core.processes.launcher import LaunchedNode
 from nep_core.processes.manifest import Value
 from nep_core.processes.process import Outcome
@@ -242,9 +243,12 @@ class Session:
         with self._changed:
             self._changed.wait_for(lambda: self._failure is not None, LAST_WORDS_S)
             failure = self._failure
-        sentence, line = (failure.description, failure.line) if failure else (f"{outcome}.", 0)
         title = "The program stopped with an error"
-        return Ending(Problem(title, sentence, outcome.checklist), line)
+        if failure is None:
+            return Ending(Problem(title, _sentence(outcome), outcome.checklist))
+        fault = failure.fault
+        steps = fault.checklist or outcome.checklist
+        return Ending(Problem(title, fault.sentence, steps), failure.line)
 
     def _end_soon(self, ending: Ending) -> None:
         timer = threading.Timer(LAST_RULES_S, self.end, [ending])
@@ -255,4 +259,8 @@ class Session:
 def _replay_ending(outcome: Outcome) -> Ending:
     if outcome.was_successful:
         return Ending()
-    return Ending(Problem("The recording stopped", f"{outcome}.", outcome.checklist))
+    return Ending(Problem("The recording stopped", _sentence(outcome), outcome.checklist))
+
+
+def _sentence(outcome: Outcome) -> Text:
+    return text_of("{outcome}.", outcome=outcome.text)

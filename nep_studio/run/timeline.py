@@ -205,6 +205,9 @@ def _number(args: Mapping[str, Any], key: str) -> float:
 MOST_ACTIONS = 1000
 """So many are remembered, of which the oldest are forgotten."""
 
+_ENDS = ("", m.PROCESS_ENDED, m.PROCESS_RESTARTS)
+"""Codes of crashes that are told: by who started the node, or by one that knows no codes."""
+
 Line = tuple[str, str]
 """Who, and what."""
 
@@ -244,7 +247,7 @@ class Timeline:
                 return None  # "ready" tells the same
             case m.NodeState(type="cognitive", event="stopped"):
                 return None  # the program's own state tells how it ended
-            case m.NodeState(event="crashed") if not message.description.startswith(message.node):
+            case m.NodeState(event="crashed") if message.fault.code not in _ENDS:
                 return None  # the session tells it too, and whether the node is started again
             case m.NodeState():
                 return message.node, _node_words(message, self.tr)
@@ -301,7 +304,7 @@ class Timeline:
         )
 
     def _result_words(self, request: m.ActionRequest, result: m.ActionResult) -> str:
-        tr, reason = self.tr, result.description
+        tr, reason = self.tr, result.fault.sentence
         match result.state:
             case "started":
                 return action_words(request, self._language, tr)
@@ -316,7 +319,7 @@ class Timeline:
 
 
 def _node_words(state: m.NodeState, tr: Tr) -> str:
-    told = tr(state.description) if state.description else ""
+    told = tr(state.fault.sentence) if state.fault.sentence else ""
     if state.event in ("running", "warning", "crashed", "stopped") and told:
         return told
     words = _event_words(state.event, tr)
@@ -360,7 +363,7 @@ def _program_words(state: m.ProgramState, tr: Tr) -> str:
         case "goal_interrupted":
             return tr("interrupts the goal “{goal}”", goal=state.rule)
         case "failed":
-            return tr("stopped with an error: {reason}", reason=tr(state.description))
+            return tr("stopped with an error: {reason}", reason=tr(state.fault.sentence))
         case "finished":
             return tr("has ended")
     return ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-import threading
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -17,9 +17,11 @@ from nep_studio.blocks.files import from_bytes, load
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.project.journal import Journal
+from nep_studio.project.picture_files import project_bytes_from
 
+from .background import Background
 from .document_files import PICTURES
-from .plugins.picture.embedding import project_bytes_from
+from .edits import edits_of
 from .words import tr
 
 log = logging.getLogger(__name__)
@@ -35,10 +37,13 @@ Stamp = tuple[int, int]
 class Document(QObject):
     """An editor, its file and its journal. ``changed`` tells of its title and of being saved.
 
+    ``edited`` gives the Changes of each step, ``settled`` those of several, for those who are slow.
     ``kept_changed`` tells that the journal cannot be written any more, or can be again.
     """
 
     changed = Signal()
+    edited = Signal(object)
+    settled = Signal(object)
     kept_changed = Signal()
 
     def __init__(
@@ -59,7 +64,9 @@ class Document(QObject):
         self._flush = QTimer(self, interval=FLUSH_MS)
         self._flush.timeout.connect(self.flush)
         self._flush.start()
-        editor.history.listen(self._on_changes)
+        self._edits = edits_of(editor)
+        self._edits.edited.connect(self._on_edited)
+        self._edits.settled.connect(self._on_settled)
         self._shown = (self.path, self.title, self.is_modified)
         self._was_kept = self.is_kept
 
@@ -120,7 +127,8 @@ class Document(QObject):
             return
         self._is_open = False
         self._flush.stop()
-        self.editor.history.unlisten(self._on_changes)
+        self._edits.edited.disconnect(self._on_edited)
+        self._edits.settled.disconnect(self._on_settled)
         if self._journal is not None:
             self._journal.close(keep=keep)
             self._journal = None
@@ -131,9 +139,13 @@ class Document(QObject):
         if self.project.name == new_name() and self.editor.why_not(rename) is None:
             self.editor.apply(rename)
 
-    def _on_changes(self, changes: Changes) -> None:
-        self._look_at_journal()
+    def _on_edited(self, changes: Changes) -> None:
+        self.edited.emit(changes)
         self._tell()
+
+    def _on_settled(self, changes: Changes) -> None:
+        self._look_at_journal()
+        self.settled.emit(changes)
 
     def _look_at_journal(self) -> None:
         if self.is_kept != self._was_kept:
@@ -190,7 +202,6 @@ class Opening(QObject):
     opened = Signal(object)  # the Project
     failed = Signal(object)  # the BlocksError
     became_slow = Signal()
-    _read = Signal(object)
 
     def __init__(self, path: Path, language: Language, parent: QObject) -> None:
         super().__init__(parent)
@@ -199,7 +210,7 @@ class Opening(QObject):
         self._is_over = False
         self._slow = QTimer(self, singleShot=True, interval=SLOW_MS)
         self._slow.timeout.connect(self.became_slow)
-        self._read.connect(self._on_read)
+        self._background = Background(self)
 
     def start(self) -> None:
         """Read it; a small file is there at once."""
@@ -207,18 +218,12 @@ class Opening(QObject):
             self._on_read(_result(self.path, self._language))
             return
         self._slow.start()
-        threading.Thread(target=self._work, name="opening", daemon=True).start()
+        read = partial(_result, self.path, self._language)
+        self._background.start(read, self._on_read, name="opening")
 
     def cancel(self) -> None:
         """Do not open it: what is still being read is forgotten."""
         self._end()
-
-    def _work(self) -> None:
-        result = _result(self.path, self._language)
-        try:
-            self._read.emit(result)
-        except RuntimeError:
-            log.info("The window has gone before %s was read.", self.path)
 
     def _on_read(self, result: Project | BlocksError) -> None:
         if self._is_over:

@@ -97,9 +97,10 @@ class Messages(QObject):
         self._window = window
         self._place: Place | None = None
 
-    def show_in(self, place: Place) -> None:
-        """Use this place for what is told from now on."""
-        self._place = place
+    def show_in(self, place: Place) -> Place | None:
+        """Use this place for what is told from now on; the place that was used before."""
+        before, self._place = self._place, place
+        return before
 
     def tell(self, message: Message) -> None:
         """Show a message; nobody has to answer it."""

@@ -23,6 +23,7 @@ from nep_core.networks.transports import topics_of
 from nep_core.processes.process import descendants
 from nep_core.wire.messages import NODE_STATE
 from nep_core.wire.pubsub import Subscriber
+from nep_studio.ui.host import Host
 
 log = logging.getLogger(__name__)
 
@@ -426,7 +427,11 @@ class NetworkFeed(QObject):
             self.changed.emit(self.seen)
 
 
-def feed_of(owner: QObject, find_network: Callable[[], Network | None]) -> NetworkFeed:
-    """The one feed of a window, which both its panels share."""
-    found = owner.findChild(NetworkFeed)
-    return found if found is not None else NetworkFeed(find_network, owner)
+def feed_of(host: Host) -> NetworkFeed:
+    """The one feed, which all panels share."""
+    running, runner = host.services.running, host.services.runner
+
+    def find_network() -> Network | None:
+        return runner.local.network
+
+    return host.keep(NetworkFeed, lambda: NetworkFeed(find_network, running))

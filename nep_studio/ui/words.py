@@ -14,7 +14,6 @@ from typing import Any
 
 from faults import Text, Words, filled, told, values_told
 from nep_studio import paths
-from nep_studio.ui.message_templates import MessageTemplates
 
 log = logging.getLogger(__name__)
 
@@ -31,7 +30,6 @@ _ACCENTED = str.maketrans("aeiouyAEIOUYcnCN", "àéîôûýÀÉÎÔÛÝçñÇÑ"
 class _Catalogue:
     code: str = ENGLISH
     words: Mapping[str, str] = field(default_factory=dict)
-    messages: MessageTemplates = field(default_factory=lambda: MessageTemplates({}))
 
 
 _used = _Catalogue()
@@ -40,15 +38,19 @@ _used = _Catalogue()
 def tr(text: Words, /, **values: object) -> str:
     """Return the words in the language in use, with ``{name}`` filled in from the values.
 
-    The English text is the key. A sentence that comes with its values filled in, as problems and
-    refusals do, is told from the templates in [messages]; what people wrote in it is kept.
-    Words that are not translated yet are given in English.
+    The English text, with its places, is the key: words are told from it and never read. A text
+    brings its values with it. What is not translated yet is given in English.
     """
     if isinstance(text, Text):
         return told(text, tr)
+    if not text:
+        return ""
+    words = _pseudo(text) if _used.code == PSEUDO else _used.words.get(text) or text
     if not values:
-        return _used.words.get(text) or _message(text)
-    words = _pseudo(text) if _used.code == PSEUDO else _used.words.get(text, text)
+        return words
+    if words is not text and not set(_PLACES.findall(words)) <= set(_PLACES.findall(text)):
+        log.warning("A message in %s cannot be filled in: %r", _used.code, text)
+        words = text
     return filled(words, values_told(values, tr))
 
 
@@ -65,7 +67,6 @@ def use_language(code: str) -> None:
     """Take the words from the table of this language; unknown ones leave the window English."""
     global _used
     _used = _catalogue(code, paths.resources()) if code in _known() else _Catalogue()
-    _message.cache_clear()
 
 
 def language_code() -> str:
@@ -110,35 +111,10 @@ def _path(code: str) -> Path:
 @lru_cache(maxsize=8)
 def _catalogue(code: str, _resources: Path) -> _Catalogue:
     """The words of a language, which take long to read, from the resources in use."""
-    if code == ENGLISH:
-        return _Catalogue()
-    if code == PSEUDO:
-        said = {words: _pseudo(words) for each in _codes() for words in _messages(_table(each))}
-        return _Catalogue(code, {}, MessageTemplates(said))
+    if code in (ENGLISH, PSEUDO):
+        return _Catalogue(code)
     table = _table(code)
-    messages = _messages(table)
-    return _Catalogue(code, {**messages, **table.get("window", {})}, MessageTemplates(messages))
-
-
-def _messages(table: Mapping[str, Any]) -> Mapping[str, str]:
-    """The sentences of problems and refusals, with places for what is filled in."""
-    messages: dict[str, str] = table.get("messages", {})
-    return messages
-
-
-@lru_cache(maxsize=2048)
-def _message(text: str) -> str:
-    """Words without a translation of their own: a filled sentence, or words left in English."""
-    if not text or _used.code == ENGLISH:
-        return text
-    try:
-        said = _used.messages.translated(text, tr)
-    except (KeyError, IndexError, ValueError, AttributeError):
-        log.warning("A message in %s cannot be filled in: %r", _used.code, text)
-        said = None
-    if said is None:
-        return _pseudo(text) if _used.code == PSEUDO else text
-    return said
+    return _Catalogue(code, {**table.get("messages", {}), **table.get("window", {})})
 
 
 def _pseudo(text: str) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Protocol
 
+from nep_core.places import robot_folder
 from nep_core.processes.node import Node
 from nep_core.wire.messages import (
     ACTION_REQUEST,
@@ -17,18 +18,20 @@ from nep_core.wire.messages import (
     ROBOT_STATE,
     SENSE_REQUEST,
     SURROUNDINGS,
-    ActionRequest,
     ActionResult,
     ExpectedWords,
     HumanBehavior,
-    SenseRequest,
-    Surroundings,
+    described,
 )
 from nep_core.wire.pubsub import Publisher, Subscriber
+from nodes.resources import model_folder, model_of
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import load_animations, with_own
-from robots.body.body import load_body, model_of, robot_folder
+from robots.body.body import load_body
+from robots.body.camera import safe_name
 from robots.body.driver import Driver
+from robots.body.messages import ActionRequest, SenseRequest, Surroundings
+from robots.body.messages import ActionResult as Result
 from robots.body.pose import VirtualRobot
 from robots.body.speech import load_gesture_words
 from robots.body.virtual import VirtualDriver
@@ -46,9 +49,7 @@ class Offering(Protocol):
     description: str
     """Where programs reach it, in words."""
 
-    def hear(
-        self, told: Iterable[ActionResult], felt: Sequence[SenseRequest]
-    ) -> list[ActionResult]:
+    def hear(self, told: Iterable[Result], felt: Sequence[SenseRequest]) -> list[Result]:
         """Take in what happened; return the results that are to be sent on."""
 
     def close(self) -> None:
@@ -64,9 +65,7 @@ class NotOffered:
     def __init__(self) -> None:
         self.lock: contextlib.AbstractContextManager[object] = contextlib.nullcontext()
 
-    def hear(
-        self, told: Iterable[ActionResult], felt: Sequence[SenseRequest]
-    ) -> list[ActionResult]:
+    def hear(self, told: Iterable[Result], felt: Sequence[SenseRequest]) -> list[Result]:
         """Return all results."""
         return list(told)
 
@@ -104,7 +103,7 @@ def run(
     NAOqi programs reach the virtual robot as if it were a real one, 0 when they do not. ``model``:
     the robot's folder, nao or another one.
     """
-    folder = robot_folder(model)
+    folder = model_folder(model)
     link = _driver(node, robot, driver, address, animations, folder)
     actor = Actor(robot, link)
     results = node.publisher(ACTION_RESULT)
@@ -140,7 +139,8 @@ def run(
             # how the robot is goes first: what a message sets off may ask about it at once
             is_news = bool(felt or human) or any(result.state in FINAL for result in told)
             report.send_news(at_once=is_news)
-        _send(states, human)
+        for state in human:
+            states.send(HumanBehavior(human_state=state, source=robot))
         _send(results, offering.hear(told, felt))
     offering.close()
     _send(results, actor.stop())
@@ -174,7 +174,14 @@ def _driver(
     for problem in left_out:
         node.warn(problem)
     words = load_gesture_words(folder)
-    known = VirtualRobot(robot, body, animations, gesture_words=words, model=model_of(folder))
+    known = VirtualRobot(
+        robot,
+        body,
+        animations,
+        gesture_words=words,
+        model=model_of(folder),
+        files=robot_folder(safe_name(robot, "robot")),
+    )
     if driver == "naoqi":
         from robots.naoqi.driver.driver import NaoqiDriver  # the virtual one needs none of it
 
@@ -187,9 +194,10 @@ def _heard(requests: Subscriber[ActionRequest], timeout_s: float) -> list[Action
     return [first, *requests.pending()] if first else []
 
 
-def _send(publisher: Publisher, what: Sequence[ActionResult | HumanBehavior]) -> None:
-    for message in what:
-        publisher.send(message)
+def _send(publisher: Publisher, results: Iterable[Result]) -> None:
+    for one in results:
+        told = described(one.fault)
+        publisher.send(ActionResult(id=one.id, robot=one.robot, state=one.state, **told))
 
 
 class _StateReport:

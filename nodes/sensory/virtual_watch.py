@@ -6,12 +6,12 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from faults import text_of
+from faults import fault_of
 from nep_core.errors import ParameterError
 from nep_core.processes.node import Node
 from nep_core.wire.messages import GESTURE_REQUEST, IMU, GestureRequest, Imu
 
-from .arm.gestures import gesture_named
+from .arm.gestures import MAKES_GESTURE, gesture_named
 from .reading import rows
 from .wearer import Movement, Repertoire, Wearer, read_repertoire
 
@@ -202,8 +202,9 @@ class _Watch:
 
     def _tell(self, gesture: str) -> None:
         if gesture != self._told:
-            makes = text_of(
+            makes = fault_of(
                 "makes the gesture {gesture} (simulated person {number})",
+                code=MAKES_GESTURE,
                 gesture=gesture,
                 number=self._wearer.number,
             )

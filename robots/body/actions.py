@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta
 
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 
 from . import keyframes
 from .keyframes import LARGEST, problem_of

@@ -3,15 +3,7 @@
 from __future__ import annotations
 
 from faults import Fault, Words, fault_of
-from nep_core.errors import ActionFailed
-from nep_core.wire.messages import (
-    ActionRequest,
-    ActionResult,
-    ActionState,
-    HumanBehavior,
-    SenseRequest,
-    described,
-)
+from robots.errors import ActionFailed
 
 from .actions import (
     Approach,
@@ -23,8 +15,9 @@ from .actions import (
     WalkFreely,
     read_action,
 )
-from .driver import NOTHING, Driver
+from .driver import Driver
 from .limbs import MOVING, Limb
+from .messages import NOTHING, ActionRequest, ActionResult, ActionState, SenseRequest
 from .schedule import Command, Schedule
 
 REMEMBERED_REQUESTS = 500
@@ -93,13 +86,13 @@ class Actor:
         """Whether a robot is told to sense something: by its name, or all robots."""
         return request.robot in ("", "all", self.robot)
 
-    def sense(self, request: SenseRequest) -> list[HumanBehavior]:
-        """Let the robot sense something, and follow it if it tracks that."""
+    def sense(self, request: SenseRequest) -> list[str]:
+        """Let the robot sense something, and follow it if it tracks that; the human states."""
         states = self.driver.sense(request)
         state = self.driver.state()
         if state and request.value > 0 and state.settings.get("tracking") == request.sense:
             self._follow(request.sense)
-        return [HumanBehavior(human_state=state, source=self.robot) for state in states]
+        return states
 
     def _follow(self, thing: str) -> None:
         command = Command(FOLLOWING, LookAtSeen(thing), frozenset({Limb.HEAD}))
@@ -116,10 +109,9 @@ class Actor:
             self.driver.halt()
         return results
 
-    def noticed(self) -> list[HumanBehavior]:
-        """Return what the robot has noticed by itself since the last call."""
-        states = self.driver.noticed()
-        return [HumanBehavior(human_state=state, source=self.robot) for state in states]
+    def noticed(self) -> list[str]:
+        """Return the human states that the robot noticed by itself since the last call."""
+        return self.driver.noticed()
 
     def _stop_moving(self) -> list[ActionResult]:
         moving = [command.id for command in self._commands() if command.limbs & MOVING]
@@ -171,7 +163,7 @@ class Actor:
         return [self._result(command.id, "started") for command in ready]
 
     def _result(self, request_id: str, state: ActionState, fault: Fault = NOTHING) -> ActionResult:
-        result = ActionResult(id=request_id, robot=self.robot, state=state, **described(fault))
+        result = ActionResult(id=request_id, robot=self.robot, state=state, fault=fault)
         self._last_result[request_id] = result
         self._forget_oldest()
         return result

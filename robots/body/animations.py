@@ -17,7 +17,7 @@ from typing import Literal
 import msgspec
 
 from faults import Text
-from nep_core.errors import ActionFailed, NodeStartError
+from robots.errors import ActionFailed, FilesUnusable
 
 from .body import Body
 from .keyframes import SHORTEST_STEP_S, Handle, Keyframes, Track, mirror_angle, problem_of
@@ -146,7 +146,7 @@ class Animations:
 
 
 def load_animations(folder: Path, body: Body) -> Animations:
-    """Read every ``*.toml`` of a folder. Raises NodeStartError, which names file and place."""
+    """Read every ``*.toml`` of a folder. Raises FilesUnusable, which names file and place."""
     found = {}
     for path in sorted(folder.glob("*.toml")):
         found[path.stem] = load_animation(path, body)
@@ -154,7 +154,7 @@ def load_animations(folder: Path, body: Body) -> Animations:
 
 
 def load_animation(path: Path, body: Body) -> Animation:
-    """Read one animation. Raises NodeStartError, which names file and place."""
+    """Read one animation. Raises FilesUnusable, which names file and place."""
     try:
         file = msgspec.toml.decode(path.read_bytes(), type=_AnimationFile)
         tracks = _tracks(file)
@@ -197,8 +197,8 @@ def _problem(file: _AnimationFile, tracks: dict[str, Track], body: Body) -> str:
     return ""
 
 
-def _unusable(path: Path, problem: str) -> NodeStartError:
-    return NodeStartError(
+def _unusable(path: Path, problem: str) -> FilesUnusable:
+    return FilesUnusable(
         "The animation {path} cannot be used: {problem}.",
         checklist=(
             "Open {name} in a text editor and look at that place.",
@@ -224,7 +224,7 @@ def with_own(known: Animations, folder: str, body: Body) -> tuple[Animations, li
     for path in sorted(Path(folder).glob("*.toml")) if folder else ():
         try:
             found[path.stem] = load_animation(path, body)
-        except NodeStartError as error:
+        except FilesUnusable as error:
             problems.append(error.sentence)
     return Animations(found), problems
 

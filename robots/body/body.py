@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
@@ -12,8 +12,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from nep_core.errors import ActionFailed, NodeStartError
-from nodes.resources import resource_folder
+from robots.errors import ActionFailed, FilesUnusable
 
 from .limbs import Limb
 
@@ -116,13 +115,18 @@ class _BodyFile(msgspec.Struct, frozen=True):
     sonars: dict[str, Sonar] = {}
 
 
+class _Profile(msgspec.Struct, frozen=True):
+    title: str
+
+
 class Body:
-    """The joint table and postures of one kind of robot.
+    """The joint table and postures of one kind of robot, and what people call that kind: NAO.
 
     ``names``, ``min``, ``max`` and ``max_speed`` are in the same order: the body's joint order.
     """
 
-    def __init__(self, file: _BodyFile) -> None:
+    def __init__(self, file: _BodyFile, title: str) -> None:
+        self.title = title
         self.joints = file.joints
         self.names = tuple(joint.name for joint in file.joints)
         self.index = {name: i for i, name in enumerate(self.names)}
@@ -186,12 +190,19 @@ class Body:
 
 
 def load_body(folder: Path) -> Body:
-    """Read ``body.json`` of a robot's folder. Raises NodeStartError when it cannot be used."""
-    path = folder / "body.json"
+    """Read ``body.json`` of a robot's folder. Raises FilesUnusable when it cannot be used.
+
+    ``robot.toml`` beside it says what such a robot is called; without one it is as the folder.
+    """
+    path, profile = folder / "body.json", folder / "robot.toml"
     try:
-        return Body(msgspec.json.decode(path.read_bytes(), type=_BodyFile))
+        file = msgspec.json.decode(path.read_bytes(), type=_BodyFile)
+        if not profile.exists():
+            return Body(file, folder.name)
+        path = profile
+        return Body(file, msgspec.toml.decode(path.read_bytes(), type=_Profile).title)
     except (OSError, msgspec.DecodeError) as error:
-        raise NodeStartError(
+        raise FilesUnusable(
             "The description of the robot's body, {path}, cannot be read.",
             checklist=("Install NEP Studio again: this file comes with it.",),
             details=str(error),
@@ -203,9 +214,6 @@ def load_body(folder: Path) -> Body:
 
 OFF = 0x000000
 WHITE = 0xFFFFFF
-Colouring = Callable[[int], int]
-"""Which colour comes when: the number of the change, 0xRRGGBB."""
-
 GROUPS: dict[str, tuple[str, ...]] = {
     "LeftFaceLeds": ("LeftFaceLeds",),
     "RightFaceLeds": ("RightFaceLeds",),
@@ -295,43 +303,6 @@ def brightest(colour: int) -> int:
     return red << 16 | green << 8 | blue
 
 
-# Which robots there are: each is a folder with its body, its animations and its looks.
-
-NAO = "nao"
-BODY_FILE = "body.json"
-
-
-def robot_folder(model: str) -> Path:
-    """Return the folder of a model, one of those that come with us or a path to one's own.
-
-    Raises NodeStartError with the models that there are.
-    """
-    robots = resource_folder() / "robots"
-    known = sorted(path.parent.name for path in robots.glob(f"*/{BODY_FILE}"))
-    if model in known:
-        return robots / model
-    if model and (Path(model) / BODY_FILE).is_file():
-        return Path(model)
-    raise NodeStartError(
-        'There is no robot model "{model}".',
-        checklist=(
-            "Choose one of these: {known}.",
-            "Or name a folder with a {body_file} in it, such as a changed copy of one of them.",
-        ),
-        model=model,
-        known=", ".join(known),
-        body_file=BODY_FILE,
-    )
-
-
-def model_of(folder: Path) -> str:
-    """Return how RobotState names the model in a folder: "" a NAO, a name, or the folder's path."""
-    shipped = resource_folder() / "robots"
-    if folder.parent != shipped:
-        return str(folder.resolve())
-    return "" if folder.name == NAO else folder.name
-
-
 # Which posture a word means, and by which postures a robot gets from one to another.
 
 
@@ -419,12 +390,6 @@ def single_parts(part: str) -> tuple[str, ...]:
             parts=", ".join(PARTS),
         )
     return PARTS[part]
-
-
-def limbs_of_part(part: str) -> frozenset[Limb]:
-    """Return the limbs that a part is made of."""
-    limbs = {name: limb for limb, name in PART_OF_LIMB.items()}
-    return frozenset(limbs.get(name, Limb.LEGS) for name in single_parts(part))
 
 
 def parts_of_limbs(limbs: frozenset[Limb]) -> frozenset[str]:

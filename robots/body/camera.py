@@ -16,10 +16,9 @@ from typing import IO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from nep_core.wire.messages import Thing
-
 from .body import Camera
 from .kinematics import Frames, Points, rotation
+from .messages import Thing
 from .pose import VirtualRobot
 from .surroundings import EYES_PART, HALF_VIEW_RAD, looked_at
 

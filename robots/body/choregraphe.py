@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
-from nep_core.errors import NepError
+from robots.errors import RobotError
 
 from .keyframes import SHORTEST_STEP_S, Handle, Keyframes, Track
 
@@ -226,7 +226,7 @@ EXPORTING = (
 NO_HANDLE: Handle = (0.0, 0.0, 0.0, 0.0)
 
 
-class KeyframesUnreadable(NepError):
+class KeyframesUnreadable(RobotError):
     """A text that holds no movement, or one that cannot be used."""
 
     title = "This text holds no movement that can be read"

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import Literal, NamedTuple, Protocol
 
-from faults import Fault, fault_of
-from nep_core.wire.messages import RobotState, SenseRequest, Thing
+from faults import Fault
 
 from .actions import Action
 from .limbs import Limb
-
-NOTHING = fault_of("")
-"""Nothing to say."""
+from .messages import NOTHING, RobotState, SenseRequest, Thing
 
 
 class Connection(NamedTuple):

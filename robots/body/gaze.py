@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from faults import Text, text_of
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 
 from .body import Angles, Body
 from .motion import move

@@ -19,9 +19,6 @@ class Limb(StrEnum):
 
 MOVING = frozenset({Limb.HEAD, Limb.LEFT_ARM, Limb.RIGHT_ARM, Limb.LEGS})
 """The limbs that have joints."""
-EVERY_LIMB = frozenset(Limb)
-
-
 # Where a robot feels that it is touched.
 
 TOUCH_SENSORS = (

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 
 from .body import Angles, Body
 from .keyframes import MINIMUM_JERK_PEAK, Keyframes, minimum_jerk, peak_speed, ticks, track_angles

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 
 from . import actions
 from . import actions as m

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
-
-from nep_core.program.human import plain
-from nep_core.wire.messages import Thing
 
 from . import body as leds
 from .animations import Animations
 from .body import Angles, Body, KeyPose
 from .kinematics import Skeleton
+from .messages import Thing, plain
 from .speech import GestureWords
 from .stance import Stance
 
@@ -90,7 +90,8 @@ class VirtualRobot:
     ``things``: what is around it; ``noticed``: what of that it sees, and where; ``bumped``: the
     bumpers with which it ran into something; ``battery``: 0 to 1. ``model``: which robot it is,
     as RobotState has it. ``passed``: the key poses that it has reached since its posture, on the
-    way ``towards`` another one. ``faces``: whom it knows by name.
+    way ``towards`` another one. ``faces``: whom it knows by name. ``files``: the folder where it
+    keeps its pictures and videos.
     """
 
     name: str
@@ -116,6 +117,7 @@ class VirtualRobot:
     towards: str = ""
     model: str = ""
     faces: Faces = field(default_factory=Faces)
+    files: Path = field(default_factory=lambda: Path(tempfile.gettempdir()) / "robot")
     stance: Stance = field(init=False)
     settings: dict[str, bool | float | str] = field(default_factory=lambda: dict(AT_START))
 

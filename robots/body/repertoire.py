@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from faults import Text
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 
 from . import actions as a
 from . import actions as b

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from faults import fault_of
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 
 from .actions import Action
 from .driver import Ended

@@ -10,15 +10,14 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from nep_core.errors import ActionFailed
-from nep_core.places import robot_folder
-from nep_core.program.human import plain
+from robots.errors import ActionFailed
 
 from . import actions as s
 from . import body
 from .actions import PlaySound
 from .body import Camera
 from .camera import ENDING, VideoFile, picture, safe_name, write_picture
+from .messages import plain
 from .motion import TICK_S
 from .pose import VirtualRobot
 from .schedule import Task
@@ -29,19 +28,19 @@ RESTING = 2.0
 """A frame waits for so many times as long as the last one took: the robot has to live too."""
 
 
-def picture_path(robot: str, file: str) -> Path:
+def picture_path(robot: VirtualRobot, file: str) -> Path:
     """Return where a robot keeps a picture."""
-    return _folder(robot) / "pictures" / (safe_name(file, "picture") + ENDING)
+    return robot.files / "pictures" / (safe_name(file, "picture") + ENDING)
 
 
-def video_path(robot: str, file: str) -> Path:
+def video_path(robot: VirtualRobot, file: str) -> Path:
     """Return where a robot keeps a video."""
-    return _folder(robot) / "videos" / (safe_name(file, "video") + ENDING)
+    return robot.files / "videos" / (safe_name(file, "video") + ENDING)
 
 
 def take_picture(robot: VirtualRobot, action: s.TakePicture) -> Task:
     """Keep what a camera sees now in a file."""
-    path, camera = picture_path(robot.name, action.file), _camera(robot, action.camera)
+    path, camera = picture_path(robot, action.file), _camera(robot, action.camera)
     try:
         write_picture(path, picture(robot, camera))
     except OSError as error:
@@ -52,7 +51,7 @@ def take_picture(robot: VirtualRobot, action: s.TakePicture) -> Task:
 
 def record_video(robot: VirtualRobot, action: s.RecordVideo) -> Task:
     """Keep what a camera sees in a file, for some seconds or until this is stopped."""
-    path, camera = video_path(robot.name, action.file), _camera(robot, action.camera)
+    path, camera = video_path(robot, action.file), _camera(robot, action.camera)
     try:
         video = VideoFile(path)
         try:
@@ -91,10 +90,6 @@ def _camera(robot: VirtualRobot, which: str) -> Camera:
     if not cameras:
         raise ActionFailed("{name} has no camera.", name=robot.name)
     return cameras[0] if which == "top" else cameras[-1]
-
-
-def _folder(robot: str) -> Path:
-    return robot_folder(safe_name(robot, "robot"))
 
 
 def _not_kept(robot: VirtualRobot, path: Path) -> ActionFailed:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import msgspec
 
-from nep_core.errors import NodeStartError
+from robots.errors import FilesUnusable
 
 from .animations import NO_GESTURE, Animations
 from .limbs import Limb
@@ -75,7 +75,7 @@ class Spoken(NamedTuple):
 def load_gesture_words(folder: Path) -> GestureWords:
     """Read ``gesture_words.toml`` of a robot's folder; a robot without it speaks without gestures.
 
-    Raises NodeStartError when the file cannot be used.
+    Raises FilesUnusable when the file cannot be used.
     """
     path = folder / "gesture_words.toml"
     if not path.exists():
@@ -83,7 +83,7 @@ def load_gesture_words(folder: Path) -> GestureWords:
     try:
         return msgspec.toml.decode(path.read_bytes(), type=GestureWords)
     except (OSError, ValueError) as error:
-        raise NodeStartError(
+        raise FilesUnusable(
             "The words for gestures, {path}, cannot be read.",
             checklist=("Install NEP Studio again: this file comes with it.",),
             details=str(error),

@@ -6,11 +6,9 @@ import math
 
 import numpy as np
 
-from nep_core.program.human import plain, state_of_thing
-from nep_core.wire.messages import Thing
-
 from .body import Angles, Camera
 from .kinematics import Points, rotation
+from .messages import Thing, plain, state_of_thing
 from .pose import VirtualRobot
 
 # What a virtual robot runs into: things on the floor around it, seen from above.

@@ -8,8 +8,6 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from faults import Text, fault_of
-from nep_core.program.human import plain, state_of_thing, state_of_word
-from nep_core.wire.messages import RobotState, SenseRequest, Thing
 
 from .actions import Action
 from .body import SINGLE_PARTS
@@ -18,6 +16,7 @@ from .falling import Sagging, fall, fallen_sentence, gives_way, sink, steadily, 
 from .gaze import from_world, to_world
 from .idling import Idling
 from .limbs import MOVING, TOUCH_SENSORS, Limb
+from .messages import RobotState, SenseRequest, Thing, plain, state_of_thing, state_of_word
 from .motion import TICK_S
 from .pose import TOLD, VirtualRobot
 from .repertoire import limbs_of, task_of
@@ -145,7 +144,11 @@ class VirtualDriver:
 
     def connect(self) -> None:
         """Be connected at once: the robot is in this process."""
-        words = fault_of("virtual NAO, {family}", family=Text(self.robot.family))
+        words = fault_of(
+            "virtual {kind}, {family}",
+            kind=self.robot.body.title,
+            family=Text(self.robot.family),
+        )
         self.connection = Connection("connected", words)
 
     def disconnect(self) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from faults import Text, text_of
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 
 from .body import Angles
 from .gait import Walk, plan_joining, plan_walk

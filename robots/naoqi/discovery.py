@@ -16,7 +16,7 @@ from typing import Any
 import msgspec
 import platformdirs
 
-from nep_core.errors import ParameterError
+from robots.errors import WrongAddress
 
 # Where a NAOqi robot is found: the host and port that a person wrote.
 
@@ -29,7 +29,7 @@ Address = tuple[str, int]
 def read_address(text: str) -> Address:
     """Return host and port of text such as ``192.168.1.10``, ``nao.local`` or ``host:9559``.
 
-    Raises ParameterError.
+    Raises WrongAddress.
     """
     host, colon, port = text.strip().rpartition(":")
     if not colon:
@@ -49,8 +49,8 @@ def plain_address(address: Address) -> str:
     return host if port == NAOQI_PORT else f"{host}:{port}"
 
 
-def _not_an_address(text: str) -> ParameterError:
-    return ParameterError(
+def _not_an_address(text: str) -> WrongAddress:
+    return WrongAddress(
         '"{text}" is not the address of a robot.',
         checklist=(
             "Press NAO's chest button once: it says its address, such as 192.168.1.10.",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from faults import Fault, Text, Words, text_of
-from nep_core.errors import ParameterError
+from robots.errors import WrongAddress
 
 from .client.session import Session
 from .discovery import Address, plain_address, read_address
@@ -98,7 +98,7 @@ def _steps(text: str, login: Login | None, robot: str) -> Iterator[Check]:
 def _read(text: str) -> Address:
     try:
         return read_address(text)
-    except ParameterError as problem:
+    except WrongAddress as problem:
         raise _failed("name", problem.fault) from problem
 
 

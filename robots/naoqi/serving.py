@@ -12,9 +12,9 @@ import threading
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from nep_core.wire.messages import ActionRequest, ActionResult, RobotState
 from robots.body.actor import FINAL, Actor
 from robots.body.limbs import Limb
+from robots.body.messages import ActionRequest, ActionResult, RobotState
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Command
 

@@ -194,7 +194,8 @@ def test_a_part_is_added_with_the_slots_that_it_has(language, slots, fields, rea
 def paste(language, *blocks: Block) -> str | None:
     editor = Editor(Project(), language)
     roots = (blocks[0].id,)
-    return editor.why_not(CreateBlocks(roots, blocks, NewStack("behaviour", "s1", 0, 0, 0)))
+    reason = editor.why_not(CreateBlocks(roots, blocks, NewStack("behaviour", "s1", 0, 0, 0)))
+    return None if reason is None else str(reason)
 
 
 def test_blocks_from_a_clipboard_are_checked_like_those_from_a_file(language):

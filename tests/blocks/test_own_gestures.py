@@ -60,7 +60,7 @@ def learn(editor: Editor, *names: str) -> None:
 
 
 def why(editor: Editor) -> list[str]:
-    return [problem.sentence for problem in check(editor.project, editor.language)]
+    return [str(problem.sentence) for problem in check(editor.project, editor.language)]
 
 
 def test_gestures_recordings_and_what_was_learned_are_in_the_file(editor, language, tmp_path):

@@ -16,11 +16,21 @@ import pytest
 from nep_core.networks import master_messages as says
 from nep_core.networks.master import Master
 from nep_core.networks.master_messages import ask_to_stop
+from nep_core.networks.security.curve import NOT_LET_IN
 from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.processes import handover
 from nep_core.processes.manifest import read_manifest
 from nep_core.wire import frames, outbox
-from nep_core.wire.messages import BY_TOPIC, LATCHED, NodeEvent
+from nep_core.wire.messages import (
+    BY_TOPIC,
+    LATCHED,
+    PROCESS_ENDED,
+    PROCESS_RESTARTS,
+    PROCESS_STOPPED,
+    NodeEvent,
+)
 from nep_core.wire.pubsub import Publisher
+from nodes.sensory.arm.gestures import MAKES_GESTURE
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "wire.md").read_text(encoding="utf-8")
 BLOCK = re.compile(r"^ *```(\w+) ?(.*)\n((?:.*\n)*?) *```$", re.MULTILINE)
@@ -82,6 +92,29 @@ def test_the_messages_of_topics_are_as_our_nodes_send_them() -> None:
         if kind == "json" and words.startswith("message "):
             read = msgspec.json.decode(text, type=BY_TOPIC[words.removeprefix("message ")])
             assert_has(json.loads(msgspec.json.encode(read)), json.loads(text))
+
+
+def test_the_fault_that_a_node_hands_over_is_read_with_its_values_and_steps(tmp_path: Path) -> None:
+    (text,) = blocks("json", "fault")
+    place = tmp_path / "fault.json"
+    place.write_text(text, encoding="utf-8")
+
+    fault = handover.take(place)
+
+    assert fault is not None
+    assert fault.code == "name_taken"
+    assert str(fault) == 'A node named "shake" is already running (process 4711).'
+    assert tuple(map(str, fault.checklist)) == (
+        "Give the new node another name.",
+        'Or stop the running "shake" first.',
+    )
+    assert not place.exists()
+
+
+def test_the_page_names_every_code_that_means_the_same_from_every_node() -> None:
+    codes = (PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED, NOT_LET_IN, MAKES_GESTURE)
+
+    assert [code for code in codes if f"| `{code}` |" not in PAGE] == []
 
 
 def test_the_frame_is_byte_for_byte_ours() -> None:

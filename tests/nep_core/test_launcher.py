@@ -67,7 +67,7 @@ def test_a_node_that_always_crashes_is_given_up(
 
     outcomes = [ends.get(timeout=20) for _ in range(6)]
     assert [again for _, _, again in outcomes] == [True] * 5 + [False]
-    assert str(outcomes[0][1]) == "weak ended with an error: The lamp broke"
+    assert str(outcomes[0][1]) == "weak ended with an error: The lamp broke."
     assert launched.ended.wait(1)
 
 

@@ -139,7 +139,7 @@ def test_whatever_a_file_says_of_cues_what_is_kept_makes_sense(value: object) ->
 
 @pytest.mark.parametrize("text", ["", "  ", "…", "two\nlines", "!?"])
 def test_a_cue_needs_letters(text: str) -> None:
-    with pytest.raises(ValueError):
+    with pytest.raises(EditRefused):
         own_cue(text)
 
 

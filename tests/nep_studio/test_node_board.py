@@ -143,7 +143,7 @@ def test_new_measures_are_kept_and_are_no_change_of_the_nodes_status(board: Node
     status = board.nodes["karate"]
     assert not is_changed
     assert status.measures == {"rate_hz": 50.0}
-    assert (status.event, status.description) == ("running", "listens")
+    assert (status.event, str(status.fault)) == ("running", "listens")
 
 
 def test_a_node_that_starts_anew_has_measured_nothing(board: NodeBoard) -> None:

@@ -15,11 +15,10 @@ import pytest
 from nep_core.processes import launcher
 from nep_core.processes.process import Outcome
 from nep_core.wire import messages as m
-from nep_studio.problems import Problem
 from nep_studio.run import session as sessions
 from nep_studio.run.local_network import free_endpoint
 from nep_studio.run.plan import REPLAY, PlannedNode
-from nep_studio.run.session import PROGRAM, Ending, Session
+from nep_studio.run.session import PROGRAM, Session
 
 WAIT_S = 20.0
 FOR_EVER = "from nep_core import wait\nwait(600)"
@@ -66,7 +65,11 @@ raise RobotNotAnswering("NAO does not answer.", checklist=("Is NAO switched on?"
 
     steps = ("Is NAO switched on?", "Is it near?")
     sentence = "NAO does not answer."
-    assert ending == Ending(Problem("The program stopped with an error", sentence, steps), line=3)
+    assert ending.line == 3
+    assert ending.problem is not None
+    assert ending.problem.title == "The program stopped with an error"
+    assert str(ending.problem.sentence) == sentence
+    assert tuple(map(str, ending.problem.checklist)) == steps
 
 
 def test_only_the_programs_own_failure_is_its_problem(tmp_path: Path) -> None:
@@ -99,7 +102,7 @@ def test_a_failure_that_comes_after_the_programs_end_still_names_its_line(tmp_pa
     waiting._changed = Late()
     ending = waiting._program_ending(Outcome(PROGRAM, 1))
 
-    assert (ending.problem and ending.problem.sentence, ending.line) == ("Late.", 7)
+    assert (ending.problem and str(ending.problem.sentence), ending.line) == ("Late.", 7)
 
 
 def test_a_recording_that_is_given_up_is_a_problem(
@@ -116,7 +119,7 @@ def test_a_recording_that_is_given_up_is_a_problem(
         psutil.Process(heard.wait_for("recording", "ready").pid).kill()
         ending = running.wait(WAIT_S)
 
-    assert ending == Ending(Problem("The recording stopped", "recording was killed."))
+    assert str(ending.problem) == "The recording stopped\nrecording was killed."
 
 
 def test_a_stopped_node_is_heard_to_stop_and_a_session_may_be_stopped_twice(

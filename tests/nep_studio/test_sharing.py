@@ -12,6 +12,7 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from faults import fault_of
 from nep_core.errors import NepError, PairingError
 from nep_core.networks import transports
 from nep_core.networks.security import KEYS_VARIABLE
@@ -180,7 +181,7 @@ def test_what_guards_tell_of_refused_programs_is_read() -> None:
         ("own_program", ""),
         ("unable", "tcp://192.0.2.8:5000"),
     ]
-    assert list(refusals_in("NAO is warm.")) == []
+    assert list(refusals_in(fault_of("NAO is warm."))) == []
 
 
 def test_an_address_is_read_as_it_is_shown() -> None:

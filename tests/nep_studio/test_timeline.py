@@ -7,10 +7,11 @@ from collections.abc import Iterator
 
 import pytest
 
+from faults import plain
 from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.commands.run import Printer
-from nep_studio.problems import Problem, plain
+from nep_studio.problems import Problem
 from nep_studio.run.installation import studio_language
 from nep_studio.run.timeline import MOST_ACTIONS, Timeline
 

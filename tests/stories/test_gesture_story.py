@@ -23,8 +23,8 @@ from pytestqt.qtbot import QtBot
 import dev
 from nep_core.wire import messages as m
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
+from nep_studio.ui.plugins.gestures import TrainerPanel
 from nep_studio.ui.plugins.gestures.page import TrainerPage
-from nep_studio.ui.plugins.gestures.panel import TrainerPanel
 from nep_studio.ui.plugins.watches.dialog import WatchDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from nodes.perceptual.recognition.streams import takes_of

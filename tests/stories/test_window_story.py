@@ -17,7 +17,7 @@ from pytestqt.qtbot import QtBot
 
 from benchmarks.virtual_display import missing_programs
 from nep_core.wire import messages as m
-from nep_studio.ui.running.control import NeedsDialog
+from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.checklist.conftest import home, studio, window
 from tests.ui.checklist.person import Key, Person

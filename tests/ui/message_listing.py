@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from message_sources import ROOT, in_order, last_name, parsed, template
+from message_sources import ROOT, errors, in_order, last_name, literal, parsed
 
-ROOMS = ("nep_core", "nodes", "nep_studio")
+ROOMS = ("nep_core", "nodes", "nep_studio", "robots")
 NOT_SHOWN = (
     "nep_core/cli/",
-    "nep_core/gateway/",
+    "nep_core/networks/gateway/",
     "nep_core/networks/security/curve.py",
     "nep_studio/commands/",
     "nodes/perceptual/recognition/command.py",
@@ -23,6 +23,8 @@ NOT_SHOWN = (
 
 PROBLEM_OF_BLOCKS = ("error", "warning", "info")
 """With what a problem that is drawn at a block begins."""
+
+TAKE_WORDS = ("tr", "count_words", "Text", "text_of")
 
 CALM = ("info", "success")
 """Kinds of messages that ask nothing of a person."""
@@ -49,7 +51,6 @@ class Said:
         return f"{self.place}:{self.line} {self.made_by}: {self.words}"
 
 
-CLASS = re.compile(r"^[ \t]*class (\w+)\(([^)]*)\):", re.MULTILINE)
 MADE_BY = ("Message", "Problem", "BlockProblem", "refuse", "confirm", "Told")
 """What makes messages besides errors."""
 
@@ -63,21 +64,15 @@ def _place(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
 
 
-@cache
-def errors() -> frozenset[str]:
-    """The names of all errors that a person can act on."""
-    found = {"NepError", "BlocksError"}
-    told = (found for path in _files() for found in CLASS.findall(path.read_text("utf-8")))
-    classes = [(name, set(re.findall(r"\w+", parents))) for name, parents in told]
-    while new := {name for name, parents in classes if found & parents} - found:
-        found |= new
-    return frozenset(found)
+def _errors() -> frozenset[str]:
+    """Those that are shown as messages of their own."""
+    return errors("NepError", "BlocksError")
 
 
 @cache
 def messages() -> tuple[Said, ...]:
     """Every message, in the order of the sources."""
-    makes = re.compile(rf"\b({'|'.join((*MADE_BY, *errors()))})\(")
+    makes = re.compile(rf"\b({'|'.join((*MADE_BY, *_errors()))})\(")
     files = [path for path in _files() if makes.search(path.read_text("utf-8"))]
     return tuple(
         said
@@ -115,7 +110,7 @@ def _arguments(
     call: ast.Call, name: str
 ) -> tuple[str, list[ast.expr | None], ast.expr | None] | None:
     """The kind of a message, the words of its title and sentence, and its checklist."""
-    if name in errors():
+    if name in _errors():
         return "error", [_argument(call, 0, "sentence")], _argument(call, None, "checklist")
     if name == "Message":
         words = [_argument(call, 1, "title"), _argument(call, 2, "sentence")]
@@ -158,7 +153,7 @@ def _words(node: ast.expr | None) -> str:
 
 
 def _text(node: ast.expr | None) -> str:
-    """A text, or the text of ``tr(...)``; nothing for what is only known when it runs."""
-    if isinstance(node, ast.Call) and last_name(node.func) in ("tr", "count_words"):
+    """A text, or that of ``tr(...)``; nothing for what is only known when it runs."""
+    if isinstance(node, ast.Call) and last_name(node.func) in TAKE_WORDS and node.args:
         return _text(node.args[0])
-    return "" if node is None else template(node)
+    return "" if node is None else literal(node)

@@ -1,35 +1,12 @@
-"""What the sentences of the program are put together from: no one text of a source has it all."""
+"""The words that sentences take from tables of the sources; no call names them one by one."""
 
 from __future__ import annotations
 
 PARTS = {
     "nep_studio/__main__.py": ["A file could not be read or written"],
     "nep_studio/commands/run.py": ["This project cannot be played like that"],
-    "nep_studio/blocks/slots.py": [
-        "nothing",
-        "the number {value}",
-        "a very large number",
-        "the text {value}",
-        "a list or a group of values",
-    ],
-    "nep_studio/blocks/file_text.py": [
-        " at line {number}",
-        " at line {line}, block {block}",
-        " at block {block}",
-        "its beginning",
-        "a whole number",
-        "a group of values",
-        "at {place}: “{missing}” is missing.",
-        "at {place}: this is not what belongs here.",
-        "at {place}: {wanted} belongs here, not {told}.",
-    ],
-    "nep_studio/blocks/files.py": [
-        "in no stack",
-        "inside itself",
-        "the system gives no reason",
-        "a text in it cannot be written",
-    ],
-    "nep_studio/blocks/edit_rules.py": ["1 place", "{count} places"],
+    "nep_studio/blocks/file_text.py": ["a whole number", "a group of values"],
+    "nep_studio/blocks/edit_rules.py": ["1 place"],
     "nep_studio/blocks/operations/copying.py": ["The clipboard"],
     "nep_studio/blocks/checks/flow.py": ["A robot cannot walk after the posture “{label}”."],
     "nep_studio/project/triggers.py": ["A letter or a digit is needed."],
@@ -46,14 +23,6 @@ PARTS = {
         "true or false",
         "one of the choices",
         "the name of a file",
-        'The node {id} needs the setting "{name}": {help}',
-        "ready_s is {ready_s}, but 0 to {most_ready_s} s can be",
-        "its command has an empty word",
-        'the topic "{topic}" does not begin with /',
-        '"{name}" cannot name a setting: use letters, digits and _',
-        'the setting "{name}" has limits, but is no number',
-        'the setting "{name}" has a minimum above its maximum',
-        'the setting "{name}" has no choices',
     ],
     "nep_core/processes/process.py": [
         "{node} was killed",
@@ -66,20 +35,16 @@ PARTS = {
         "{node} was stopped",
         "{node} ended by itself",
         "{node} ended because the program that started it is gone",
-        "{node} ended with an error: {reason}",
-        "exit code {code}",
     ],
     "nodes/cognitive/failures.py": [
         "a number",
         "a text",
         "a list",
         "true or false",
-        "nothing",
         "a robot",
         "a block",
         "something else",
     ],
-    "robots/body/animations.py": ["animation"],
     "robots/body/repertoire.py": ["animal"],
     "robots/body/gaze.py": [
         "a face",
@@ -89,18 +54,11 @@ PARTS = {
         "the mark {name}",
     ],
     "robots/body/surroundings.py": ["a person", "a ball", "a wall"],
-    "robots/naoqi/driver/moving.py": ["locked", "released"],
     "robots/naoqi/client/reaching.py": [
         "does not accept this user and password",
         "wants a user and a password",
     ],
-    "robots/body/body.py": [
-        "head",
-        "left arm",
-        "right arm",
-        "left leg",
-        "right leg",
-    ],
+    "robots/body/body.py": ["head", "left arm", "right arm", "left leg", "right leg"],
     "robots/body/tasks.py": [
         "gesture",
         "standing",
@@ -125,29 +83,14 @@ PARTS = {
         "Checking what it learned…",
         "Keeping what it learned…",
     ],
-    "nodes/recordings.py": [
-        "Line {line_number} of {name}",
-        "about {samples}",
-        "more than {samples}",
-        "nothing",
+    "nep_core/cli/node.py": [
+        "The node {id} has no function run(node, ...) in {module}.",
+        "Write one: def run(node, **parameters).",
     ],
-    "nodes/sensory/line_reader.py": ['{sender} sends a line that cannot be read: "{unreadable}"'],
-    "nodes/sensory/connectors/connector.py": ["from this computer only", "from the network"],
-    "nodes/sensory/connectors/lines.py": [
-        "waits for a watch on UDP port {port} ({where})",
-        "waits for a watch on TCP port {port} ({where})",
-    ],
-    "nodes/sensory/connectors/sensor_logger.py": [
-        "waits for Sensor Logger on HTTP port {port} ({where})"
-    ],
-    "nodes/sensory/connectors/phyphox.py": ["asks phyphox at {host}, port {port}"],
-    "nodes/sensory/connectors/sensor_server.py": [
-        "connects to SensorServer at {host}, port {port}"
-    ],
-    "nodes/sensory/virtual_watch.py": [
-        "simulated person {number}",
-        "makes the gesture {gesture} (simulated person {number})",
-        "goes on with everyday movement",
+    "nodes/sensory/hearing.py": [
+        "{sender} sends {rate_hz} samples a second",
+        "{sender} sends {rate_hz} samples a second, {loss} % get lost",
+        "{sender} sends {rate_hz} samples a second: {columns}",
     ],
 }
 """By the file that says it; values that are words have no sentence of their own."""

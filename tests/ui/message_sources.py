@@ -1,4 +1,4 @@
-"""Collects from the sources the sentences that reach the window with their values filled in."""
+"""Collects from the sources the templates of all that is told to a person, window or not."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 import gc
 import re
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 
@@ -16,13 +16,11 @@ from nep_studio import paths
 
 ROOT = Path(paths.__file__).parent.parent
 SOURCES = (
-    "nep_studio/*.py",
-    "nep_studio/blocks/**/*.py",
-    "nep_studio/ui/**/*.py",
-    "nep_core/*.py",
-    "nep_core/over_zenoh/*.py",
-    "nep_core/security/*.py",
+    "faults/*.py",
+    "nep_studio/**/*.py",
+    "nep_core/**/*.py",
     "nodes/**/*.py",
+    "robots/**/*.py",
 )
 """Where checks, refusals, errors and nodes say what they have to say."""
 
@@ -30,10 +28,8 @@ LEFT_OUT = (
     # Errors of those who write block packs, translations and themes: these are told in English.
     "nep_studio/blocks/definitions.py",
     "nep_studio/blocks/definition_files.py",
-    "nep_studio/blocks/definitions.py",
     "nep_studio/blocks/edits/history.py",
     "nep_studio/blocks/editor.py",
-    "nep_studio/blocks/definition_files.py",
     "nep_studio/blocks/sentence.py",
     "nep_studio/blocks/language.py",
     "nep_studio/ui/theme/colours.py",
@@ -41,37 +37,61 @@ LEFT_OUT = (
 )
 NOT_SHOWN = (
     # What is written into files and terminals.
+    "nep_core/cli/",
+    "nep_core/networks/gateway/",
+    "nep_core/recordings/",
     "nep_studio/__main__.py",
+    "nep_studio/commands/",
+    "nep_studio/help/",
     "nep_studio/run/python_file.py",
-    "nep_studio/support/report.py",
-    "nep_studio/support/report.py",
     "nep_studio/support/report.py",
     "nep_studio/ui/plugins/show/command.py",
     "nep_studio/ui/shell/window_picture.py",
-    "nep_core/networks/zenoh_session.py",
-    "nep_core/recordings/file.py",
-    "nep_core/recordings/player.py",
-    "nep_core/recordings/recorder.py",
     "nodes/perceptual/recognition/command.py",
-    "nodes/perceptual/recognition/training.py",
     # What the robot on the screen answers to programs of others, in the language of NAOqi.
     "robots/naoqi/server/directory.py",
     "robots/naoqi/wire/service.py",
 )
-STILL_SAID = {"This place takes {noun}, not a value that is typed."}
+STILL_SAID = {
+    "This place takes {noun}, not a value that is typed.",
+    "“{value}” is not one of: {offered}.",
+}
 """What of these a person can meet."""
+IN_A_TERMINAL = {
+    "  Everyday movement: not checked, no such recording was given.",
+    " minutes.",
+    " times or more: it will be recognised better.",
+    ": not checked. To check it, record each gesture at least twice.",
+}
+"""What a file whose sentences are shown prints beside."""
 
-TELLING = (ast.Expr, ast.Constant, ast.JoinedStr, ast.ClassDef, ast.Call, ast.keyword)
+TELLING = (ast.Expr, ast.Constant, ast.ClassDef, ast.Call, ast.keyword, ast.Assign, ast.AnnAssign)
 """The parts of a source that can tell something."""
 
 FOR_PROGRAMMERS = ("ValueError", "TypeError")
-STATES = {"ready": 0, "warn": 0, "state": 1, "Connection": 1}
-"""Where nodes tell how they are doing: which argument; these sentences need no full stop."""
+OF_THE_WINDOW = ("tr", "count_words")
+"""What is given to these stands in the part [window] of a table, the rest in [messages]."""
+
+TEMPLATES = {
+    "Text": 0,
+    "text_of": 0,
+    "fault_of": 0,
+    "told": 0,
+    "advise": 0,
+    "warn": 0,
+    "ready": 0,
+    "state": 1,
+    "refuse": 0,
+    "Connection": 1,
+}
+"""What takes a template, beside errors, and in which place."""
 
 NO_SENTENCES = re.compile(
-    r"Made with NEP Studio|^[^A-Za-z]*$|^(\{\w+\}[.:]? ?)+\.?$|^range\(|^  \[ \] |^ - |^# "
+    r"Made with NEP Studio|^[^A-Za-z]*$|^(\{\w+\}[.:]? ?)+\.?$|^range\(|^  \[ \] |^ - |^# |^\(#"
 )
 ENDINGS = re.compile(r"[.?]$|\{(reason|sentence|fault|description|why)\}$")
+CLASS = re.compile(r"^[ \t]*class (\w+)\(([^)]*)\):", re.MULTILINE)
+ROOMS = ("faults", "nep_core", "nodes", "nep_studio", "robots")
 
 
 def parsed(paths: Iterable[Path]) -> Iterator[tuple[Path, list[ast.AST]]]:
@@ -88,7 +108,7 @@ def parsed(paths: Iterable[Path]) -> Iterator[tuple[Path, list[ast.AST]]]:
 
 @cache
 def templates() -> frozenset[str]:
-    """Every sentence of the sources, with a readable name at each place that is filled in."""
+    """Every template of the sources; the places to be filled in have names."""
     return frozenset(templates_in_order())
 
 
@@ -104,8 +124,20 @@ def files() -> Iterator[Path]:
     """The files that say something to a person."""
     for pattern in SOURCES:
         for path in sorted(ROOT.glob(pattern)):
-            if path.relative_to(ROOT).as_posix() not in NOT_SHOWN:
+            if not path.relative_to(ROOT).as_posix().startswith(NOT_SHOWN):
                 yield path
+
+
+@cache
+def errors(*families: str) -> frozenset[str]:
+    """The names of all errors that tell something, or of those of some families."""
+    found = set(families or ("FaultError",))
+    paths = [path for room in ROOMS for path in sorted((ROOT / room).rglob("*.py"))]
+    told = (found for path in paths for found in CLASS.findall(path.read_text("utf-8")))
+    classes = [(name, set(re.findall(r"\w+", parents))) for name, parents in told]
+    while new := {name for name, parents in classes if found & parents} - found:
+        found |= new
+    return frozenset(found)
 
 
 def _of_manifests() -> Iterator[str]:
@@ -121,13 +153,16 @@ def _of_file(path: Path, nodes: list[ast.AST]) -> Iterator[str]:
     place = path.relative_to(ROOT).as_posix()
     nodes = [node for node in nodes if isinstance(node, TELLING)]
     silent = {id(part) for node in nodes for part in _silent(node)}
+    constants = dict(_constants(nodes))
+    is_said = place not in LEFT_OUT
     for node in in_order(nodes):
-        yield from filter(None, map(template, _told(node)))
-        words = "" if id(node) in silent else template(node)
-        is_said = place not in LEFT_OUT or words in STILL_SAID
-        is_sentence = " " in words and ENDINGS.search(words) and not NO_SENTENCES.search(words)
-        if is_said and is_sentence:
-            yield words
+        given = [words for one in given_to_tell(node) for words in literals(one, constants)]
+        words = "" if id(node) in silent else literal(node)
+        is_sentence = " " in words and ENDINGS.search(words)
+        for told in [*given, *([words] if is_sentence else [])]:
+            is_shown = told in STILL_SAID or (is_said and told not in IN_A_TERMINAL)
+            if is_shown and not NO_SENTENCES.search(told):
+                yield told
 
 
 def in_order(nodes: Iterable[ast.AST]) -> list[ast.AST]:
@@ -139,31 +174,75 @@ def _silent(node: ast.AST) -> Iterator[ast.AST]:
     """Docstrings, what is logged or told to programmers, words of tr(), parts of others."""
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         yield node.value
-    elif isinstance(node, ast.JoinedStr):
-        yield from (part for part in ast.walk(node) if part is not node)
     elif isinstance(node, ast.Call):
-        if _is_log(node.func) or _name(node.func) in ("tr", "count_words", *FOR_PROGRAMMERS):
+        if _is_log(node.func) or _name(node.func) in (*OF_THE_WINDOW, *FOR_PROGRAMMERS):
+            yield from ast.walk(node)
+        if last_name(node.func) == "compile":
             yield from ast.walk(node)
     elif isinstance(node, ast.keyword) and node.arg == "details":
         yield from ast.walk(node)
 
 
-def _told(node: ast.AST) -> Iterator[ast.AST]:
-    """Titles of errors and problems, labels of fixes, states of nodes."""
+def given_to_tell(node: ast.AST) -> Iterator[ast.expr]:
+    """What a part of a source gives as a template to what tells it to a person."""
     if isinstance(node, ast.ClassDef):
         for line in node.body:
-            if isinstance(line, ast.Assign) and ast.unparse(line.targets[0]) == "title":
+            is_set = isinstance(line, ast.Assign | ast.AnnAssign) and line.value is not None
+            if is_set and ast.unparse(_target(line)) == "title":
                 yield line.value
     elif isinstance(node, ast.Call):
         name = last_name(node.func)
         if name == "Fix":
             yield node.args[1]
-        elif name == "Problem" and node.args and " " in template(node.args[0]):
-            yield node.args[0]
-        elif name in STATES:
-            yield from node.args[STATES[name] :][:1]
+        elif name == "Problem" and node.args:
+            yield from node.args[:2] if _is_of_a_session(node) else node.args[4:5]
+        elif name in errors():
+            yield from node.args[:1]
+        elif name in TEMPLATES and not _is_log(node.func):
+            yield from node.args[TEMPLATES[name] :][:1]
     elif isinstance(node, ast.keyword) and node.arg == "checklist":
-        yield from node.value.elts if isinstance(node.value, ast.Tuple) else ()
+        yield from node.value.elts if isinstance(node.value, ast.Tuple | ast.List) else ()
+
+
+def _is_of_a_session(call: ast.Call) -> bool:
+    """Whether a problem has a title first, and not how bad it is, as those of blocks have."""
+    first = call.args[0]
+    return not (isinstance(first, ast.Constant) and " " not in str(first.value))
+
+
+def _constants(nodes: Iterable[ast.AST]) -> Iterator[tuple[str, ast.expr]]:
+    for node in nodes:
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+            target = _target(node)
+            if isinstance(target, ast.Name) and target.id.isupper():
+                yield target.id, node.value
+
+
+def _target(node: ast.Assign | ast.AnnAssign) -> ast.expr:
+    return node.targets[0] if isinstance(node, ast.Assign) else node.target
+
+
+def literals(node: ast.expr, constants: Mapping[str, ast.expr]) -> Iterator[str]:
+    """The texts that an argument can be: one, one of several, or a constant of the file."""
+    match node:
+        case ast.IfExp(body=body, orelse=orelse):
+            yield from literals(body, constants)
+            yield from literals(orelse, constants)
+        case ast.BoolOp(values=values):
+            for value in values:
+                yield from literals(value, constants)
+        case ast.Name(id=name) if name in constants:
+            yield from literals(constants[name], {})
+        case ast.Call(func=function, args=[first, *_]) if last_name(function) in TEMPLATES:
+            yield from literals(first, constants)
+        case ast.Constant(value=str(words)) if words:
+            yield words
+
+
+def literal(node: ast.AST) -> str:
+    """A text that stands there; nothing for anything else."""
+    is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
+    return node.value if is_text else ""
 
 
 def _is_log(function: ast.expr) -> bool:
@@ -179,56 +258,40 @@ def last_name(node: ast.expr) -> str:
     return node.attr if isinstance(node, ast.Attribute) else _name(node)
 
 
-def template(node: ast.AST) -> str:
-    """The words of a text or of an f-string; nothing for anything else."""
-    if isinstance(node, ast.Constant):
-        return node.value if isinstance(node.value, str) else ""
-    if not isinstance(node, ast.JoinedStr):
-        return ""
-    names: list[str] = []
-    words = ""
-    for part in node.values:
-        if isinstance(part, ast.Constant):
-            words += part.value
-        elif isinstance(part, ast.FormattedValue):
-            name = base = place_name(part.value)
-            times = 1
-            while name in names:
-                times += 1
-                name = f"{base}_{times}"
-            names.append(name)
-            words += f"{{{name}}}"
-    return words
+@cache
+def filled_too_early() -> tuple[str, ...]:
+    """Where a template has its values already: nobody could find its translation."""
+    return tuple(
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for path, nodes in parsed(files())
+        for node in nodes
+        for told in given_to_tell(node)
+        if isinstance(told, ast.JoinedStr)
+    )
 
 
-def place_name(node: ast.expr) -> str:
-    """What is filled in, in a word: ``entry.name`` is a name, ``sentence(...)`` a block."""
-    match node:
-        case ast.Name(id=name):
-            return name.strip("_").lower()
-        case ast.Attribute(attr="strerror"):
-            return "reason"
-        case ast.Attribute(attr=name):
-            return name.strip("_").lower()
-        case ast.Call(func=ast.Name(id="sentence")):
-            return "block"
-        case ast.Call(func=ast.Name(id="_name")):
-            return "own_block"
-        case ast.Call(func=ast.Attribute(attr="join"), args=[only]):
-            return place_name(only)
-        case ast.Call(func=ast.Attribute(attr="title" | "rstrip" | "lower", value=owner)):
-            return place_name(owner)
-        case ast.Call(func=ast.Attribute(attr="unparse")):
-            return "code"
-        case ast.Call(func=ast.Name(id="len"), args=[_]):
-            return "count"
-        case ast.Call(func=function):
-            return place_name(function)
-        case ast.Subscript(value=ast.Name(id=name), slice=index) if name.isupper():
-            return place_name(index)
-        case ast.Subscript(value=value) | ast.BinOp(left=value) | ast.BoolOp(values=[value, *_]):
-            return place_name(value)
-        case ast.IfExp(body=body):
-            return place_name(body)
-        case _:
-            return "what"
+@cache
+def unfilled() -> tuple[str, ...]:
+    """Where a template with places is given without the values of all of them."""
+    return tuple(
+        f"{path.relative_to(ROOT)}:{node.lineno} {words}"
+        for path, nodes in parsed(files())
+        for node in nodes
+        if isinstance(node, ast.Call) and all(keyword.arg for keyword in node.keywords)
+        for words in _templates_of(node)
+        if set(re.findall(r"\{(\w+)\}", words)) - {keyword.arg for keyword in node.keywords}
+    )
+
+
+def _templates_of(call: ast.Call) -> Iterator[str]:
+    """The templates of a call that takes their values by name."""
+    name = last_name(call.func)
+    if name in (*OF_THE_WINDOW, *TEMPLATES, *errors()) and name not in (
+        "Text",
+        "told",
+        "Connection",
+    ):
+        at = TEMPLATES.get(name, 0)
+        for argument in call.args[at : at + 1]:
+            if not any(isinstance(part, ast.Call) for part in ast.walk(argument)):
+                yield from literals(argument, {})

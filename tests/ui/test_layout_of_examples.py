@@ -20,11 +20,11 @@ from nep_studio.blocks.language import Language, translated
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.sentence import Group, Part
 from nep_studio.run.installation import studio_language
+from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, TextWidths
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import PageLayout, Placed
 from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
-from nep_studio.ui.canvas.view import ScrollingView
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.look import text_font
 from nep_studio.ui.words import PSEUDO, use_language
@@ -156,9 +156,9 @@ def text_too_wide(piece: Piece, scene: Scene) -> bool:
 
 def marks_width(piece: Piece, measures: Measures) -> float:
     """What the arrow or the drawing in a field takes away from its text."""
-    opens = {"choice", "gesture", "robot", "variable", "state", "date", "settings"}
+    opens = {"choice", "gesture", "robot", "variable", "state", "settings"}
     arrow = 0.75 * (piece.kind in opens)
-    lead = 0.95 * (piece.kind in ("angle", "file"))
+    lead = 0.95 * (piece.kind == "angle")
     return measures.line * (arrow + lead)
 
 
@@ -258,7 +258,7 @@ def test_no_theme_changes_where_blocks_are(qtbot, example, language) -> None:
     places = []
 
     for name in themes():
-        view = ScrollingView(Editor(example, language), load_theme(name), font=font)
+        view = Canvas(Editor(example, language), load_theme(name), font=font)
         qtbot.addWidget(view)
         boxes = view.page_layout.boxes(EVERYWHERE)
         places.append([(placed.box.block, placed.rect) for placed in boxes])

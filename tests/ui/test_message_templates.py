@@ -1,4 +1,4 @@
-"""Sentences whose values are filled in already are told in the language of the person."""
+"""What is told as a template and values is told in the language of the person."""
 
 from __future__ import annotations
 
@@ -11,9 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from message_sources import templates
 
+from faults import Text, filled, told
 from nep_studio import paths
 from nep_studio.ui import words
 from nep_studio.ui.words import available_languages, tr, use_language
+
+NO_GESTURE = "No node of the Nodes page recognises the gesture “{gesture}”."
 
 
 @pytest.fixture(autouse=True)
@@ -26,52 +29,60 @@ def english_again() -> Iterator[None]:
     ("english", "spanish"),
     [
         (
-            "No node of the Nodes page recognises the gesture “wave”.",
+            Text(NO_GESTURE, {"gesture": "wave"}),
             "Ningún nodo de la página Nodos reconoce el gesto “wave”.",
         ),
         (
-            "This place needs a number, and “my text” gives a text.",
+            Text(
+                "This place needs {noun}, and “{block_name}” gives {result}.",
+                {"noun": Text("a number"), "block_name": "my text", "result": Text("a text")},
+            ),
             "Este hueco necesita un número, y “my text” da un texto.",
         ),
-        ("“esperar x”: a question is missing.", "“esperar x”: falta una pregunta."),
-        ("This block belongs on the page Nodes.", "Este bloque va en la página Nodos."),
+        (Text("This block belongs on the page {page}.", {"page": Text("Nodes")}), None),
         (
-            "a.nep cannot be read at line 3: this is not how a project is written.",
-            "a.nep no se puede leer en la línea 3: un proyecto no se escribe así.",
+            Text(
+                "{name}{place} cannot be read: {reason}",
+                {
+                    "name": "a.nep",
+                    "place": Text(" at line {line}", {"line": 3}),
+                    "reason": Text("this is not how a project is written."),
+                },
+            ),
+            None,
         ),
-        (
-            "a.nep cannot be used at line 3, block b2: at fields: a text belongs here, not a list.",
-            "a.nep no se puede usar en la línea 3, bloque b2: en fields: aquí va un texto,"
-            " no una lista.",
-        ),
-        (
-            "The node “G” cannot start. There is no file m.json (model).",
-            "El nodo “G” no puede empezar. No hay ningún archivo m.json (model).",
-        ),
-        ("This own block is used in 3 places. Take those blocks out first.", None),
     ],
 )
-def test_a_filled_sentence_is_told_in_spanish(english: str, spanish: str | None) -> None:
+def test_a_text_is_told_in_spanish(english: Text, spanish: str | None) -> None:
     use_language("es")
 
-    told = tr(english)
+    said = tr(english)
 
-    assert told == spanish if spanish else "3 lugares" in told
+    assert said == spanish if spanish else said != str(english)
 
 
 @pytest.mark.parametrize("name", ["Stop", "Save", "a number", "Nodes", "{x}", "a “b” c", "\n"])
-def test_what_people_wrote_in_quotes_is_never_translated(name: str) -> None:
+def test_what_people_wrote_is_never_translated(name: str) -> None:
     use_language("es")
 
-    assert tr(f"There is a variable “{name}” already.") == f"Ya hay una variable “{name}”."
+    said = tr(Text("There is a variable “{name}” already.", {"name": name}))
+
+    assert said == f"Ya hay una variable “{name}”."
 
 
-def test_every_sentence_is_recognised_in_every_language() -> None:
+def test_a_sentence_that_has_its_values_already_is_left_as_it_is() -> None:
+    """Nobody reads a sentence to find out what it says."""
+    use_language("es")
+    filled = str(Text(NO_GESTURE, {"gesture": "wave"}))
+
+    assert tr(filled) == filled
+
+
+def test_every_sentence_is_told_in_every_language() -> None:
     for code in available_languages().keys() - {"en"}:
         use_language(code)
-        filled = {w: w.format_map(_Values()) for w in templates() - _same(code)}
 
-        assert [w for w, text in filled.items() if tr(text) == text and "“{" not in w] == []
+        assert [one for one in templates() - _same(code) if tr(one) == one] == []
 
 
 def _same(code: str) -> set[str]:
@@ -91,10 +102,10 @@ def test_what_no_check_says_stays_as_it_is() -> None:
 def test_the_made_up_language_keeps_what_is_filled_in() -> None:
     use_language(words.PSEUDO)
 
-    told = tr("No node of the Nodes page recognises the gesture “wave”.")
+    said = tr(Text(NO_GESTURE, {"gesture": "wave"}))
 
-    assert "“wave”" in told
-    assert "gesture" not in told
+    assert "“wave”" in said
+    assert "gesture" not in said
 
 
 @given(st.text(string.printable + "“”{}"))
@@ -102,17 +113,71 @@ def test_any_text_can_be_looked_up(text: str) -> None:
     use_language("de")
 
     assert isinstance(tr(text), str)
+    assert isinstance(tr(Text(text, {"x": text})), str)
 
 
-def test_many_sentences_are_found_each_with_its_own_words() -> None:
-    use_language("it")
-    texts = [f"“block {n}” is under no “when” block and will not run." for n in range(2000)]
+GERMAN = {
+    "{node} was killed": "{node} wurde abgebrochen",
+    "{node} ended with an error: {reason}": "{node} endete mit einem Fehler: {reason}",
+    "{outcome}.": "{outcome}.",
+    "{outcome}; it is started again": "{outcome}; er wird wieder gestartet",
+    "{path} cannot be read: {reason}.": "{path} lässt sich nicht lesen: {reason}.",
+    "permission denied": "keine Erlaubnis",
+}
+JAPANESE = {
+    "{node} ended with an error: {reason}": "{node} がエラーで終わりました: {reason}",
+    "{outcome}.": "{outcome}。",
+    "{path} cannot be read: {reason}.": "{path} を読めません: {reason}。",
+    "permission denied": "許可がありません",
+}
 
-    told = [tr(text) for text in texts]
 
-    assert told[7] == "“block 7” non è sotto nessun blocco “quando” e non verrà eseguito."
+def in_words_of(table: dict[str, str], text: Text) -> str:
+    def look_up(words: Text | str, /, **values: object) -> str:
+        assert isinstance(words, str)
+        return filled(table.get(words, words), values)
+
+    return told(text, look_up)
 
 
-class _Values(dict):
-    def __missing__(self, name: str) -> str:
-        return "7"
+KILLED = Text("{node} was killed", {"node": "karate"})
+FAILED = Text(
+    "{node} ended with an error: {reason}",
+    {
+        "node": "karate",
+        "reason": Text(
+            "{path} cannot be read: {reason}.",
+            {"path": "m.json", "reason": Text("permission denied")},
+        ),
+    },
+)
+
+
+@pytest.mark.parametrize(
+    ("english", "german"),
+    [
+        (KILLED, "karate wurde abgebrochen"),
+        (Text("{outcome}.", {"outcome": KILLED}), "karate wurde abgebrochen."),
+        (
+            Text("{outcome}; it is started again", {"outcome": KILLED}),
+            "karate wurde abgebrochen; er wird wieder gestartet",
+        ),
+        (
+            Text("{outcome}.", {"outcome": FAILED}),
+            "karate endete mit einem Fehler: m.json lässt sich nicht lesen: keine Erlaubnis.",
+        ),
+        (
+            Text("{outcome}; it is started again", {"outcome": FAILED}),
+            "karate endete mit einem Fehler: m.json lässt sich nicht lesen: keine Erlaubnis; "
+            "er wird wieder gestartet",
+        ),
+    ],
+)
+def test_a_sentence_within_another_has_one_full_stop(english: Text, german: str) -> None:
+    assert in_words_of(GERMAN, english) == german
+
+
+def test_japanese_ends_with_its_own_full_stop() -> None:
+    said = in_words_of(JAPANESE, Text("{outcome}.", {"outcome": FAILED}))
+
+    assert said == "karate がエラーで終わりました: m.json を読めません: 許可がありません。"

@@ -11,7 +11,16 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from message_sources import OF_THE_SYSTEM, PARTS, ROOT, last_name, parsed, templates
+from message_sources import (
+    OF_THE_SYSTEM,
+    PARTS,
+    ROOT,
+    filled_too_early,
+    last_name,
+    parsed,
+    templates,
+    unfilled,
+)
 
 from nep_studio import paths
 from nep_studio.blocks.slots import KINDS
@@ -36,11 +45,10 @@ SHOWN = {
 """Functions whose words are shown in the language of the person: which arguments."""
 
 NAMED = {
-    "ui/canvas/slot_looks.py": "HINTS",
-    "ui/canvas/fields/colour_popup.py": "COLOURS",
+    "ui/canvas/fields/colour.py": "COLOURS",
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
-    "blocks/operations/flags.py": "LABELS",
-    "ui/trainer/keeping.py": "LABELS",
+    "blocks/operations/wrapping.py": "LABELS",
+    "ui/plugins/gestures/project_gestures.py": "LABELS",
 }
 """Data whose words are given to tr() one by one."""
 
@@ -118,7 +126,8 @@ def words_of_data() -> Iterator[str]:
 def words_of_slots() -> Iterator[str]:
     for definition in studio_language().definitions.values():
         yield from (slot_name(slot) for slot in definition.slots.values())
-    yield from (kind.noun for kind in KINDS.values())
+    for kind in KINDS.values():
+        yield from (kind.noun, kind.hint, kind.unit.strip("°"))
 
 
 def words_of_examples() -> Iterator[str]:
@@ -166,6 +175,11 @@ def test_the_words_of_the_window_are_found() -> None:
 
 def test_no_words_are_filled_in_before_they_are_translated() -> None:
     assert found_in_sources().filled == []
+    assert filled_too_early() == ()
+
+
+def test_every_place_of_a_template_is_given_a_value() -> None:
+    assert unfilled() == ()
 
 
 def test_a_table_has_all_words_of_the_window(table) -> None:

@@ -7,9 +7,10 @@ from pathlib import Path
 from PySide6.QtCore import qInstallMessageHandler
 
 from nep_studio.settings import Settings
+from nep_studio.ui.actions import on_the_canvas, shortcuts_of
 from nep_studio.ui.plugins.help.repository import Rows
-from nep_studio.ui.shell.app import Studio, make_application
-from nep_studio.ui.shell.help_dialogs import on_the_canvas, shortcuts_of
+from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.app import make_application
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.theme.look import load_fonts
 
@@ -29,7 +30,7 @@ class Shortcuts:
         settings.language = language
         studio = Studio(self._app, settings)
         window = MainWindow(studio)
-        assert window.later.help_desk is not None  # it comes last: then all actions are there
+        assert window.later.is_done  # it comes last: then all actions are there
         rows = [*shortcuts_of(window.actions_by_name.by_name.values()), *on_the_canvas()]
         window.workbench.retire()
         window.deleteLater()

@@ -18,7 +18,7 @@ import zmq
 from zmq.utils import z85
 from zmq.utils.monitor import parse_monitor_message
 
-from faults import text_of
+from faults import Fault, Text, text_of, verbatim
 from nep_core.errors import NetworkError, NotLetIn
 from nep_core.wire.io_thread import Wake
 
@@ -31,9 +31,14 @@ log = logging.getLogger(__name__)
 
 # Who was refused, and whom we could not talk to, gathered into one sentence at a time.
 
+MOST_TOLD = 3
 MOST_PLACES = 20
 """So many are told apart; somebody who knocks from everywhere fills no memory."""
 
+
+NOT_LET_IN = "not_let_in"
+"""The code of what is told. Its values say who: ``stranger``, ``own_program`` and ``unable``, of
+which each is a text with a list of ``addresses``."""
 
 REPEAT_S = 4.0
 """The same sentence is told again after so long: who is refused goes on knocking."""
@@ -47,7 +52,7 @@ class Refusals:
         self._lock = threading.Lock()
         self._refused: set[str] = set()
         self._unable: set[str] = set()
-        self._last = ""
+        self._last: Fault | None = None
         self._repeat_s = 0.0
 
     def refuse(self, address: str) -> None:
@@ -62,61 +67,65 @@ class Refusals:
             if len(self._unable) < MOST_PLACES:
                 self._unable.add(endpoint)
 
-    def take(self) -> str:
-        """What happened since the last time and what to do; "" when nothing did."""
+    def take(self) -> Fault | None:
+        """What happened since the last time and what to do; None when nothing did."""
         with self._lock:
             refused, self._refused = self._refused, set()
             unable, self._unable = self._unable, set()
-        sentence = " ".join(filter(None, (self._about_refused(refused), _about_unable(unable))))
+        told = self._about_refused(refused) | _about_unable(unable)
         now_s = time.monotonic()
-        if not sentence or (sentence == self._last and now_s < self._repeat_s):
-            return ""
-        self._last, self._repeat_s = sentence, now_s + REPEAT_S
-        return sentence
+        if not told:
+            return None
+        fault = Fault(NOT_LET_IN, text_of(" ".join(f"{{{kind}}}" for kind in told), **told))
+        if fault == self._last and now_s < self._repeat_s:
+            return None
+        self._last, self._repeat_s = fault, now_s + REPEAT_S
+        return fault
 
-    def _about_refused(self, addresses: set[str]) -> str:
-        if not addresses:
-            return ""
+    def _about_refused(self, addresses: set[str]) -> dict[str, Text]:
         own = set(own_addresses())
         ours = {address for address in addresses if address in own or is_loopback(address)}
         others = addresses - ours
         if addresses != {""}:  # one that left too early to be seen adds nothing
             others.discard("")
-        sentences = []
+        told = {}
         if others:
-            sentences.append(
-                text_of(
-                    "A program at {places} showed no key of this network and was refused. Pair "
-                    "that computer (nep pair), or stop the program there.",
-                    places=_places(others),
-                )
+            told["stranger"] = text_of(
+                "A program at {places} showed no key of this network and was refused. Pair "
+                "that computer (nep pair), or stop the program there.",
+                places=_places(others),
+                addresses=sorted(others),
             )
         if ours:
-            sentences.append(
-                text_of(
-                    "A program of this computer showed no key of this network and was refused. Set "
-                    "NEP_KEYS to {key_file} before you start it.",
-                    key_file=self._key_file,
-                )
+            told["own_program"] = text_of(
+                "A program of this computer showed no key of this network and was refused. Set "
+                "NEP_KEYS to {key_file} before you start it.",
+                key_file=self._key_file,
+                addresses=[""],
             )
-        return " ".join(map(str, sentences))
+        return told
 
 
-def _about_unable(endpoints: set[str]) -> str:
+def _about_unable(endpoints: set[str]) -> dict[str, Text]:
     if not endpoints:
-        return ""
+        return {}
     told = text_of(
         "The program at {places} does not have the keys of this network, or does not know ours. "
         "Start it with NEP_KEYS, or pair the two computers.",
         places=_places(endpoints),
+        addresses=sorted(endpoints),
     )
-    return str(told)
+    return {"unable": told}
 
 
-def _places(places: Iterable[str]) -> str:
-    known = sorted(filter(None, places)) or ["an unknown address"]
-    more = f" and {len(known) - 3} more" if len(known) > 3 else ""
-    return ", ".join(known[:3]) + more
+def _places(places: Iterable[str]) -> Text:
+    known = sorted(filter(None, places))
+    if not known:
+        return text_of("an unknown address")
+    if len(known) <= MOST_TOLD:
+        return verbatim(", ".join(known))
+    more = len(known) - MOST_TOLD
+    return text_of("{places} and {more} more", places=known[:MOST_TOLD], more=more)
 
 
 # The doorkeeper of one ZeroMQ context: which peers' keys are let in, and who was refused.
@@ -381,8 +390,8 @@ class Security:
         """Let in these keys from now on: the master tells which computers there are."""
         self._told = frozenset(keys)
 
-    def take_warning(self) -> str:
-        """Who was refused since the last time, and what to do; "" when nobody was."""
+    def take_warning(self) -> Fault | None:
+        """Who was refused since the last time, and what to do; None when nobody was."""
         return self._refusals.take()
 
 

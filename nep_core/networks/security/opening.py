@@ -11,13 +11,14 @@ from pathlib import Path
 import msgspec
 import zmq
 
+from faults import Fault
 from nep_core.errors import KeyFileError, NepError
 from nep_core.networks import discovery
 from nep_core.networks import master_messages as says
 from nep_core.networks.endpoints import check_endpoint, fixed_endpoint
 from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration, Registry
-from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.messages import NODE_STATE, NodeState, described
 from nep_core.wire.pubsub import Publisher
 
 from .addresses import endpoint_at, lan_address
@@ -193,18 +194,18 @@ class ServiceVoice:
         self._network: Network | None = None
         self._states: Publisher | None = None
 
-    def warn(self, sentence: str) -> None:
+    def warn(self, fault: Fault) -> None:
         """Tell of something that a person should look at."""
-        log.warning("%s", sentence)
+        log.warning("%s", fault)
         try:
             self._publisher().send(
                 NodeState(
                     node=self._name,
                     type="cognitive",  # the four types are of nodes, which this is not
                     event="warning",
-                    description=sentence,
                     pid=os.getpid(),
                     host=socket.gethostname(),
+                    **described(fault),
                 )
             )
         except NepError as error:

@@ -17,14 +17,15 @@ from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 
-from .problem import Problem, Severity, page_of
+from .problem import Found, Problem, Severity, page_of
 
 
-def check_blocks(project: Project, language: Language) -> Iterator[Problem]:
+def check_blocks(project: Project, language: Language) -> Found:
     """Problems of single blocks, on all pages; disabled blocks have none."""
     for page, stacks in project.pages.items():
         for stack in stacks:
             for block in project.within(stack.body, enabled=True):
+                yield None
                 definition = language.definitions.get(block.type)
                 if definition is None:
                     yield _unknown(page, block)
@@ -99,26 +100,14 @@ def _why_not_filled(
     slot: Slot,
 ) -> _Wrong | None:
     """The kind, the sentence and the checklist of what is wrong with a slot, or None."""
-    value, kind = definition.value(block, key), slot.kind.name
-    if kind == "boolean":
-        return (
-            "empty_slot",
-            Text("a question is missing."),
-            "Put a six-sided block into the slot.",
-        )
-    if kind == "list":
-        return ("empty_slot", Text("a list is missing."), "Put a list or a variable into the slot.")
-    if kind == "variable" and project.variable(str(value)) is None:
+    value, kind = definition.value(block, key), slot.kind
+    if kind.missing is not None and not (kind.typed and str(value).strip()):
+        return ("empty_slot", kind.missing, kind.advice)
+    if kind.name == "variable" and project.variable(str(value)) is None:
         return (
             "no_variable",
             Text("no variable is chosen."),
             "Choose a variable, or make a new one.",
-        )
-    if kind in ("state", "gesture", "robot") and not str(value).strip():
-        return (
-            "empty_slot",
-            text_of("{noun} is missing.", noun=Text(slot.kind.noun)),
-            "Choose or type one.",
         )
     reason = language.why_not_choice(slot, value, block, key)
     if reason is not None:
@@ -161,13 +150,14 @@ class _Place(NamedTuple):
     apart: bool = False
 
 
-def check_inside(project: Project, language: Language) -> Iterator[Problem]:
+def check_inside(project: Project, language: Language) -> Found:
     """Blocks that mean nothing where they are."""
     for chain in chains(project, language):
         hat = project.blocks[chain[0]]
         start = _Place(procedure_of(hat.type) if hat.type.startswith(DEFINE) else "")
         waiting = [(block_id, start) for block_id in reversed(chain)]
         while waiting:
+            yield None
             block_id, place = waiting.pop()
             block = project.blocks[block_id]
             definition = language.definitions.get(block.type)
@@ -237,7 +227,7 @@ def _wrong_python(block: Block, definition: Definition, place: _Place) -> _Mispl
 # Checks of own blocks: called without a definition, defined twice, giving nothing, in circles.
 
 
-def check_own_blocks(project: Project, language: Language) -> Iterator[Problem]:
+def check_own_blocks(project: Project, language: Language) -> Found:
     """Problems of own blocks; nothing is looked at where there are none."""
     if not project.procedures:
         return
@@ -249,6 +239,7 @@ def check_own_blocks(project: Project, language: Language) -> Iterator[Problem]:
         blocks = list(project.within(chain, enabled=True))
         called = calls.setdefault(owner, {})
         for block in blocks:
+            yield None
             if block.type.startswith(CALL):
                 called.setdefault(procedure_of(block.type), block.id)
         if not owner:

@@ -7,33 +7,34 @@ from collections.abc import Iterator
 from faults import Text, text_of
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.deployment import (
-    GESTURE_STATE,
-    gestures_used,
+    chains,
+    find_gestures_used,
+    find_robots_used,
     is_recognised,
     node_entries,
     robot_entries,
-    robots_used,
     rules,
 )
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
-from nep_studio.blocks.slots import why_not_name
+from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import sentence
 
-from .problem import Fix, Problem, page_of
+from .problem import Fix, Found, Problem, page_of
 
 
-def check_deployment(project: Project, language: Language) -> Iterator[Problem]:
+def check_deployment(project: Project, language: Language) -> Found:
     """Problems of which robots and nodes there are."""
     yield from _missing_robots(project, language)
     yield from _unrecognised_gestures(project, language)
     yield from _names(project, language)
 
 
-def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
+def _missing_robots(project: Project, language: Language) -> Found:
     listed = {entry.name for entry in robot_entries(project, language)}
-    for name, block in robots_used(project, language).items():
+    used = yield from find_robots_used(project, language)
+    for name, block in used.items():
         if name == ALL_ROBOTS and not listed:
             sentence = Text("There is no robot on the Robots page.")
         elif name == ALL_ROBOTS or name in listed or not name.strip():
@@ -52,10 +53,11 @@ def _missing_robots(project: Project, language: Language) -> Iterator[Problem]:
         )
 
 
-def _unrecognised_gestures(project: Project, language: Language) -> Iterator[Problem]:
+def _unrecognised_gestures(project: Project, language: Language) -> Found:
     nodes, shipped = node_entries(project, language), language.choices.get("gestures", {})
     own, trained = own_gestures(project), trained_gestures(project)
-    for gesture, block in gestures_used(project, language).items():
+    used = yield from find_gestures_used(project, language)
+    for gesture, block in used.items():
         if gesture in own and gesture not in trained:
             yield _untrained(own[gesture].title, page_of(project, block), block)
         elif gesture in trained or not gesture.strip():
@@ -115,14 +117,84 @@ def _names(project: Project, language: Language) -> Iterator[Problem]:
         seen.add(name)
 
 
+# Checks of what a block asks of its robot: each kind of robot has its own postures and animations.
+
+
+def check_abilities(project: Project, language: Language) -> Iterator[Problem]:
+    """Choices that the robot of a block, or one of all robots, does not have."""
+    for chain in chains(project, language):
+        for block in project.within(chain, enabled=True):
+            robot = language.robot_of(block)
+            asked = list(language.robots) if robot == ALL_ROBOTS else [robot]
+            if robots := [name for name in asked if name in language.robots]:
+                yield from _lacking(project, language, block, robots)
+
+
+def _lacking(
+    project: Project, language: Language, block: Block, robots: list[str]
+) -> Iterator[Problem]:
+    definition = language.definitions[block.type]
+    for key, slot in definition.keys(block.groups):
+        value = definition.value(block, key)
+        if slot.kind.name != "choice" or language.why_not_choice(slot, value, block, key):
+            continue  # what no robot has is told of by check_blocks
+        table = language.table_of(slot, block, key)
+        lacking = [name for name in robots if not _has(language, name, table, value)]
+        if lacking:
+            label = language.label_of(slot, value, block, key)
+            yield Problem(
+                "error",
+                "robot_lacks",
+                page_of(project, block.id),
+                block.id,
+                text_of(
+                    "“{block}”: “{choice}” is not there for {robots}.",
+                    block=sentence(project, language, block.id),
+                    choice=label,
+                    robots=[f"{name} ({language.robots[name].title})" for name in lacking],
+                ),
+                ("Choose another one.", "Or choose another robot in this block."),
+                _instead(language, block, key, table, lacking),
+            )
+
+
+def _has(language: Language, robot: str, table: str, value: object) -> bool:
+    offered = language.robots[robot].tables.get(table)
+    return not offered or value in offered
+
+
+def _instead(
+    language: Language, block: Block, key: str, table: str, lacking: list[str]
+) -> Fix | None:
+    """Let a robot do it that can; where there is none, choose what all of these can."""
+    definition = language.definitions[block.type]
+    value = definition.value(block, key)
+    able = [name for name in language.robots if _has(language, name, table, value)]
+    if able and len(lacking) == 1:
+        label = text_of("Let {robot} do it", robot=able[0])
+        return Fix("let_robot", label, {"block": block.id, "robot": able[0]})
+    shared = [
+        choice
+        for choice in language.choices.get(table, ())
+        if all(_has(language, name, table, choice) for name in lacking)
+    ]
+    if not shared:
+        return None
+    usual = definition.defaults.get(key.partition(".")[0])
+    choice = str(usual) if usual in shared else shared[0]
+    label = text_of("Choose “{choice}”", choice=language.choices[table][choice])
+    return Fix("choose", label, {"block": block.id, "slot": key, "value": choice})
+
+
 # Checks of what the robot on the screen cannot do: it has no camera and no files.
 
 
-def check_real_robots(project: Project, language: Language) -> Iterator[Problem]:
+def check_real_robots(project: Project, language: Language) -> Found:
     """Blocks that need a real robot, and name a virtual one."""
     virtual = {e.name for e in robot_entries(project, language) if e.driver == "virtual"}
     for chain in rules(project, language):
         for block in project.within(chain, enabled=True):
+            yield None
             definition = language.definitions.get(block.type)
             if definition is None or "needs_real_robot" not in definition.flags:
                 continue

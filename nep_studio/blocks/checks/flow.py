@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -15,13 +14,13 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.text import sentence
 
-from .problem import Fix, Problem, page_of
+from .problem import Fix, Found, Problem, page_of
 
 _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
 """The postures after blocks with such a flag."""
 
 
-def check_flow(project: Project, language: Language) -> Iterator[Problem]:
+def check_flow(project: Project, language: Language) -> Found:
     """Problems of the order in which blocks run, in rules."""
     for chain in chains(project, language):
         blocks = list(project.within(chain, enabled=True))
@@ -30,12 +29,11 @@ def check_flow(project: Project, language: Language) -> Iterator[Problem]:
         yield from _walking_unready(project, language, blocks)
 
 
-def _loops_without_pause(
-    project: Project, language: Language, blocks: list[Block]
-) -> Iterator[Problem]:
+def _loops_without_pause(project: Project, language: Language, blocks: list[Block]) -> Found:
     """Loops in whose bodies nothing takes time; children come after their parents in ``blocks``."""
     pauses: set[str] = set()
     for block in reversed(blocks):
+        yield None
         flags = _flags(language, block)
         takes_time = "takes_time" in flags or _ends(language, block)
         if takes_time or not pauses.isdisjoint(block.children()):
@@ -64,8 +62,9 @@ def _ends(language: Language, block: Block) -> bool:
 
 def _never_reached(
     project: Project, language: Language, chain: list[str], blocks: list[Block]
-) -> Iterator[Problem]:
+) -> Found:
     for chain_in in [chain, *(c for block in blocks for c in block.bodies.values())]:
+        yield None
         enabled = [project.blocks[i] for i in chain_in if not project.blocks[i].disabled]
         for upper, lower in pairwise(enabled):
             definition = language.definitions.get(upper.type)
@@ -84,12 +83,11 @@ def _never_reached(
                 )
 
 
-def _walking_unready(
-    project: Project, language: Language, blocks: list[Block]
-) -> Iterator[Problem]:
+def _walking_unready(project: Project, language: Language, blocks: list[Block]) -> Found:
     """Blocks that need a standing robot after one that made it sit; bodies count in their order."""
     postures: dict[str, str] = {}
     for block in blocks:
+        yield None
         flags = _flags(language, block)
         if not flags & {"posture", "stands", *_POSTURES}:
             continue
@@ -101,7 +99,7 @@ def _walking_unready(
             postures[robot] = taken
             continue
         posture = postures.get(robot, postures.get(ALL_ROBOTS))
-        if posture is not None and posture not in language.profile.standing:
+        if posture is not None and posture not in language.standing:
             label = language.choices.get("postures", {}).get(posture, posture)
             name = "A robot" if robot == ALL_ROBOTS else robot
             yield Problem(
@@ -138,11 +136,12 @@ class _Depth(NamedTuple):
     values: int
 
 
-def check_limits(project: Project, language: Language) -> Iterator[Problem]:
+def check_limits(project: Project, language: Language) -> Found:
     """The blocks that are nested too deep, the outermost of each chain of them."""
     for chain in chains(project, language):
         waiting = [(block_id, _Depth(0, 1, 0)) for block_id in reversed(chain)]
         while waiting:
+            yield None
             block_id, depth = waiting.pop()
             block = project.blocks[block_id]
             definition = language.definitions.get(block.type)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -37,6 +37,10 @@ class Problem:
     sentence: Words
     checklist: tuple[Words, ...] = ()
     fix: Fix | None = None
+
+
+Found = Iterator[Problem | None]
+"""What a check finds, one after the other; None wherever it may rest."""
 
 
 def page_of(project: Project, block_id: str) -> str:

@@ -23,7 +23,6 @@ from nep_studio.blocks.generate.expressions import (
     Function,
     Gap,
     Piece,
-    constant,
     show,
 )
 from nep_studio.blocks.generate.names import ProgramNames
@@ -32,7 +31,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project, split_slot
 from nep_studio.blocks.sentence import Slot
-from nep_studio.blocks.slots import FieldValue
+from nep_studio.blocks.slots import FieldValue, constant
 
 # Names and numbers that stand for slots in a learned piece of Python, and how they are told.
 
@@ -108,8 +107,6 @@ def _key(name: str, start: str) -> str:
 
 # Makes the Python of a new block with markers in its slots.
 
-_WORDS = frozenset({"text", "line", "state", "gesture", "lines", "robot"})
-
 
 class Learner(Expressions):
     """Makes Python with markers; ``asked`` are the choices that the generator looked at.
@@ -184,7 +181,7 @@ class Learner(Expressions):
         block.fields = {
             key: word_for(self._positions[key])
             for key, slot in definition.keys(groups)
-            if slot.kind.name in _WORDS and not slot.group
+            if slot.kind.takes_any_words and not slot.group
         } | dict(self._fields_chosen)
         for key, slot in definition.keys(groups):
             if slot.name in definition.defaults:
@@ -212,7 +209,6 @@ def _lines(pieces: Sequence[Piece]) -> Iterator[str]:
 
 
 MOST_PATTERNS, MOST_LANGUAGES, MOST_MIXED = 600, 4, 3
-_NUMBERS = frozenset({"number", "angle", "slider", "duration"})
 _KEPT_AS_WRITTEN = frozenset({"code_lines", "code_value", "note"})
 
 
@@ -361,7 +357,7 @@ def _choices(
 
 def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[frozenset[str], str]]:
     """With numbers typed or plugged in, and each time with one slot left as it is when new."""
-    numbers = [key for key in keys if definition.slots[split_slot(key)[0]].kind.name in _NUMBERS]
+    numbers = [key for key in keys if definition.slots[split_slot(key)[0]].kind.is_number]
     if len(numbers) > MOST_MIXED:
         numbers = []
     for count in range(len(numbers) + 1):

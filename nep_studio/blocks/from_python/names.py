@@ -10,12 +10,12 @@ from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.edits.project import RenameProject
 
-from ..deployment import ROBOT_BLOCK, robot_entries, robots_used
+from ..deployment import robot_entries, robots_used
 from ..editor import Editor
 from ..generate.names import RESERVED, python_name
 from ..places import InStack
 from ..procedures import parameters, words
-from ..program import ALL_ROBOTS, Parameter, Procedure, Project
+from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure, Project
 from .learning import CodeUnread
 
 _HEADERS = ("Robot", "Behavior")

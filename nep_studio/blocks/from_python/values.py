@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
 from nep_studio.blocks.definitions import Definition
-from nep_studio.blocks.deployment import GESTURE_STATE
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters
 from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.sentence import Slot
-from nep_studio.blocks.slots import FieldValue
+from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue
 
 from .learning import (
     VARIABLE_NAME,
@@ -170,8 +169,6 @@ def _constant_node(number: int) -> ast.expr:
     return ast.Constant(number)
 
 
-_TEXTS, _TEXT_RESULTS = frozenset({"text", "lines"}), frozenset({"text", "colour"})
-_NUMBERS = frozenset({"number", "angle", "slider", "duration"})
 _DEEPEST = 150
 
 
@@ -218,21 +215,21 @@ class ValueReader:
         if value is None or slot.why_not(value) is not None:
             return None
         if slot.kind.name == "choice":
-            tables = self.language.choices_of(slot) if not slot.master else {}
-            return value if not tables or value in tables else None
+            is_known = bool(slot.master) or self.language.why_not_choice(slot, value) is None
+            return value if is_known else None
         return value
 
     def plugged(self, slot: Slot, node: ast.expr) -> Made | None:
         """The block that makes this expression in a slot, or None."""
         fits = slot.kind.fits
-        if slot.kind.name not in _TEXTS:
+        if not slot.kind.becomes_text:
             return next((made for made, result in self.blocks(node) if result in fits), None)
         for made, result in self.blocks(node):
-            if result in _TEXT_RESULTS:
+            if result in TEXT_RESULTS:
                 return made
         match node:
             case ast.Call(func=ast.Name(id="str"), args=[inner], keywords=[]):
-                others = fits - _TEXT_RESULTS
+                others = fits - TEXT_RESULTS
                 found = self.blocks(inner)
                 return next((made for made, result in found if result in others), None)
         return None
@@ -319,13 +316,13 @@ class ValueReader:
 
     def _choose_masters(self, made: Made) -> bool:
         """Choose what a choice depends on where Python does not say it: the arm of a joint."""
-        definition, choices = self.language.definitions[made.type], self.language.choices
+        definition, known = self.language.definitions[made.type], self.language.known
         for key, value in list(made.fields.items()):
             slot = definition.slots[split_slot(key)[0]]
             if not slot.master or slot.master in made.fields:
                 continue
-            masters = list(choices.get(definition.slots[slot.master].table, ()))
-            tables = {master: choices.get(f"{slot.table}.{master}", {}) for master in masters}
+            masters = list(known(definition.slots[slot.master].table))
+            tables = {master: known(f"{slot.table}.{master}") for master in masters}
             fitting = [master for master in masters if value in tables[master]]
             if not fitting and any(tables.values()):
                 return False
@@ -366,19 +363,7 @@ class ValueReader:
                 return self.names.robots.get(node.id)
             return self.names.variables.get(node.id) if kind == "variable" else None
         value = _constant(node)
-        if value is None or kind in ("robot", "variable", "body"):
-            return None
-        if kind == "gesture":
-            is_gesture = isinstance(value, str) and value.startswith(GESTURE_STATE)
-            return str(value).removeprefix(GESTURE_STATE) if is_gesture else None
-        is_number = isinstance(value, int | float) and not isinstance(value, bool)
-        if kind in _NUMBERS:
-            return value if is_number else None
-        if kind == "any":
-            return None if isinstance(value, bool) else value
-        if kind == "checkbox":
-            return value if isinstance(value, bool) else None
-        return value if isinstance(value, str) else None
+        return None if value is None else slot.kind.from_python(value)
 
 
 def _count_of_constants(definition: Definition) -> int:

@@ -14,20 +14,11 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
 from nep_studio.blocks.sentence import Slot
-from nep_studio.blocks.slots import FieldValue
+from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
 from .names import NameTable, ProgramNames
 
 # Expression trees that blocks make often: constants, calls, whole numbers.
-
-
-def constant(value: FieldValue | None) -> ast.expr:
-    """A constant of a field; a negative number is a sign and a number, or ``**`` binds wrongly."""
-    if isinstance(value, int | float) and math.copysign(1, value) < 0:
-        return ast.UnaryOp(ast.USub(), ast.Constant(-value))
-    if value is None or isinstance(value, dict):
-        raise TypeError(f"a field of kind {type(value).__name__} is no constant")
-    return ast.Constant(value)
 
 
 def call(name: str, /, *arguments: ast.expr, **keywords: ast.expr) -> ast.Call:
@@ -101,8 +92,6 @@ VARIABLE_BLOCK = "variable.get"
 DEEPEST_VALUE = 60
 """How deep values may be nested: CPython takes 200 parentheses, a block makes up to three."""
 
-_ARITHMETIC = frozenset({"number", "angle", "slider", "duration"})
-_TEXTS = frozenset({"text", "lines"})
 _COSTS = {"list.find": 10}
 """Blocks whose Python says an inner value twice cost more: what doubles must not go deep."""
 
@@ -154,7 +143,7 @@ class Expressions:
         if plugged is None:
             return self._field(block, slot, key, definition.value(block, key))
         node = self.value(plugged)
-        if slot.kind.name in _TEXTS and self.definition(plugged).result not in ("text", "colour"):
+        if slot.kind.becomes_text and self.definition(plugged).result not in TEXT_RESULTS:
             return call("str", node)
         if slot.kind.name == "list" and plugged.type == VARIABLE_BLOCK:
             self.begins_as(plugged, "list")
@@ -260,23 +249,17 @@ class Expressions:
         )
 
     def _field(self, block: Block, slot: Slot, key: str, value: FieldValue | None) -> ast.expr:
-        kind = slot.kind.name
-        if kind == "robot":
+        kind = slot.kind
+        if kind.name == "robot":
             self.robots.add(str(value))
             return ast.Name(self.names.robots[str(value)])
-        if kind == "variable":
+        if kind.name == "variable":
             return ast.Name(self.variable(block))
-        if kind == "boolean":
-            return ast.Constant(False)
-        if kind == "list":
-            return ast.List([])
-        if kind in _ARITHMETIC and isinstance(value, str):
-            return self._arithmetic(block, value)
-        if kind == "gesture":
-            return ast.Constant(f"gesture_{value}")
-        if kind == "choice":
+        if kind.name == "choice":
             return ast.Constant(self.choice(block, key))
-        return constant(value)
+        if kind.is_number and isinstance(value, str):
+            return self._arithmetic(block, value)
+        return kind.to_python(value)
 
     def _arithmetic(self, block: Block, text: str) -> ast.expr:
         try:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 from nep_studio.blocks.procedures import parameters, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block
+from nep_studio.blocks.slots import constant
 
-from .expressions import Expressions, constant, method_call
+from .expressions import Expressions, method_call
 from .reporters import field_text
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from nep_studio.blocks.program import Block
+from nep_studio.blocks.slots import constant
 
 from .expressions import (
     Expressions,
@@ -13,7 +14,6 @@ from .expressions import (
     ValueGenerator,
     call,
     compare,
-    constant,
     known_whole,
     method_call,
     plus,

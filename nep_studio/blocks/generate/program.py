@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.deployment import NodeEntry, RobotEntry, chains, node_entries, robot_entries
@@ -11,9 +11,10 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
 from nep_studio.blocks.program import ALL_ROBOTS, Project
-from nep_studio.blocks.slots import Setting
+from nep_studio.blocks.slices import Steps, at_once
+from nep_studio.blocks.slots import Setting, constant
 
-from .expressions import Expressions, call, constant, literal, method_call, show
+from .expressions import Expressions, call, literal, method_call, show
 from .hats import Hat
 from .names import NameTable, ProgramNames
 from .registry import HATS, REPORTERS
@@ -61,12 +62,12 @@ class ProgramGenerator:
             if slot.kind.name == "robot"
         }
 
-    def generate(self, rest: Callable[[], None] = lambda: None) -> Code:
-        """The program as it is now; raises CodeRefused, which names the block.
+    def generate(self) -> Code:
+        """The program as it is now; raises CodeRefused, which names the block."""
+        return at_once(self.steps())
 
-        ``rest`` is called often, so that long work can pause there, or end by what it raises:
-        the rules that are written then stay written.
-        """
+    def steps(self) -> Steps[Code]:
+        """The same in steps; when they are given up, the rules that are written stay written."""
         self._language = self._language.of(self._project)
         written = {
             self._project.parents[chain[0]].owner: chain
@@ -74,11 +75,11 @@ class ProgramGenerator:
         }
         self._robots = {s: known for s, known in self._robots.items() if s in written}
         headers = self._headers(written)
-        names = self._names(written, headers)
+        names = yield from self._names(written, headers)
         functions = NameTable(names.taken())
         ordered = [*headers.values(), *(s for s in written if s not in set(headers.values()))]
         for stack in ordered:
-            self._rules[stack] = self._rule(stack, written[stack], names, functions, rest)
+            self._rules[stack] = yield from self._rule(stack, written[stack], names, functions)
         self._rules = {stack: self._rules[stack] for stack in ordered}
         return self._assemble(names, list(self._rules.values()))
 
@@ -100,13 +101,8 @@ class ProgramGenerator:
         return {p: found[p] for p in self._project.procedures if p in found}
 
     def _rule(
-        self,
-        stack: str,
-        chain: list[str],
-        names: ProgramNames,
-        functions: NameTable,
-        rest: Callable[[], None],
-    ) -> _Rule:
+        self, stack: str, chain: list[str], names: ProgramNames, functions: NameTable
+    ) -> Steps[_Rule]:
         """Write the rule of a stack, unless it is written already."""
         code = Expressions(self._project, self._language, names, REPORTERS)
         hat_block = self._project.blocks[chain[0]]
@@ -120,12 +116,15 @@ class ProgramGenerator:
         known = self._rules.get(stack)
         if known is not None and known.made_for == made_for:
             return known
-        return _write(made_for, RuleWriter(code, rest), function, hat, chain)
+        return (yield from _write(made_for, RuleWriter(code), function, hat, chain))
 
-    def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> ProgramNames:
+    def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> Steps[ProgramNames]:
         """Names for the robots of the Robots page, others that rules use, variables, own blocks."""
         listed = [entry.name for entry in robot_entries(self._project, self._language)]
-        used = frozenset[str]().union(*(self._robots_in(*item) for item in written.items()))
+        used = set[str]()
+        for stack, chain in written.items():
+            yield
+            used |= self._robots_in(stack, chain)
         table = NameTable()
         robots: dict[str, str] = {}
         for name in [*listed, *sorted(used - {ALL_ROBOTS}), ALL_ROBOTS]:
@@ -204,8 +203,8 @@ def generate_program(project: Project, language: Language) -> Code:
 
 def _write(
     made_for: tuple[object, ...], writer: RuleWriter, function: str, hat: Hat, chain: list[str]
-) -> _Rule:
-    writer.write(function, hat, chain)
+) -> Steps[_Rule]:
+    yield from writer.write(function, hat, chain)
     code = writer.code
     return _Rule(
         made_for,

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from nep_studio.blocks.program import Block
+from nep_studio.blocks.slots import constant
 
 from .expressions import (
     Body,
@@ -17,7 +18,6 @@ from .expressions import (
     ValueGenerator,
     call,
     compare,
-    constant,
     known_whole,
     method_call,
     plus,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain as chain_of
 
@@ -65,15 +65,14 @@ class _Frame:
 class RuleWriter:
     """Writes one rule; ``blocks[i]`` is the block that made ``lines[i]``."""
 
-    def __init__(self, code: Expressions, rest: Callable[[], None] = lambda: None) -> None:
+    def __init__(self, code: Expressions) -> None:
         self.lines: list[str] = []
         self.blocks: list[str] = []
         self.code = self._code = code
-        self._rest = rest
         self._has_code_blocks = False
 
-    def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> None:
-        """Write decorator, header and body; ``stack[0]`` is the block of the hat."""
+    def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> Iterator[None]:
+        """Write decorator, header and body; ``stack[0]`` is the block of the hat. Rests often."""
         hat_block = self._code.project.blocks[stack[0]]
         self._comment(hat_block, "")
         if hat.decorator is not None:
@@ -81,7 +80,7 @@ class RuleWriter:
         self._line(f"def {function_name}({', '.join(hat.arguments)}):", hat_block.id)
         frames = [self._function(stack[1:], hat_block.id, 1)]
         while frames:
-            self._rest()
+            yield
             frame = frames[-1]
             item = next(frame.left, None)
             if item is None:

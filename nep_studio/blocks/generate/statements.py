@@ -12,6 +12,7 @@ from nep_studio.blocks.code_text import CodeText, CodeTextRefused, read_lines, r
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.procedures import parameter_of, parameters, procedure_of
 from nep_studio.blocks.program import Block
+from nep_studio.blocks.slots import constant
 
 from .expressions import (
     Assignment,
@@ -28,7 +29,6 @@ from .expressions import (
     Written,
     call,
     comment_lines,
-    constant,
     known_whole,
     plus,
     show,

@@ -11,9 +11,7 @@ from typing import Literal
 from faults import Text, text_of
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
-    GESTURE_STATE,
     NODE_BLOCK,
-    ROBOT_BLOCK,
     node_entries,
     robot_entries,
 )
@@ -23,9 +21,9 @@ from nep_studio.blocks.edits.project import RenameVariable
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import header_of, parameter_of, procedure_of
-from nep_studio.blocks.program import ALL_ROBOTS, Block, Parent, Project
+from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, Block, Parent, Project
 from nep_studio.blocks.sentence import Group
-from nep_studio.blocks.slots import why_not_name
+from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import field_text, sentence
 
 

@@ -9,7 +9,6 @@ from nep_studio.blocks.checks.problem import Fix, Problem
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NODE_BLOCK,
-    ROBOT_BLOCK,
     NodeEntry,
     node_entries,
     robot_entries,
@@ -19,6 +18,7 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.places import InBody, InStack, Place, place_of
+from nep_studio.blocks.program import ROBOT_BLOCK
 from nep_studio.blocks.slots import FieldValue, Setting
 
 Data = Mapping[str, str]
@@ -73,11 +73,32 @@ def _add_wait(editor: Editor, data: Data) -> str:
 def _stand_first(editor: Editor, data: Data) -> str:
     if data["block"] not in editor.project.blocks:
         raise EditRefused("This block is not there any more.")
-    standing = editor.language.profile.standing
+    standing = editor.language.standing
     postures = editor.language.choices.get("postures", {})
     posture = next((name for name in postures if name in standing), min(standing, default=""))
     place = place_of(editor.project, data["block"], 1)
     return _create(editor, POSTURE, place, {"robot": data["robot"], "posture": posture})
+
+
+def _let_robot(editor: Editor, data: Data) -> str:
+    """Let another robot do what a block asks."""
+    return _set(editor, data["block"], _robot_slot(editor, data["block"]), data["robot"])
+
+
+def _choose(editor: Editor, data: Data) -> str:
+    return _set(editor, data["block"], data["slot"], data["value"])
+
+
+def _robot_slot(editor: Editor, block_id: str) -> str:
+    block = editor.project.blocks.get(block_id)
+    definition = editor.language.definitions.get(block.type) if block is not None else None
+    slots = definition.slots.values() if definition is not None else ()
+    return next((slot.name for slot in slots if slot.kind.name == "robot"), "")
+
+
+def _set(editor: Editor, block: str, slot: str, value: str) -> str:
+    editor.apply(SetField(block, slot, value))
+    return block
 
 
 def append_entry(
@@ -117,6 +138,8 @@ FIXES: dict[str, Callable[[Editor, Data], str]] = {
     "add_gesture_node": _add_gesture_node,
     "add_wait": _add_wait,
     "stand_first": _stand_first,
+    "let_robot": _let_robot,
+    "choose": _choose,
 }
 """What the checks offer, by name; a test sees to it that none is missing."""
 

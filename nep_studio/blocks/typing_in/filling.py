@@ -20,23 +20,10 @@ from ..program import ALL_ROBOTS, Project
 from ..sentence import Slot
 from .vocabulary import Entry
 
-_NUMBERS = frozenset({"number", "angle", "slider", "duration"})
 _NUMBER = re.compile(r"[-+]?([0-9]+([.,][0-9]*)?|[.,][0-9]+)")
 _SIGNS = str.maketrans({"×": "*", "÷": "/", "−": "-", "≤": "<", "≥": ">", "≠": "!"})  # noqa: RUF001 signs that people type
 _LONGER_SIGNS = (("≤", "<="), ("≥", ">="), ("≠", "!="), ("^", "**"))
 _OPERATORS = re.compile(r"[-+*/%<>=×÷−≤≥≠^]|\b(and|or|not)\b")  # noqa: RUF001 signs that people type
-_COLOURS = {
-    "red": "#ff0000",
-    "green": "#00ff00",
-    "blue": "#0000ff",
-    "yellow": "#ffff00",
-    "orange": "#ff8800",
-    "purple": "#8800ff",
-    "pink": "#ff66cc",
-    "white": "#ffffff",
-    "black": "#000000",
-    "cyan": "#00ffff",
-}
 
 
 @dataclass(slots=True)
@@ -77,12 +64,8 @@ class Filler:
             return Filling(name, 6) if name is not None else None
         if kind == "variable":
             return self._variable(plain, text.strip())
-        if kind == "colour":
-            return self._checked(slot, _COLOURS.get(plain, plain), 5)
-        if kind == "checkbox":
-            return (
-                Filling(plain in ("on", "yes"), 4) if plain in ("on", "off", "yes", "no") else None
-            )
+        if slot.kind.words:
+            return self._checked(slot, slot.kind.words.get(plain, plain), 5)
         return self._value(slot, text.strip(), plain)
 
     def expression(self, text: str) -> tuple[Made, str] | None:
@@ -96,7 +79,6 @@ class Filler:
         return next(((made, result) for made, result in found if not _has_code(made)), None)
 
     def _value(self, slot: Slot, text: str, plain: str) -> Filling | None:
-        kind = slot.kind.name
         if slot.kind.pluggable and plain in self.variables:
             getter = self._reader().type_of("variable")
             result = self.language.definitions[getter].result if getter else ""
@@ -107,14 +89,12 @@ class Filler:
             if found is not None and found[1] in slot.kind.fits:
                 return Filling(found[0], 6)
         number = number_in(text)
-        if kind in _NUMBERS:
+        if slot.kind.is_number:
             return self._checked(slot, number, 5) if number is not None else None
-        if kind == "any" and number is not None:
+        if number is not None and slot.why_not(number) is None:
             return Filling(number, 4)
-        if kind in ("text", "lines", "any", "line", "state", "file"):
-            unquoted = text[1:-1] if is_quoted(text) else text
-            return self._checked(slot, unquoted, 3 if is_quoted(text) else 2)
-        return self._checked(slot, text, 3) if kind == "date" else None
+        unquoted = text[1:-1] if is_quoted(text) else text
+        return self._checked(slot, unquoted, 3 if is_quoted(text) else 2)
 
     def _variable(self, plain: str, text: str) -> Filling | None:
         if plain in self.variables:

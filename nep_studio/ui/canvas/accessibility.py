@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, cast
+
 from PySide6.QtCore import QObject, QPoint, QRect
 from PySide6.QtGui import (
     QAccessible,
@@ -16,7 +18,8 @@ from nep_studio.blocks.program import Project
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.words import count_words, tr
 
-from .view import ScrollingView
+if TYPE_CHECKING:
+    from .host import CanvasHost
 
 # A block in the words that a screen reader says.
 
@@ -65,7 +68,7 @@ def level(project: Project, block_id: str) -> int:
 class CanvasInterface(QAccessibleInterface):
     """The canvas: a tree whose items are the blocks of the stacks in view."""
 
-    def __init__(self, view: ScrollingView) -> None:
+    def __init__(self, view: CanvasHost) -> None:
         super().__init__()
         self.view = view
         self._blocks: dict[str, BlockInterface] = {}
@@ -86,7 +89,7 @@ class CanvasInterface(QAccessibleInterface):
     def shown(self) -> list[str]:
         """The blocks of the stacks in view, from top to bottom."""
         layout = self.view.page_layout
-        stacks = layout.near(self.view.visible_page_rect())
+        stacks = layout.near(self.view.sight.visible_page_rect())
         return [box.block for stack in stacks for box in layout.chains[stack].boxes if box.block]
 
     def isValid(self) -> bool:
@@ -95,11 +98,11 @@ class CanvasInterface(QAccessibleInterface):
 
     def object(self) -> QObject:
         """The widget."""
-        return self.view
+        return self.view.area
 
     def window(self) -> QWindow:
         """The window it is in."""
-        return self.view.window().windowHandle()
+        return self.view.area.window().windowHandle()
 
     def role(self) -> QAccessible.Role:
         """A tree."""
@@ -108,7 +111,7 @@ class CanvasInterface(QAccessibleInterface):
     def text(self, kind: QAccessible.Text) -> str:
         """Its name, and how to use it."""
         if kind == QAccessible.Text.Name:
-            return self.view.accessibleName() or tr("Blocks")
+            return self.view.area.accessibleName() or tr("Blocks")
         if kind == QAccessible.Text.Description:
             return tr("Use the arrow keys to go from block to block, and Enter to edit.")
         return ""
@@ -118,19 +121,19 @@ class CanvasInterface(QAccessibleInterface):
 
     def rect(self) -> QRect:
         """Where it is on the screen."""
-        viewport = self.view.viewport()
+        viewport = self.view.area.viewport()
         return QRect(viewport.mapToGlobal(QPoint(0, 0)), viewport.size())
 
     def state(self) -> QAccessible.State:
         """Whether it has the keyboard."""
         state = QAccessible.State()
         state.focusable = True
-        state.focused = self.view.hasFocus()
+        state.focused = self.view.area.hasFocus()
         return state
 
     def parent(self) -> QAccessibleInterface | None:  # type: ignore[override]
         """The widget around it."""
-        outer = self.view.parentWidget()
+        outer = self.view.area.parentWidget()
         return QAccessible.queryAccessibleInterface(outer) if outer is not None else None
 
     def childCount(self) -> int:
@@ -150,7 +153,7 @@ class CanvasInterface(QAccessibleInterface):
 
     def childAt(self, x: int, y: int) -> QAccessibleInterface | None:  # type: ignore[override]
         """The block at a place of the screen."""
-        hit = self.view.hit(self.view.viewport().mapFromGlobal(QPoint(x, y)))
+        hit = self.view.sight.hit(self.view.area.viewport().mapFromGlobal(QPoint(x, y)))
         return self.block(hit.block) if hit is not None else None
 
     def focusChild(self) -> QAccessibleInterface | None:  # type: ignore[override]
@@ -205,10 +208,10 @@ class BlockInterface(QAccessibleInterface):
     def rect(self) -> QRect:
         """Where it is on the screen; nowhere when it is folded away."""
         view = self._canvas.view
-        rect = view.view_rect_of(self.block_id)
+        rect = view.sight.view_rect_of(self.block_id)
         if rect is None:
             return QRect()
-        corner = view.viewport().mapToGlobal(rect.topLeft().toPoint())
+        corner = view.area.viewport().mapToGlobal(rect.topLeft().toPoint())
         return QRect(corner, rect.size().toSize())
 
     def state(self) -> QAccessible.State:
@@ -221,7 +224,7 @@ class BlockInterface(QAccessibleInterface):
             return state
         state.focusable = state.selectable = state.multiSelectable = True
         state.selected = self.block_id in view.selection
-        state.focused = view.hasFocus() and view.selection.cursor == self.block_id
+        state.focused = view.area.hasFocus() and view.selection.cursor == self.block_id
         state.expandable = bool(block.bodies)
         state.collapsed = block.collapsed
         state.expanded = bool(block.bodies) and not block.collapsed
@@ -275,41 +278,37 @@ def focus_event(canvas: CanvasInterface) -> QAccessibleEvent | None:
 _is_installed = False
 
 
-def interface_of(view: ScrollingView) -> CanvasInterface:
+def interface_of(view: CanvasHost) -> CanvasInterface:
     """The interface of a canvas, always the same one."""
     if not isinstance(view.accessible, CanvasInterface):
-        view.accessible = CanvasInterface(view)  # Qt holds it by pointer only: Python must keep it
+        made = CanvasInterface(view)
+        view.accessible = made  # Qt holds it by pointer only: Python must keep it
+        view.news.layout_changed.connect(made.forget_gone)
     return view.accessible
 
 
-def make_accessible(view: ScrollingView) -> None:
+def make_accessible(view: CanvasHost) -> None:
     """Let screen readers find the blocks of a canvas, and hear where the keyboard is."""
     global _is_installed
     if not _is_installed:
         QAccessible.installFactory(_factory)
         _is_installed = True
     view.selection.changed.connect(lambda: _tell_focus(view))
-    view.layout_changed.connect(lambda: _forget_gone(view))
 
 
-def announce(view: ScrollingView, text: str) -> None:
+def announce(view: CanvasHost, text: str) -> None:
     """Let a screen reader say something that has happened."""
     if QAccessible.isActive():
-        QAccessible.updateAccessibility(QAccessibleAnnouncementEvent(view, text))
+        QAccessible.updateAccessibility(QAccessibleAnnouncementEvent(view.area, text))
 
 
 def _factory(class_name: str, item: QObject | None) -> QAccessibleInterface | None:
-    return interface_of(item) if isinstance(item, ScrollingView) else None
+    return interface_of(cast("CanvasHost", item)) if class_name == "Canvas" else None
 
 
-def _tell_focus(view: ScrollingView) -> None:
+def _tell_focus(view: CanvasHost) -> None:
     if not QAccessible.isActive():
         return
     event = focus_event(interface_of(view))
     if event is not None:
         QAccessible.updateAccessibility(event)
-
-
-def _forget_gone(view: ScrollingView) -> None:
-    if isinstance(view.accessible, CanvasInterface):
-        view.accessible.forget_gone()

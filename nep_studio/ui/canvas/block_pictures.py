@@ -17,7 +17,7 @@ from nep_studio.blocks.procedures import CALL
 from nep_studio.blocks.program import Procedure, Project
 from nep_studio.ui.theme.colours import Theme
 
-from .canvas import Canvas
+from .host import CanvasHost
 from .layout.boxes import Chain, Measures, TextWidths
 from .layout.index import Camera, Rect
 from .layout.layout import Layout
@@ -75,12 +75,12 @@ EVERYWHERE = Rect(-1e6, -1e6, 2e6, 2e6)
 class BlockPicture(QWidget):
     """Shows the stacks of a clip, or nothing; too large ones are made smaller."""
 
-    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
+    def __init__(self, canvas: CanvasHost, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._canvas = canvas
         self._chain: Chain | None = None
         self._painter: BlockPainter | None = None
-        self.setMinimumHeight(round(canvas.measures.row_height * 1.6))
+        self.setMinimumHeight(round(canvas.look.measures.row_height * 1.6))
 
     def show_clip(self, clip: Clip | None) -> None:
         """Show the first stack of a clip."""
@@ -88,9 +88,11 @@ class BlockPicture(QWidget):
         if clip is not None and clip.stacks:
             canvas = self._canvas
             language = canvas.editor.language.of(clip.project)
-            layout = Layout(clip.project, language, canvas.measures)
+            layout = Layout(clip.project, language, canvas.look.measures)
             self._chain = layout.chain(clip.roots[0])
-            self._painter = BlockPainter(canvas.theme, language, canvas.measures, canvas.block_font)
+            self._painter = BlockPainter(
+                canvas.look.theme, language, canvas.look.measures, canvas.look.block_font
+            )
         self.update()
 
     def show_call(self, procedure: Procedure | None) -> None:
@@ -120,7 +122,7 @@ class BlockPicture(QWidget):
         """Paint the blocks in the middle."""
         if self._chain is None or self._painter is None:
             return
-        chain, tab = self._chain, self._canvas.measures.notch_depth
+        chain, tab = self._chain, self._canvas.look.measures.notch_depth
         room_x, room_y = max(1, self.width() - 8), max(1, self.height() - 4)
         scale = min(1.0, room_x / chain.width, room_y / (chain.height + tab))
         left = (self.width() - chain.width * scale) / 2

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
-from PySide6.QtCore import QEvent, QPoint, Qt, Signal
+from PySide6.QtCore import QEvent, QPoint, Qt, QTimer
 from PySide6.QtGui import (
     QContextMenuEvent,
+    QDragEnterEvent,
+    QDragLeaveEvent,
+    QDragMoveEvent,
+    QDropEvent,
     QFocusEvent,
     QFont,
     QKeyEvent,
     QMouseEvent,
     QNativeGestureEvent,
+    QPaintEvent,
+    QResizeEvent,
     QTouchEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QMenu, QWidget
+from PySide6.QtWidgets import QAbstractScrollArea, QMenu, QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
@@ -23,19 +29,24 @@ from nep_studio.blocks.operations.copying import Clip
 from nep_studio.blocks.program import Changes
 from nep_studio.ui.theme.colours import Theme
 
-from .editing.cargo import Bubble, Cargo, DropOverlay, FloatingPicture
 from .editing.carrying import KeyboardCarry
 from .editing.commands import Commands
-from .editing.drag_blocks import ExternalDrag
-from .editing.gesture import Gesture
+from .editing.drag_blocks import ExternalDrag, carry_in, clip_in, project_files
 from .editing.keys import Keyboard
+from .editing.marks import DragMarks
 from .editing.menu import Section, menu_for
-from .editing.notes import NoteEditor, press_key
+from .editing.notes import press_key
 from .editing.pointing import Pointing
-from .editing.snapping import Point
 from .editing.view_gestures import native_gesture, wheel
 from .fields.editors import FieldEditors
-from .view import DropTarget
+from .host import CanvasNews
+from .layout.page import PageLayout
+from .painting.layers import Layers
+from .painting.notes import Notes
+from .painting.overlay import ProblemOverlay, SelectionOverlay
+from .painting.painter import Look
+from .selection import Selection
+from .sight import Sight
 
 _FINGERS = {
     QEvent.Type.TouchBegin,
@@ -44,32 +55,19 @@ _FINGERS = {
     QEvent.Type.TouchCancel,
 }
 
+SLICE_S = 0.006
+"""How long stacks out of view are laid out at a time."""
 
 BUSY_MS = 50
 """How long work that can wait is put off while something is dragged."""
 
 
-class Canvas(DropTarget):
+class Canvas(QAbstractScrollArea):
     """A page of blocks to edit. It asks the editor; what the editor did is then shown.
 
-    ``refused`` says in a sentence why something did not fit; ``announced`` is for screen readers;
-    ``menu_requested`` gives a place in the viewport, where ``hit`` tells what is there;
-    ``blocks_deleted`` brings what was deleted, for the list of deleted blocks;
-    ``delete_area`` says whether a place on the screen takes blocks away (the palette, the trash),
-    ``delete_area_entered`` whether carried blocks are there now; ``uses_requested`` brings the
-    Subject whose uses a person looks for, ``help_requested`` the name of a page of help.
+    What has a state of its own is an object that the canvas owns; each of them sees the canvas as
+    a `CanvasHost`. What happens on it is told by ``news``.
     """
-
-    refused = Signal(object)  # Words
-    announced = Signal(str)
-    menu_requested = Signal(QPoint)
-    problem_opened = Signal(str)
-    block_opened = Signal(str)
-    blocks_deleted = Signal(object)
-    delete_area_entered = Signal(bool)
-    uses_requested = Signal(object)
-    help_requested = Signal(str)
-    picture_requested = Signal()
 
     def __init__(
         self,
@@ -80,31 +78,129 @@ class Canvas(DropTarget):
         is_mirrored: bool = False,
         parent: QWidget | None = None,
     ) -> None:
-        self.gesture: Gesture | None = None
-        self.note_editor: NoteEditor | None = None
-        super().__init__(editor, theme, font=font, is_mirrored=is_mirrored, parent=parent)
+        super().__init__(parent)
+        self.editor = editor
+        self.accessible: object = None
+        self.news = CanvasNews(self)
+        self.look = Look(theme, font or self.font(), editor.language, is_mirrored=is_mirrored)
+        self.page_layout = PageLayout(editor.project, editor.language, self.look.measures)
+        self.selection = Selection(self)
+        self.sight = Sight(self)
+        self.notes = Notes(self)
+        self.problems = ProblemOverlay()
+        self.layers = Layers(self, [self.notes, SelectionOverlay(), self.problems])
         self.pointing = Pointing(self)
         self.fields = FieldEditors(self)
         self.commands = Commands(self)
         self.keyboard = Keyboard(self)
-        self.bubble = Bubble(self.viewport())
-        self.bubble.dress(theme)
-        self.floating = FloatingPicture(self)
-        self.drop_overlay = DropOverlay()
-        self.overlays.append(self.drop_overlay)
-        self.delete_area: Callable[[QPoint], bool] = lambda point: False
+        self.marks = DragMarks(self)
         self.menu: QMenu | None = None
         self.menu_sections: list[Section] = []
-        self.menu_requested.connect(self._on_menu_requested)
-        self.viewport().setAttribute(Qt.WidgetAttribute.WA_AcceptTouchEvents)
-        self.viewport().ungrabGesture(Qt.GestureType.PanGesture)  # two fingers are ours
+        self.later_layout = QTimer(self, interval=0)
+        self.later_layout.timeout.connect(self.lay_out_more)
+        self._listen()
+        self.repaint_all()
+
+    def _listen(self) -> None:
+        self.editor.history.listen(self._on_changes)
+        self.selection.changed.connect(self.viewport().update)
+        self.news.menu_requested.connect(self._on_menu_requested)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setFrameShape(QAbstractScrollArea.Shape.NoFrame)
+        viewport = self.viewport()
+        viewport.setMouseTracking(True)
+        viewport.setAcceptDrops(True)
+        viewport.setAttribute(Qt.WidgetAttribute.WA_AcceptTouchEvents)
+        viewport.ungrabGesture(Qt.GestureType.PanGesture)  # two fingers are ours
+
+    @property
+    def area(self) -> QAbstractScrollArea:
+        """The widget itself."""
+        return self
+
+    @property
+    def page(self) -> str:
+        """The page that is shown."""
+        return self.page_layout.page
+
+    # What is shown
+
+    def set_look(self, theme: Theme, font: QFont, *, is_mirrored: bool) -> None:
+        """Show the blocks with this theme, this font, and from this side."""
+        self._leave_page()  # open editors have the old look
+        self._take_look(theme, font, is_mirrored, self.page)
+
+    def set_editor(self, editor: Editor) -> None:
+        """Show another project; what is under way in this one ends."""
+        self._leave_page()
+        self.editor.history.unlisten(self._on_changes)
+        self.editor = editor
+        editor.history.listen(self._on_changes)
+        self.selection.clear()
+        look = self.look
+        self._take_look(look.theme, look.block_font, look.measures.is_mirrored, "behaviour")
+        self.news.page_changed.emit(self.page)
+
+    def show_page(self, page: str) -> None:
+        """Show another page, from its beginning; what is under way on this one ends."""
+        if page == self.page:
+            return
+        self._leave_page()
+        self.selection.clear()
+        self.page_layout.show(page)
+        self.repaint_all()
+        self.news.page_changed.emit(page)
+        self.sight.show_beginning()
+
+    def show_block(self, block_id: str) -> None:
+        """Scroll, and change the page, so that a block can be seen."""
+        project = self.editor.project
+        if block_id not in project.blocks:
+            return
+        self.show_page(project.page_of(project.stack_of(block_id).id))
+        placed = self.page_layout.placed(block_id)
+        if placed is not None:
+            self.sight.show_head(placed)
+
+    def repaint_all(self) -> None:
+        """Paint everything anew; the page may be larger now."""
+        self.later_layout.start()
+        self.notes.refresh()
+        self.layers.repaint_all()
+        self.sight.update_scroll_bars()
+        self.news.layout_changed.emit()
 
     def lay_out_more(self) -> None:
-        """Lay out more of a large page, but later when something is dragged: that comes first."""
-        is_busy = self.gesture is not None
-        self._rest.setInterval(BUSY_MS if is_busy else 0)
-        if not is_busy:
-            super().lay_out_more()
+        """Lay out, while nobody waits, some of the stacks of a large page that are out of view.
+
+        What is dragged comes first.
+        """
+        is_busy = self.pointing.gesture is not None
+        self.later_layout.setInterval(BUSY_MS if is_busy else 0)
+        if is_busy:
+            return
+        chains = self.page_layout.chains
+        if not chains.lay_out_some(SLICE_S):
+            self.later_layout.stop()
+        outgrown, chains.outgrown = chains.outgrown, []
+        self.layers.repaint_page(outgrown)
+        self.sight.update_scroll_bars()
+
+    def _take_look(self, theme: Theme, font: QFont, is_mirrored: bool, page: str) -> None:
+        editor = self.editor
+        self.look = Look(theme, font, editor.language, is_mirrored=is_mirrored)
+        self.page_layout = PageLayout(editor.project, editor.language, self.look.measures)
+        if page != self.page:
+            self.page_layout.show(page)
+        self.marks.bubble.dress(theme)
+        self.repaint_all()
+
+    def _leave_page(self) -> None:
+        self.pointing.cancel()  # while there is what it puts back
+        self.fields.close()
+        self.fields.comments.close()
+        if self.notes.writing is not None:
+            self.notes.writing.finish()
 
     # Changes
 
@@ -113,68 +209,52 @@ class Canvas(DropTarget):
         try:
             change()
         except EditRefused as refusal:
-            self.refused.emit(refusal.sentence)
+            self.news.refused.emit(refusal.sentence)
             return False
         return True
 
-    def throw_away(self, cargo: Cargo) -> None:
-        """Delete carried blocks that were dropped where blocks are deleted."""
-        thrown: list[Clip | None] = []
-        if self.attempt(lambda: thrown.append(cargo.throw_away(self))) and thrown[0] is not None:
-            self.blocks_deleted.emit(thrown[0])
-
-    def corners(self, ids: Iterable[str]) -> dict[str, Point]:
-        """Where chains that begin with these blocks lie on the page."""
-        corners = {}
-        for block in ids:
-            placed = self.page_layout.placed(block)
-            if placed is not None:
-                right = placed.box.width if placed.box.is_mirrored else 0.0
-                corners[block] = placed.x + right, placed.y
-        return corners
-
-    def set_look(self, theme: Theme, font: QFont, *, is_mirrored: bool) -> None:
-        """Show the blocks with this theme, this font, and from this side."""
-        is_made = hasattr(self, "bubble")  # not while the view itself is being made
-        if is_made:
-            self._leave_page()  # open editors have the old look
-        super().set_look(theme, font, is_mirrored=is_mirrored)
-        if is_made:
-            self.bubble.dress(theme)
-
-    def set_editor(self, editor: Editor) -> None:
-        """Show another project; what is under way in this one ends."""
-        self._leave_page()
-        super().set_editor(editor)
-
-    def show_page(self, page: str) -> None:
-        """Show another page, from its beginning; what is under way on this one ends."""
-        if page != self.page:
-            self._leave_page()
-        super().show_page(page)
-
-    def _leave_page(self) -> None:
-        self.cancel_gesture()  # while there is what it puts back
-        self.fields.close()
-        self.fields.comments.close()
-        if self.note_editor is not None:
-            self.note_editor.finish()
-
     def _on_changes(self, changes: Changes) -> None:
-        self.cancel_gesture()  # what is carried may not be there any more
-        super()._on_changes(changes)
+        self.pointing.cancel()  # what is carried may not be there any more
+        self.layers.repaint_page(self.page_layout.change(changes))
+        if self.page_layout.chains.is_waiting:
+            self.later_layout.start()
+        self.layers.repaint_page(self.notes.change(changes))
+        self.selection.keep(self.editor.project.blocks)
+        self.sight.update_scroll_bars()
+        self.news.layout_changed.emit()
 
-    # Gestures
+    # The view
 
-    def begin(self, gesture: Gesture) -> None:
-        """Let a gesture have the pointer from now on."""
-        self.gesture = gesture
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the layers."""
+        self.layers.paint(event.region())
 
-    def cancel_gesture(self) -> None:
-        """End what is under way as if it had not begun."""
-        gesture, self.gesture = self.gesture, None
-        if gesture is not None:
-            gesture.cancel(self)
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take the new size."""
+        self.layers.resize()
+        super().resizeEvent(event)
+        self.sight.take_width(event.size().width())
+        self.news.resized.emit()
+
+    def scrollContentsBy(self, dx: int, dy: int) -> None:
+        """Follow a scroll bar."""
+        self.sight.follow_scroll_bars()
+
+    def viewportEvent(self, event: QEvent) -> bool:
+        """Take fingers, touch pads that zoom, and the resolution of another screen."""
+        kind = event.type()
+        if kind in _FINGERS and isinstance(event, QTouchEvent):
+            event.accept()
+            return self.pointing.touch(event)
+        if isinstance(event, QNativeGestureEvent) and native_gesture(self, event):
+            return True
+        if kind == QEvent.Type.Leave:
+            self.pointing.leave()
+        elif kind == QEvent.Type.DevicePixelRatioChange:
+            self.layers.resize()
+        return super().viewportEvent(event)
+
+    # Mouse
 
     def begin_external_drag(self, clip: Clip, global_pos: QPoint, source: QWidget) -> None:
         """Carry new blocks once the mouse, pressed on ``source``, has moved 10 pixels.
@@ -185,10 +265,12 @@ class Canvas(DropTarget):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin a gesture."""
+        self.keyboard.is_space_pressed = False
         self.pointing.press(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Begin a gesture that opens the block if it stays a click."""
+        self.keyboard.is_space_pressed = False
         self.pointing.double_click(event)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
@@ -203,30 +285,51 @@ class Canvas(DropTarget):
         """Scroll or zoom."""
         wheel(self, event)
 
-    def viewportEvent(self, event: QEvent) -> bool:
-        """Take fingers, and touch pads that zoom."""
-        if event.type() in _FINGERS and isinstance(event, QTouchEvent):
+    # Blocks and project files from other windows
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take project files, and the text of blocks."""
+        if project_files(event.mimeData()):
+            event.acceptProposedAction()
+            return
+        clip = clip_in(self, event.mimeData())
+        if clip is not None:
+            carry_in(self, clip, self.viewport().mapToGlobal(event.position().toPoint()))
+            event.setDropAction(Qt.DropAction.CopyAction)
             event.accept()
-            return self.pointing.touch(event)
-        if isinstance(event, QNativeGestureEvent) and native_gesture(self, event):
-            return True
-        if event.type() == QEvent.Type.Leave:
-            self.pointing.leave()
-        return super().viewportEvent(event)
+
+    def dragMoveEvent(self, event: QDragMoveEvent) -> None:
+        """Bring the blocks along."""
+        self.pointing.move_to(event.position())
+        event.accept()
+
+    def dragLeaveEvent(self, event: QDragLeaveEvent) -> None:
+        """The blocks have left again."""
+        self.pointing.cancel()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Put the blocks where they are, or tell which file was dropped."""
+        files = project_files(event.mimeData())
+        for path in files:
+            self.news.file_dropped.emit(path)
+        if not files:
+            self.pointing.release_at(event.position())
+        event.setDropAction(Qt.DropAction.CopyAction)
+        event.accept()
+
+    # Keys and menus
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Cancel what is under way: its end would not be seen."""
         self.pointing.is_space_down = self.keyboard.is_space_pressed = False
-        self.cancel_gesture()
+        self.pointing.cancel()
         super().focusOutEvent(event)
-
-    # Keys and menus
 
     def event(self, event: QEvent) -> bool:
         """Keep all keys from the window's shortcuts while a gesture is under way."""
         if event.type() == QEvent.Type.WindowBlocked:  # a dialog takes the mouse
-            self.cancel_gesture()
-        if event.type() == QEvent.Type.ShortcutOverride and self.gesture is not None:
+            self.pointing.cancel()
+        if event.type() == QEvent.Type.ShortcutOverride and self.pointing.gesture is not None:
             event.accept()
             return True
         return super().event(event)
@@ -235,9 +338,10 @@ class Canvas(DropTarget):
         """Let a gesture of the mouse have the key first, then the keyboard's rules."""
         if event.key() == Qt.Key.Key_Space:
             self.pointing.is_space_down = True
-        if self.gesture is not None and not isinstance(self.gesture, KeyboardCarry):
+        gesture = self.pointing.gesture
+        if gesture is not None and not isinstance(gesture, KeyboardCarry):
             if event.key() == Qt.Key.Key_Escape:
-                self.cancel_gesture()
+                self.pointing.cancel()
         elif not (press_key(self, event) or self.keyboard.press(event)):
             super().keyPressEvent(event)
 
@@ -251,33 +355,24 @@ class Canvas(DropTarget):
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         """Open the menu, unless the right button has just ended a gesture."""
         if event.reason() == QContextMenuEvent.Reason.Keyboard:
-            self.request_menu(self._cursor_place())
+            self.pointing.request_menu(self._cursor_place())
         elif not self.pointing.was_cancelled_by_right:
-            self.request_menu(event.pos())
-
-    def request_menu(self, place: QPoint) -> None:
-        """Ask for the menu of what is at a place of the view; that becomes the selection."""
-        hit = self.hit(place)
-        if hit is None:
-            note = self.notes.hit(self.to_page(place))
-            self.notes.select(note.id if note is not None else "")
-        elif hit.block not in self.selection:
-            self.selection.set([hit.block])
-        self.menu_requested.emit(place)
+            self.pointing.request_menu(event.pos())
 
     def _on_menu_requested(self, place: QPoint) -> None:
         if self.menu is not None:
             self.menu.deleteLater()
-        self.menu = menu_for(self, self.hit(place), self.to_page(place))
+        at = self.sight.to_page(place)
+        self.menu = menu_for(self, self.sight.hit(place), at, self.menu_sections)
         self.menu.popup(self.viewport().mapToGlobal(place))
 
     def _cursor_place(self) -> QPoint:
         """Where the menu of the keyboard's block opens: at its first row, inside the view."""
-        rect = self.view_rect_of(self.selection.cursor)
-        view = self.viewport().rect()
+        rect = self.sight.view_rect_of(self.selection.cursor)
+        view, measures = self.viewport().rect(), self.look.measures
         if rect is None or not rect.intersects(view):
             return view.center()
-        inset = self.measures.row_height * self.camera.scale / 4
-        x = rect.right() - inset if self.measures.is_mirrored else rect.left() + inset
+        inset = measures.row_height * self.sight.camera.scale / 4
+        x = rect.right() - inset if measures.is_mirrored else rect.left() + inset
         place = QPoint(round(x), round(rect.top() + inset))
         return QPoint(min(max(place.x(), 0), view.right()), min(max(place.y(), 0), view.bottom()))

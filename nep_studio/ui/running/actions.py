@@ -23,7 +23,7 @@ from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
     from .control import RunControl
     from .runner import Runner
@@ -32,16 +32,20 @@ RUN_BUTTONS = ("run", "stop", "pause", "step")
 WITH_A_PROJECT = ("breakpoint", "clear_breakpoints", "needs")
 
 
-def add_run_menu(window: MainWindow) -> QMenu:
-    """Make the Run menu."""
-    menu, add = window.menuBar().addMenu(tr("&Run")), window.actions_by_name.add
+def fill_run_menu(menu: QMenu, host: Host) -> None:
+    """Make the actions of the Run menu."""
+    add = host.actions.add
 
     def runner() -> Runner:
-        return window.running.runner
+        return host.services.runner
 
     run = add("run", tr("Run"), lambda: runner().run(), icon_name="play", keys="F5")
     stop = add(
-        "stop", tr("Stop"), lambda: window.running.stop(), icon_name="square", keys="Shift+F5"
+        "stop",
+        tr("Stop"),
+        lambda: host.services.running.stop(),
+        icon_name="square",
+        keys="Shift+F5",
     )
     pause = add("pause", tr("Pause"), lambda: runner().pause(), icon_name="pause", keys="F6")
     step = add(
@@ -49,73 +53,72 @@ def add_run_menu(window: MainWindow) -> QMenu:
     )
     menu.addActions([run, stop, pause, step])
     menu.addSeparator()
-    _add_paces(menu.addMenu(icon("gauge", window.look.theme), tr("Speed")), window)
+    _add_paces(menu.addMenu(icon("gauge", host.services.look.theme), tr("Speed")), host)
     toggle = add(
         "breakpoint",
         tr("Pause at this block"),
-        lambda: window.running.toggle_breakpoint(),
+        lambda: host.services.running.toggle_breakpoint(),
         icon_name="pin",
         keys="F9",
     )
     clear = add(
         "clear_breakpoints",
         tr("Pause nowhere"),
-        lambda: window.running.breakpoints.clear(),
+        lambda: host.services.running.breakpoints.clear(),
     )
     menu.addActions([toggle, clear])
     menu.addSeparator()
     needs = add(
         "needs",
         tr("What the program needs…"),
-        lambda: window.running.show_needs(),
+        lambda: host.services.running.show_needs(),
         icon_name="list",
         keys="Shift+F8",
     )
     menu.addAction(needs)
-    window.actions_by_name.enable(False, *RUN_BUTTONS, *WITH_A_PROJECT)
-    return menu
+    host.actions.enable(False, *RUN_BUTTONS, *WITH_A_PROJECT)
 
 
-def follow_running(window: MainWindow) -> None:
+def follow_running(host: Host, toolbar: QToolBar) -> None:
     """Let the actions and the toolbar follow the program from now on."""
-    RunLooks(window)
-    for sign in window.toolbar.findChildren(RunState):
-        sign.follow(window.running)
+    RunLooks(host)
+    for sign in toolbar.findChildren(RunState):
+        sign.follow(host.services.running)
 
 
-def _add_paces(menu: QMenu, window: MainWindow) -> None:
+def _add_paces(menu: QMenu, host: Host) -> None:
     """One of several paces, with a mark before it."""
     paces = (
         (0.0, tr("Full speed")),
         (0.3, tr("Slow: a little while at each block")),
         (1.0, tr("Very slow: one second at each block")),
     )
+    made = host.services.made_running
+    now_s = 0.0 if made is None else made.line_s
     group = QActionGroup(menu)
     for line_s, words in paces:
         action = menu.addAction(words)
         action.setCheckable(True)
-        action.setChecked(
-            line_s == (0.0 if window.later.made_running is None else window.running.line_s)
-        )
+        action.setChecked(line_s == now_s)
         action.setData(line_s)
         group.addAction(action)
-    group.triggered.connect(lambda action: window.running.set_pace(action.data()))
+    group.triggered.connect(lambda action: host.services.running.set_pace(action.data()))
 
 
 class RunLooks(QObject):
     """Lets the actions follow the state of the program; it goes with the actions."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window.actions_by_name)
-        self._window = window
-        window.running.runner.state_changed.connect(self.refresh)
-        window.files.document_changed.connect(self.refresh)
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.actions)
+        self._host = host
+        host.services.runner.state_changed.connect(self.refresh)
+        host.services.files.document_changed.connect(self.refresh)
         self.refresh()
 
     def refresh(self, *_: object) -> None:
         """Enable what can be done now."""
-        actions, state = self._window.actions_by_name, self._window.running.runner.state
-        is_open = self._window.files.document is not None
+        actions, state = self._host.actions, self._host.services.runner.state
+        is_open = self._host.services.document is not None
         actions.enable(is_open and state in ("idle", "running", "paused"), "run")
         actions.enable(state in ("starting", "running", "paused"), "stop")
         actions.enable(state == "running", "pause")
@@ -158,9 +161,9 @@ class RunState(QWidget):
     It has room for the usual words at all times, so that nothing moves when it says something.
     """
 
-    def __init__(self, window: MainWindow, parent: QWidget) -> None:
+    def __init__(self, look: Look, parent: QWidget) -> None:
         super().__init__(parent)
-        self._window = window
+        self._look = look
         self._running: RunControl | None = None
         self._sign, self.words = QLabel(), ElidedLabel()
         self._is_tight = False
@@ -170,7 +173,7 @@ class RunState(QWidget):
         row.addWidget(self._sign)
         row.addWidget(self.words, 1)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        window.look.theme_changed.connect(self.refresh)
+        look.theme_changed.connect(self.refresh)
         self.refresh()
 
     def follow(self, running: RunControl) -> None:
@@ -208,7 +211,7 @@ class RunState(QWidget):
         self._sign.setVisible(bool(name))
         if name:
             side = self.fontMetrics().height()
-            picture = icon(name, self._window.look.theme.colour(colour))
+            picture = icon(name, self._look.theme.colour(colour))
             self._sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
 
 

@@ -4,108 +4,38 @@ from __future__ import annotations
 
 import logging
 import queue
-import tempfile
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import msgspec
-from PySide6.QtCore import QObject, QThread, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
-from faults import reason_of, text_of
 from nep_core.errors import NepError
 from nep_core.networks.network import Network
 from nep_core.processes.node_log import log_file_name
 from nep_core.wire import messages as m
 from nep_core.wire.pubsub import Publisher
-from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.errors import BlocksError
-from nep_studio.blocks.generate.program import ProgramGenerator
-from nep_studio.blocks.generate.source_map import Code
-from nep_studio.blocks.program import Changes
-from nep_studio.problems import Problem, problem_of
+from nep_studio.run.controller import (
+    PREPARING,
+    Ended,
+    Event,
+    Request,
+    RunController,
+    State,
+    StateChanged,
+    Subject,
+)
 from nep_studio.run.local_network import MASTER, LocalNetwork
 from nep_studio.run.node_board import Monitor, NodeBoard
 from nep_studio.run.plan import PlannedNode
-from nep_studio.run.session import Ending, Session, Watching
-from nep_studio.ui.workbench.live_checks import SlicedCall
+from nep_studio.ui.background import Background
 
 from .tap import Tap
 
 log = logging.getLogger(__name__)
-
-
-# One run of a program: its session, in a thread of its own.
-
-
-@dataclass(frozen=True)
-class Request:
-    """What is to be run: the code, the nodes that it needs, and how it is watched."""
-
-    code: Code
-    nodes: tuple[PlannedNode, ...]
-    watching: Watching = field(default_factory=Watching)
-
-
-class Play(QThread):
-    """Runs until the program ends or ``end`` is called; ``ending`` then tells how it went."""
-
-    begun = Signal()
-
-    def __init__(self, request: Request, network: LocalNetwork) -> None:
-        super().__init__()
-        self.request = request
-        self.ending = Ending()
-        self.session = Session(
-            Path(), list(request.nodes), _ignore, network=network, watching=request.watching
-        )
-
-    def run(self) -> None:
-        """Start everything, wait for the end, stop everything."""
-        try:
-            self.ending = self._play()
-        except NepError as error:
-            self.ending = Ending(problem_of(error))
-        except OSError as error:
-            self.ending = Ending(_disk_problem(error))
-        except Exception as error:
-            log.exception("the program could not be run")
-            sentence = f"{type(error).__name__}: {error}"
-            steps = ("Try it once more.", "Save the project, and start NEP Studio again.")
-            self.ending = Ending(Problem("The program could not be started", sentence, steps))
-
-    def _play(self) -> Ending:
-        with tempfile.TemporaryDirectory(prefix="nep-", ignore_cleanup_errors=True) as folder:
-            program = Path(folder) / "program.py"
-            program.write_text(self.request.code.text, encoding="utf-8")
-            self.session.use_program(program)
-            with self.session as session:
-                self.begun.emit()
-                return session.wait()
-
-    def end(self) -> None:
-        """Stop the robots at once; the rest follows in the thread. Does not wait."""
-        self.session.hush()
-        self.session.end()
-
-
-def _ignore(*_message: object) -> None:
-    """The window hears the network itself."""
-
-
-def _disk_problem(error: OSError) -> Problem:
-    return Problem(
-        "The program could not be written",
-        text_of("The computer says: {reason}.", reason=reason_of(error)),
-        (
-            "Is there room on the disk?",
-            "May this program write into the folder for temporary files?",
-        ),
-        details=str(error),
-    )
 
 
 # Messages that are sent by hand, from a thread of their own: a first one may have to wait.
@@ -153,7 +83,10 @@ class Sender:
         return self._publishers[topic]
 
 
-State = Literal["idle", "starting", "running", "paused", "stopping"]
+SLICE_S = 0.006
+"""How long the checks, or the code, may take of one frame of the screen."""
+
+BETWEEN_SLICES_MS = 1
 LOOK_MS = 250
 """How often it is looked whether a node has fallen silent."""
 SLEPT_S = 2.0
@@ -163,6 +96,7 @@ SLEPT_S = 2.0
 class Runner(QObject):
     """The window's door to a running program and its nodes; nothing in here waits.
 
+    What it does with the program is the RunController's doing; ``told`` gives its Events.
     ``arrived`` gives (topic, message) pairs of what was heard, at most 30 times a second;
     ``node_failed`` the NepError of a node that could not be started by hand; ``master_changed``
     what became of a master that ended unexpectedly (a MasterEvent), and how it ended; ``closing``
@@ -170,6 +104,7 @@ class Runner(QObject):
     """
 
     state_changed = Signal(str)
+    told = Signal(object)
     run_asked = Signal()
     connected = Signal()
     disconnected = Signal()
@@ -177,7 +112,7 @@ class Runner(QObject):
     nodes_changed = Signal(list)
     ended = Signal(object)
     node_failed = Signal(str, object)
-    master_changed = Signal(str, str)
+    master_changed = Signal(str, object)
     closing = Signal()
     _came_up = Signal()
 
@@ -186,19 +121,23 @@ class Runner(QObject):
         planned: Callable[[], list[PlannedNode]],
         parent: QObject,
         *,
+        subject: Callable[[], Subject | None] = lambda: None,
         logs: Path | None = None,
     ) -> None:
         super().__init__(parent)
         self.planned = planned
         self.board = NodeBoard()
-        self.state: State = "idle"
+        self._background = Background(self)
         self.local = LocalNetwork(logs=logs)
         self.local.listen(self._on_message)
         self.local.on_open = self._came_up.emit
         self.local.on_master = self.master_changed.emit
         self.told_elsewhere: set[str] = set()
         """Nodes of which a dialog tells what becomes of them: no message is needed."""
-        self.play: Play | None = None
+        self.controller = RunController(self.local, subject, self._background.post, self._on_told)
+        self._preparing = QTimer(self, interval=BETWEEN_SLICES_MS)
+        self._preparing.timeout.connect(self._on_time_left)
+        self._shown_state: State = "idle"
         self._is_closed = False
         self._looked_s = 0.0
         self._sender = Sender()
@@ -216,50 +155,32 @@ class Runner(QObject):
         """Whether messages can be sent and heard."""
         return self.local.is_open
 
+    @property
+    def state(self) -> State:
+        """What the program does; while it is only checked and written, it does nothing yet."""
+        return "idle" if self.controller.state in PREPARING else self.controller.state
+
     def run(self) -> None:
-        """Ask for the open project to be run, or run again; a paused one goes on."""
-        if self.state == "paused":
-            self.resume()
-        elif self.state in ("idle", "running"):
+        """Run what is open, or run it again; a paused program goes on."""
+        if self.state in ("idle", "running"):
             self.run_asked.emit()
+        self.controller.run()
 
     def start(self, request: Request) -> None:
         """Run this, which has been checked; ``ended`` tells how it went."""
-        if self.state != "idle" or self._is_closed:
-            return
-        self._set_state("starting")
-        play = self.play = Play(request, self.local)
-        play.begun.connect(self._on_begun)
-        play.finished.connect(self._on_over)
-        play.start()
+        self.controller.start(request)
 
     def stop(self) -> None:
         """Stop the robots at once, then the program, then what was started for it."""
-        if self.play is not None and self.state not in ("idle", "stopping"):
-            self._set_state("stopping")
-            self.play.end()
+        self.controller.stop()
 
     def pause(self) -> None:
         """Let the program pause at its next lines."""
-        if self.play is not None and self.state == "running":
-            self.play.session.pause()
-            self._set_state("paused")  # parts that are waiting only tell when they go on
-
-    def resume(self) -> None:
-        """Let a paused program go on."""
-        if self.play is not None and self.state == "paused":
-            self.play.session.resume()
-            self._set_state("running")
+        self.controller.pause()
 
     def step(self, thread: str = "") -> None:
         """Let a paused program run one line more."""
-        if self.play is not None and self.state == "paused":
-            self.play.session.step(thread)
-
-    def watch(self, watching: Watching) -> None:
-        """Pause elsewhere, or go at another pace, from now on."""
-        if self.play is not None and self.state in ("starting", "running", "paused"):
-            self.play.session.watch(watching)
+        self.controller.step(thread)
 
     # The nodes
 
@@ -318,9 +239,7 @@ class Runner(QObject):
         """Stop everything and wait for it; before the window goes. Nothing starts after it."""
         self._is_closed = True
         self.closing.emit()
-        if self.play is not None:
-            self.play.end()
-            self.play.wait()
+        self.controller.close()
         self._looking.stop()
         for tap in list(self._taps):
             tap.close()
@@ -335,33 +254,42 @@ class Runner(QObject):
     def _aside(self, name: str, do: Callable[[], None]) -> None:
         """Do what takes a while in a thread of its own."""
 
-        def run() -> None:
+        def work() -> NepError | None:
             try:
                 if not self._is_closed:
                     do()
             except NepError as error:
-                if not self._is_closed:  # else nobody is there to be told
-                    self.node_failed.emit(name, error)
+                return error
+            return None
 
-        threading.Thread(target=run, name=f"nep-studio-{name}", daemon=True).start()
+        def tell(error: NepError | None) -> None:
+            if error is not None and not self._is_closed:  # else nobody is there to be told
+                self.node_failed.emit(name, error)
+
+        self._background.start(work, tell, name=name)
 
     # What happens
 
     def _on_message(self, topic: str, message: msgspec.Struct) -> None:
         self._monitor.hear((topic, message))  # in a thread of the network
 
-    def _on_begun(self) -> None:
-        if self.state == "starting":
-            self._set_state("running")
+    def _on_told(self, event: Event) -> None:
+        """Pass on what the controller tells; those who look hear of no state before the start."""
+        before = self._shown_state
+        if isinstance(event, StateChanged):
+            self._shown_state = self.state
+            if event.state in PREPARING:
+                self._preparing.start()
+            else:
+                self._preparing.stop()
+        if self._shown_state != before:
+            self.state_changed.emit(self._shown_state)
+        self.told.emit(event)
+        if isinstance(event, Ended):
+            self.ended.emit(event.ending)
 
-    def _on_over(self) -> None:
-        play = self.play
-        if play is None:
-            return
-        play.wait()  # its very last breath: to throw a running thread away is fatal
-        self.play = None
-        self._set_state("idle")
-        self.ended.emit(play.ending)
+    def _on_time_left(self) -> None:
+        self.controller.work(SLICE_S)
 
     def _on_came_up(self) -> None:
         self._looking.start()
@@ -382,14 +310,10 @@ class Runner(QObject):
                 self.nodes_changed.emit(list(changed))
             for _, message in batch:
                 if isinstance(message, m.ProgramState):
-                    self._note(message)
+                    self.controller.heard(message)
             self.arrived.emit(batch)
         finally:
             self._monitor.taken()
-
-    def _note(self, state: m.ProgramState) -> None:
-        if state.event == "paused" and self.state == "running":
-            self._set_state("paused")
 
     def _on_look(self) -> None:
         now_s, before_s = time.time(), self._looked_s
@@ -398,68 +322,3 @@ class Runner(QObject):
             self.board.wake(now_s)
         if frozen := self.board.frozen(now_s):
             self.nodes_changed.emit(frozen)
-
-    def _set_state(self, state: State) -> None:
-        if state != self.state:
-            self.state = state
-            self.state_changed.emit(state)
-
-
-# Makes the Python of a program between frames: for thousands of blocks it takes a while.
-
-SLICE_S = 0.008
-BETWEEN_SLICES_MS = 1
-
-
-class Preparation(QObject):
-    """``done`` gives the code, ``refused`` the BlocksError that says why there is none.
-
-    When the program is changed meanwhile, it begins again with what has changed.
-    """
-
-    done = Signal(object)
-    refused = Signal(object)
-
-    def __init__(self, editor: Editor, parent: QObject) -> None:
-        super().__init__(parent)
-        self._editor = editor
-        self._generator = ProgramGenerator(editor.project, editor.language)
-        self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
-        self._next.timeout.connect(self._on_next_slice)
-        self._call = self._begin()
-        editor.history.listen(self._on_changes)
-        self._next.start()
-
-    def cancel(self) -> None:
-        """Give it up."""
-        self._end()
-        self._call.cancel()
-
-    def _begin(self) -> SlicedCall[Code]:
-        generator = self._generator
-
-        def work(rest: Callable[[], None]) -> Code:
-            return generator.generate(rest)
-
-        return SlicedCall(work)
-
-    def _end(self) -> None:
-        self._next.stop()
-        self._editor.history.unlisten(self._on_changes)
-        self.deleteLater()
-
-    def _on_changes(self, _changes: Changes) -> None:
-        self._call.cancel()
-        self._call = self._begin()
-
-    def _on_next_slice(self) -> None:
-        if not self._call.run(SLICE_S):
-            self._next.start()
-            return
-        self._end()
-        try:
-            code = self._call.result()
-        except BlocksError as error:
-            self.refused.emit(error)
-        else:
-            self.done.emit(code)

@@ -14,10 +14,10 @@ from nep_core.wire.messages import ProgramState
 from nep_studio.blocks.generate.source_map import Code, ReporterPlaces
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.canvas.painting.overlay import ring
-from nep_studio.ui.canvas.view import PageView
 from nep_studio.ui.words import tr
 
 from .runner import Runner
@@ -132,18 +132,18 @@ class RunOverlay:
         self.breakpoints: frozenset[str] = frozenset()
         self.names: dict[str, str] = {}
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw them."""
         marks = self.marks
         for block in marks.around:
-            ring(painter, view, block, _faded(view.theme.colour("glow"), 150), _px(view, 2.5))
+            ring(painter, view, block, _faded(view.look.theme.colour("glow"), 150), _px(view, 2.5))
         for block in marks.glowing:
             _glow(painter, view, block)
         known = (marks.counts, marks.values, marks.results, marks.paused)
         if not (self.breakpoints or any(known)):
             return
         paused = frozenset(marks.paused.values())
-        for placed in view.page_layout.boxes(view.visible_page_rect()):
+        for placed in view.page_layout.boxes(view.sight.visible_page_rect()):
             block = placed.box.block
             if block in self.breakpoints:
                 _dot(painter, view, placed, is_here=block in paused)
@@ -152,7 +152,7 @@ class RunOverlay:
             if words := self._chip(view, block):
                 _chip(painter, view, placed, words)
 
-    def _chip(self, view: PageView, block: str) -> str:
+    def _chip(self, view: CanvasHost, block: str) -> str:
         """The words beside a block: how often it fired, what its reporters or variable gave."""
         if (count := self.marks.counts.get(block, 0)) > 0:
             return tr("{n}\N{MULTIPLICATION SIGN}", n=count)
@@ -167,43 +167,43 @@ class RunOverlay:
         return self.marks.values.get(name, "")
 
 
-def touched(view: PageView, blocks: Iterable[str], *, with_chips: bool = False) -> None:
+def touched(view: CanvasHost, blocks: Iterable[str], *, with_chips: bool = False) -> None:
     """Let blocks with the glow around them be painted again, perhaps with what stands beside."""
-    reach = REACH * view.measures.unit if with_chips else 20.0
+    reach = REACH * view.look.measures.unit if with_chips else 20.0
     for block in blocks:
         placed = view.page_layout.placed(block)
         if placed is not None:
             x, y, width, height = placed.rect
-            view.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
+            view.layers.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
 
 
-def _glow(painter: QPainter, view: PageView, block: str) -> None:
-    colour = view.theme.colour("glow")
+def _glow(painter: QPainter, view: CanvasHost, block: str) -> None:
+    colour = view.look.theme.colour("glow")
     for width, opacity in HALO:
         ring(painter, view, block, _faded(colour, opacity), _px(view, width))
 
 
-def _dot(painter: QPainter, view: PageView, placed: Placed, *, is_here: bool) -> None:
+def _dot(painter: QPainter, view: CanvasHost, placed: Placed, *, is_here: bool) -> None:
     """A breakpoint: a dot before the block, with a ring while the program waits there."""
-    centre, size = _before(view, placed), 6.5 * view.measures.unit
-    painter.setPen(QPen(view.theme.colour("canvas"), 1.5 * view.measures.unit))
-    painter.setBrush(view.theme.colour("stop"))
+    centre, size = _before(view, placed), 6.5 * view.look.measures.unit
+    painter.setPen(QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit))
+    painter.setBrush(view.look.theme.colour("stop"))
     painter.drawEllipse(centre, size, size)
     if is_here:
-        _bars(painter, view, centre, view.theme.colour("stop_text"))
+        _bars(painter, view, centre, view.look.theme.colour("stop_text"))
 
 
-def _pause_sign(painter: QPainter, view: PageView, placed: Placed) -> None:
+def _pause_sign(painter: QPainter, view: CanvasHost, placed: Placed) -> None:
     """The program waits here: two bars in a disc."""
-    centre, size = _before(view, placed), 8 * view.measures.unit
-    painter.setPen(QPen(view.theme.colour("canvas"), 1.5 * view.measures.unit))
-    painter.setBrush(view.theme.colour("warning"))
+    centre, size = _before(view, placed), 8 * view.look.measures.unit
+    painter.setPen(QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit))
+    painter.setBrush(view.look.theme.colour("warning"))
     painter.drawEllipse(centre, size, size)
-    _bars(painter, view, centre, view.theme.colour("canvas"))
+    _bars(painter, view, centre, view.look.theme.colour("canvas"))
 
 
-def _bars(painter: QPainter, view: PageView, centre: QPointF, colour: QColor) -> None:
-    unit = view.measures.unit
+def _bars(painter: QPainter, view: CanvasHost, centre: QPointF, colour: QColor) -> None:
+    unit = view.look.measures.unit
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(colour)
     for side in (-1, 1):
@@ -211,9 +211,9 @@ def _bars(painter: QPainter, view: PageView, centre: QPointF, colour: QColor) ->
         painter.drawRect(QRectF(middle - unit * 0.9, centre.y() - 3 * unit, unit * 1.8, 6 * unit))
 
 
-def _before(view: PageView, placed: Placed) -> QPointF:
+def _before(view: CanvasHost, placed: Placed) -> QPointF:
     """The place before the first row of a block, where reading begins."""
-    unit = view.measures.unit
+    unit = view.look.measures.unit
     way = 12 * unit
     x = placed.x + placed.box.width + way if placed.box.is_mirrored else placed.x - way
     return QPointF(x, _first_row(placed, unit))
@@ -226,28 +226,28 @@ def _first_row(placed: Placed, unit: float) -> float:
     return placed.y + 15 * unit
 
 
-def _chip(painter: QPainter, view: PageView, placed: Placed, words: str) -> None:
+def _chip(painter: QPainter, view: CanvasHost, placed: Placed, words: str) -> None:
     """A small label after the first row of a block."""
-    unit = view.measures.unit
-    metrics = QFontMetricsF(view.badge_font)
+    unit = view.look.measures.unit
+    metrics = QFontMetricsF(view.look.badge_font)
     wide = min(metrics.horizontalAdvance(words), (REACH - 40) * unit)
     height = metrics.height() + 4 * unit
     width = wide + 14 * unit
     gap = 10 * unit
     after = placed.x - gap - width if placed.box.is_mirrored else placed.x + placed.box.width + gap
     rect = QRectF(after, _first_row(placed, unit) - height / 2, width, height)
-    painter.setPen(QPen(view.theme.colour("field_line"), unit))
-    painter.setBrush(view.theme.colour("menu"))
+    painter.setPen(QPen(view.look.theme.colour("field_line"), unit))
+    painter.setBrush(view.look.theme.colour("menu"))
     painter.drawRoundedRect(rect, height / 2, height / 2)
-    painter.setPen(view.theme.colour("text"))
-    painter.setFont(view.badge_font)
+    painter.setPen(view.look.theme.colour("text"))
+    painter.setFont(view.look.badge_font)
     shown = metrics.elidedText(words, Qt.TextElideMode.ElideRight, wide + unit)
     painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, shown)
 
 
-def _px(view: PageView, width: float) -> float:
+def _px(view: CanvasHost, width: float) -> float:
     """A width in pixels of the screen, in canvas units."""
-    return width / view.camera.scale
+    return width / view.sight.camera.scale
 
 
 def _faded(colour: QColor, opacity: int) -> QColor:
@@ -277,10 +277,6 @@ class Breakpoints(QObject):
         """Pause nowhere."""
         self._set(frozenset())
 
-    def lines(self, code: Code) -> tuple[int, ...]:
-        """The lines of a program before which it pauses."""
-        return tuple(sorted({line for block in self.ids if (line := code.stop_at(block))}))
-
     def _set(self, ids: frozenset[str]) -> None:
         if ids != self.ids:
             self.ids = ids
@@ -307,7 +303,7 @@ class Stage(QObject):
     def show_on(self, canvas: Canvas) -> None:
         """Show it on this canvas from now on."""
         self._canvas = canvas
-        canvas.overlays.append(self.overlay)
+        canvas.layers.show_overlay(self.overlay)
         canvas.menu_sections.append(self._menu)
 
     def begin(self, code: Code) -> None:
@@ -359,7 +355,7 @@ class Stage(QObject):
 
     def _repaint_all(self) -> None:
         if self._canvas is not None:
-            self._canvas.viewport().update()
+            self._canvas.area.viewport().update()
 
     def _on_state_changed(self, state: str) -> None:
         if state == "idle":
@@ -371,9 +367,12 @@ class Stage(QObject):
         self.overlay.breakpoints = self._breakpoints.ids
         self._repaint_all()
 
-    def _menu(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+    def _menu(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """Let the program pause at a block."""
-        if place.hit is None or canvas.editor.project.kind_of_page(canvas.page) != "behaviour":
+        if (
+            place.hit is None
+            or canvas.editor.project.kind_of_page(canvas.page_layout.page) != "behaviour"
+        ):
             return []
         block = statement_at(canvas, place.hit.block)
         if not block:
@@ -388,7 +387,7 @@ def _copied(results: dict[str, dict[str, str]]) -> dict[str, dict[str, str]]:
     return {statement: dict(given) for statement, given in results.items()}
 
 
-def statement_at(canvas: Canvas, block: str) -> str:
+def statement_at(canvas: CanvasHost, block: str) -> str:
     """The block that does something which a block is, or is a part of; "" where there is none."""
     project, language = canvas.editor.project, canvas.editor.language
     while block in project.blocks:

@@ -25,16 +25,12 @@ from PySide6.QtGui import QFileOpenEvent
 from PySide6.QtWidgets import QApplication
 
 from nep_studio import __version__, settings
-from nep_studio.settings import Settings
 from nep_studio.support import safe_mode
 from nep_studio.support.safe_mode import StartNote
-from nep_studio.ui import words
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon
-from nep_studio.ui.theme.look import Look, load_fonts
 
 if TYPE_CHECKING:
-    from nep_studio.blocks.language import Language
-
     from .main_window import MainWindow
 
 log = logging.getLogger(__name__)
@@ -58,69 +54,6 @@ class Application(QApplication):
 
 SAFE_AFTER_MS = 5000
 """A start has gone well when the whole window was there for so long."""
-
-
-class Studio(QObject):
-    """What all parts of the window share. ``words_changed`` comes after a change of language."""
-
-    words_changed = Signal()
-
-    def __init__(self, app: QApplication, chosen: Settings | None = None) -> None:
-        super().__init__(app)
-        self.app = app
-        usual = safe_mode.passing_settings if safe_mode.is_on() else Settings
-        self.settings = chosen or usual()
-        load_fonts()
-        self._use_words()
-        self.look = Look(app, self.settings.theme, self.settings.text_scale)
-        self._language: Language | None = None
-
-    @property
-    def language(self) -> Language:
-        """The blocks that there are; their files are read when somebody first asks."""
-        if self._language is None:
-            self.read_language()
-        assert self._language is not None
-        return self._language
-
-    @language.setter
-    def language(self, language: Language) -> None:
-        self._language = language
-
-    def read_language(self) -> None:
-        """Read the files of the blocks now."""
-        from nep_studio.run.installation import studio_language  # the first page needs none
-
-        self._language = studio_language(words.language_code())
-
-    def choose_theme(self, name: str) -> None:
-        """Use a theme from now on."""
-        self.settings.theme = name
-        self.look.choose(name)
-
-    def choose_text_scale(self, scale: float) -> None:
-        """Make the text larger or smaller from now on."""
-        self.settings.text_scale = scale
-        self.look.set_scale(self.settings.text_scale)
-
-    def choose_language(self, code: str) -> None:
-        """Speak a language from now on; "system" is the computer's."""
-        self.settings.language = code
-        self._use_words()
-        self.look.refresh()
-        self._language = None
-        self.words_changed.emit()
-
-    def _use_words(self) -> None:
-        code = self.settings.language
-        if code == settings.SYSTEM:
-            code = settings.system_language(words.available_languages())
-        words.use_language(code)
-        is_mirrored = words.is_right_to_left()
-        direction = (
-            Qt.LayoutDirection.RightToLeft if is_mirrored else Qt.LayoutDirection.LeftToRight
-        )
-        self.app.setLayoutDirection(direction)
 
 
 def make_application() -> Application:

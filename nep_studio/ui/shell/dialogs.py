@@ -20,19 +20,11 @@ def open_settings(window: MainWindow) -> None:
     dialog.open()
 
 
-def export_picture(window: MainWindow) -> None:
-    """Ask for a picture of the blocks."""
-    from nep_studio.ui.plugins.picture.dialog import PictureDialog
-
-    document = window.files.document
-    if document is not None:
-        folder = document.path.parent if document.path else window.settings.last_folder
-        PictureDialog(window.workbench.canvas, folder, document.title, window).open()
-
-
 def show_shortcuts(window: MainWindow) -> None:
     """Show what the keys do."""
-    from .help_dialogs import ShortcutsDialog, on_the_canvas, shortcuts_of
+    from nep_studio.ui.actions import on_the_canvas, shortcuts_of
+
+    from .help_dialogs import ShortcutsDialog
 
     rows = [*shortcuts_of(window.actions_by_name.by_name.values()), *on_the_canvas()]
     ShortcutsDialog(rows, window).open()

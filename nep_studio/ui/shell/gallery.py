@@ -35,12 +35,11 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.project.examples import Example, example_of, examples
 from nep_studio.ui.messages import announce
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Flow, begin_where_reading_begins
 from nep_studio.ui.words import count_words, is_right_to_left, tr
-
-from .app import Studio
 
 # How the gallery says what an example needs, how hard and how long it is, and what it is about.
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import platform
 from collections.abc import Iterable
 
-from PySide6.QtCore import QKeyCombination, QSize, Qt, qVersion
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtCore import QSize, Qt, qVersion
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
@@ -83,39 +82,6 @@ class AboutDialog(QDialog):
             tr("Free software under the MIT licence. Font: Atkinson Hyperlegible. Icons: Lucide."),
             f"Python {platform.python_version()}, Qt {qVersion()}, {platform.system()}",
         ]
-
-
-FIRST_RARE_KEY = Qt.Key.Key_Back
-"""From here on come keys such as “Undo” and “Open”, which hardly a keyboard has."""
-
-
-def shortcuts_of(actions: Iterable[QAction]) -> list[tuple[str, str]]:
-    """What the actions with keys do, and the keys that a keyboard has."""
-    native = QKeySequence.SequenceFormat.NativeText
-    return [
-        (
-            action.iconText().replace("&", ""),
-            ", ".join(dict.fromkeys(key.toString(native) for key in keys)),
-        )
-        for action in actions
-        if (keys := [key for key in action.shortcuts() if _is_on_keyboards(key)])
-    ]
-
-
-def _is_on_keyboards(keys: QKeySequence) -> bool:
-    first: QKeyCombination = keys[0]  # type: ignore[index]  # stubs lack __getitem__
-    return first.key() < FIRST_RARE_KEY
-
-
-def on_the_canvas() -> list[tuple[str, str]]:
-    """What the mouse does on the canvas."""
-    return [
-        (tr("Move a block with those below it"), tr("Drag")),
-        (tr("Select several blocks"), tr("Drag on the empty page, or Shift and click")),
-        (tr("Move the page"), tr("Wheel, or drag with the middle button")),
-        (tr("Zoom"), tr("Ctrl and wheel")),
-        (tr("What the selected block does"), "F1"),
-    ]
 
 
 def _closer(dialog: QDialog) -> QPushButton:

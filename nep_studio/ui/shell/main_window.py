@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
-from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar, QWidget
+from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar
 
-from nep_studio.ui.document_files import PICTURES, SUFFIX, FileChooser, Files, SystemFileChooser
+from nep_studio.ui.actions import Actions
+from nep_studio.ui.document_files import PICTURES, SUFFIX, FileChooser
 from nep_studio.ui.message_cards import MessageArea
-from nep_studio.ui.messages import Answer, Message, Messages
-from nep_studio.ui.running.actions import add_run_menu, follow_running
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.running.actions import fill_run_menu, follow_running
+from nep_studio.ui.services import Services, Studio
 from nep_studio.ui.theme.icons import fit_icons
 from nep_studio.ui.words import is_right_to_left, tr
 from nep_studio.ui.workbench.problem_style import dress_check
 
-from .app import Studio
-from .dialogs import export_picture, offer_recovery, open_settings
+from .dialogs import offer_recovery, open_settings
 from .menus import (
-    Actions,
     add_edit_menu,
     add_file_menu,
     add_help_menu,
@@ -32,14 +32,13 @@ from .menus import (
     size_toolbar,
     update_edit_actions,
 )
+from .plugin_host import WindowHost
 from .start_page import StartPage
 
 if TYPE_CHECKING:
     from nep_studio.blocks.checks.problem import Problem
     from nep_studio.ui.documents import Document, Opening
-    from nep_studio.ui.plugins.help.help_controller import HelpDesk
     from nep_studio.ui.running.control import RunControl
-    from nep_studio.ui.workbench.side_panels import AreaName, Panel
     from nep_studio.ui.workbench.workbench import Workbench
 
 
@@ -59,33 +58,24 @@ MODULES = (
     "nep_studio.ui.canvas.editing.commands",
     "nep_studio.ui.canvas.layout.page",
     "nep_studio.ui.canvas.editing.menu",
-    "nep_studio.ui.canvas.view",
     "nep_studio.ui.canvas.fields.editors",
     "nep_studio.ui.canvas.canvas",
     "nep_studio.ui.workbench.code",
     "nep_studio.ui.workbench.palette.palette",
     "nep_studio.ui.workbench.workbench",
     "nep_studio.run.session",
+    "nep_studio.run.controller",
     "nep_studio.ui.running.control",
     "nep_studio.help.texts",
-    "nep_studio.ui.plugins.help.repository",
-    "nep_studio.ui.plugins.help.panel",
-    "nep_studio.ui.plugins.cues.panel",
-    "nep_studio.ui.plugins.nodes.panel",
-    "nep_studio.ui.plugins.network.panel",
-    "nep_studio.ui.plugins.robots.panel",
-    "nep_studio.ui.plugins.show",
-    "nep_studio.ui.plugins.tour.tour",
-    "nep_studio.ui.plugins.study",
-    "nep_studio.ui.shell.rooms",
+    "nep_studio.ui.shell.command_palette",
 )
-"""What the parts are made of, in an order in which none of them takes long to load."""
+"""What the workbench is made of, in an order in which none of them takes long to load."""
 
 
 class Later(QObject):
     """The workbench and what stands around it, made by one step after the other.
 
-    What runs the project is made once; the rest again each time that the window is made anew.
+    It is made again each time that the window is made anew.
     ``completed`` comes when all is there.
     """
 
@@ -100,8 +90,6 @@ class Later(QObject):
         self.is_laid_out = False
         """Whether the panels are to have the sizes that the person gave them."""
         self.made_workbench: Workbench | None = None
-        self.made_running: RunControl | None = None
-        self.desk: HelpDesk | None = None
         self._turns = QTimer(self, interval=0)
         self._turns.timeout.connect(self.step)
 
@@ -122,22 +110,6 @@ class Later(QObject):
             self.finish()
         assert self.made_workbench is not None
         return self.made_workbench
-
-    @property
-    def running(self) -> RunControl:
-        """What runs the project, made when somebody first asks."""
-        if self.made_running is None:
-            from nep_studio.ui.running.control import RunControl
-
-            self.made_running = RunControl(self._window)
-        return self.made_running
-
-    @property
-    def help_desk(self) -> HelpDesk:
-        """Who answers what is asked of the help."""
-        self.finish()
-        assert self.desk is not None
-        return self.desk
 
     def begin(self) -> None:
         """Let everything be made anew, once it is needed."""
@@ -162,9 +134,7 @@ class Later(QObject):
         """Let what is made be used or not, as a project is open or not."""
         if not self.is_done:
             return
-        from .rooms import WITH_A_PROJECT
-
-        self._window.actions_by_name.enable(is_open, *WITH_A_PROJECT)
+        self._window.actions_by_name.enable(is_open, *self._window.host.with_a_project)
         for panel in self.workbench.panels.all:
             panel.action.setEnabled(is_open)
 
@@ -206,7 +176,8 @@ class Later(QObject):
             yield
         from nep_studio.ui.workbench.workbench import Workbench
 
-        from .rooms import add_rooms
+        from .command_palette import add_command_palette
+        from .plugin_host import add_plugins
 
         window = self._window
         _ = window.studio.language
@@ -214,9 +185,11 @@ class Later(QObject):
         workbench = self.made_workbench = Workbench(window.studio, window.messages, window.pages)
         window.pages.addWidget(workbench)
         yield
-        self.running.attach()
-        follow_running(window)
-        yield from add_rooms(window)
+        window.running.attach()
+        follow_running(window.host, window.toolbar)
+        yield from add_plugins(window.host)
+        add_command_palette(window)
+        window.menus["view"].addAction(window.actions_by_name["palette"])
         fit_icons(workbench)
         if self.is_laid_out:
             workbench.restore(window.fontMetrics().height())
@@ -251,16 +224,12 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.studio = studio
         self.settings, self.look = studio.settings, studio.look
-        self.messages = Messages(self)
-        self.files = Files(
-            lambda: studio.language,
-            self.settings,
-            self.messages,
-            chooser or SystemFileChooser(),
-            self,
-        )
+        self.host = WindowHost(self)
+        self.services = Services(studio, self, self._make_running, chooser)
+        self.messages, self.files = self.services.messages, self.services.files
         self._opening_message: Message | None = None
         self._may_close = False
+        self._shown_problems: tuple[object, ...] = ()
         self.later = Later(self)
         self.setAcceptDrops(True)
         self.resize(*FIRST_SIZE)
@@ -285,7 +254,12 @@ class MainWindow(QMainWindow):
     @property
     def running(self) -> RunControl:
         """What runs the project; made when it is first asked for."""
-        return self.later.running
+        return self.services.running
+
+    def _make_running(self) -> RunControl:
+        from nep_studio.ui.running.control import RunControl
+
+        return RunControl(self.host)
 
     def _build(self) -> None:
         """Make all that has words in it: the first page now, the rest later."""
@@ -303,11 +277,13 @@ class MainWindow(QMainWindow):
             "file": add_file_menu(self),
             "edit": add_edit_menu(self),
             "view": add_view_menu(self),
-            "run": add_run_menu(self),
+            "run": self.menuBar().addMenu(tr("&Run")),
             "robots": self.menuBar().addMenu(tr("R&obots")),
-            "help": add_help_menu(self),
         }
+        fill_run_menu(self.menus["run"], self.host)
+        self.menus["help"] = add_help_menu(self)
         self.toolbar: QToolBar = add_toolbar(self)
+        self.host.begin()
         self.later.begin()
         self._on_problems_found([])
         self.update_actions()
@@ -317,8 +293,8 @@ class MainWindow(QMainWindow):
         """Follow the workbench, now that it and all around it are made."""
         workbench = self.workbench
         workbench.problems_found.connect(self._on_problems_found)
-        workbench.canvas.picture_requested.connect(lambda: export_picture(self))
-        workbench.canvas.layout_changed.connect(self.update_actions)
+        workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
+        workbench.canvas.news.layout_changed.connect(self.update_actions)
         workbench.canvas.selection.changed.connect(self.update_actions)
         self.update_actions()
         self.start_page.gallery.paint_pictures()
@@ -331,12 +307,6 @@ class MainWindow(QMainWindow):
         if path is not None:
             self.files.open(path)
         self.offer_recovery()
-
-    def add_side_panel(
-        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
-    ) -> Panel:
-        """Add a panel beside the canvas: left, right or at the bottom."""
-        return self.workbench.add_side_panel(widget, title, icon_name, area, is_shown=is_shown)
 
     def offer_recovery(self) -> None:
         """Offer work that was not saved when the program ended without warning."""
@@ -389,8 +359,6 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{document.title}[*]" if document is not None else tr("Start"))
         self.setWindowModified(document is not None and document.is_modified)
         self.setWindowFilePath("" if document is None else str(document.path or ""))
-        if self.later.is_done:
-            self.workbench.show_folder(document)
         can_compare = document is not None and document.path is not None and document.is_modified
         self.actions_by_name.enable(can_compare, "compare")
 
@@ -399,6 +367,10 @@ class MainWindow(QMainWindow):
         is_open = document is not None
         if document is not None and not document.project.blocks:
             problems = []  # that nothing happens yet is no news to somebody who begins
+        shown = (list(problems), is_open, self.look.theme, self.toolbar)
+        if shown == self._shown_problems:
+            return  # as after most keys: nothing has changed on the toolbar
+        self._shown_problems = shown
         dress_check(self.actions_by_name["check"], problems, self.look.theme, is_open=is_open)
         size_toolbar(self.toolbar)
 
@@ -425,7 +397,7 @@ class MainWindow(QMainWindow):
     def _rebuild(self) -> None:
         """Make the contents of the window anew, and show the same place of the same project."""
         old, page = self.workbench, self.workbench.canvas.page
-        camera, selected = replace(old.canvas.camera), old.canvas.selection.ids
+        camera, selected = replace(old.canvas.sight.camera), old.canvas.selection.ids
         was_mirrored = self._is_mirrored
         old.retire()
         self.menuBar().clear()
@@ -441,11 +413,11 @@ class MainWindow(QMainWindow):
         if self.files.document is not None:
             canvas.show_page(page)
             canvas.selection.set(selected)
-            canvas.zoom(camera.scale)
+            canvas.sight.zoom(camera.scale)
             if was_mirrored == self._is_mirrored:
-                canvas.move_camera(camera.x, camera.y)
+                canvas.sight.move_camera(camera.x, camera.y)
             else:  # the page is read from its other side now
-                canvas.show_beginning()
+                canvas.sight.show_beginning()
             if selected:
                 canvas.show_block(selected[0])
 
@@ -479,7 +451,7 @@ class MainWindow(QMainWindow):
             self.workbench.panels.remember()
         self.settings.write()
         self.hide()  # what is running takes a moment to stop
-        if self.later.made_running is not None:
+        if self.services.made_running is not None:
             self.running.close()
         if is_complete:
             self.workbench.retire()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, QPalette
 from PySide6.QtWidgets import (
     QApplication,
@@ -14,107 +14,23 @@ from PySide6.QtWidgets import (
     QPlainTextEdit,
     QToolBar,
     QToolButton,
-    QWidget,
 )
 
 from faults import Words
-from nep_studio.settings import SYSTEM, Settings
+from nep_studio.settings import SYSTEM
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, dress_buttons, keep_width
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
-from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import available_languages, tr
 
-from .dialogs import export_picture, show_about, show_report, show_shortcuts
+from .dialogs import show_about, show_report, show_shortcuts
 from .gallery import example_files, example_title
 
 if TYPE_CHECKING:
     from nep_studio.ui.canvas.editing.commands import Commands
-    from nep_studio.ui.plugins.help.help_controller import HelpDesk
     from nep_studio.ui.workbench.find_bar import FindBar
 
     from .main_window import MainWindow
-
-
-Keys = QKeySequence.StandardKey | str
-
-
-class Actions(QObject):
-    """The actions of one window by name; they work wherever the focus is in it."""
-
-    def __init__(self, window: QWidget, look: Look) -> None:
-        super().__init__(window)
-        self._window, self._look = window, look
-        self._icons: dict[str, tuple[str, str]] = {}
-        self.by_name: dict[str, QAction] = {}
-        look.theme_changed.connect(self._on_theme_changed)
-
-    def __getitem__(self, name: str) -> QAction:
-        return self.by_name[name]
-
-    def add(
-        self,
-        name: str,
-        words: str,
-        do: Callable[[], object],
-        *,
-        icon_name: str = "",
-        keys: Keys | tuple[Keys, ...] = (),
-        tip: str = "",
-        colour: str = "text",
-    ) -> QAction:
-        """Make an action; ``words`` with an ellipsis where a question follows.
-
-        ``colour`` is the theme's colour of an icon that does not stand on a panel.
-        """
-        action = QAction(words, self)
-        action.setObjectName(name)
-        action.setShortcuts(sequences(keys))
-        action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
-        action.triggered.connect(lambda: do())
-        action.setIconText(words.removesuffix("…"))
-        action.setToolTip(_tip(tip or words.removesuffix("…"), action))
-        self._window.addAction(action)
-        self.by_name[name] = action
-        if icon_name:
-            self._icons[name] = icon_name, colour
-            self._dress(name)
-        return action
-
-    def enable(self, is_enabled: bool, *names: str) -> None:
-        """Let these actions be used, or not."""
-        for name in names:
-            self.by_name[name].setEnabled(is_enabled)
-
-    def retire(self) -> None:
-        """Take the actions away from the window."""
-        for action in self.by_name.values():
-            self._window.removeAction(action)
-        self.deleteLater()
-
-    def _on_theme_changed(self) -> None:
-        for name in self._icons:
-            self._dress(name)
-
-    def _dress(self, name: str) -> None:
-        icon_name, colour = self._icons[name]
-        self.by_name[name].setIcon(icon(icon_name, self._look.theme, colour))
-
-
-def sequences(keys: Keys | tuple[Keys, ...]) -> list[QKeySequence]:
-    """The key sequences of keys; a standard key may have several on this system."""
-    found: list[QKeySequence] = []
-    for key in keys if isinstance(keys, tuple) else (keys,):
-        if isinstance(key, str):
-            found.append(QKeySequence(key))
-        else:
-            found.extend(QKeySequence.keyBindings(key))
-    return list(dict.fromkeys(found))  # one that is there twice would be ambiguous
-
-
-def _tip(words: str, action: QAction) -> str:
-    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-    return f"{words} ({keys})" if keys else words
 
 
 # The Edit menu, and which of its actions can be used now.
@@ -324,7 +240,10 @@ def add_file_menu(window: MainWindow) -> QMenu:
     )
     menu.addActions([save, save_as, compare])
     picture = actions.add(
-        "picture", tr("Export picture…"), lambda: export_picture(window), icon_name="image"
+        "picture",
+        tr("Export picture…"),
+        lambda: window.host.ask("exporting.picture"),
+        icon_name="image",
     )
     menu.addAction(picture)
     menu.addSeparator()
@@ -396,7 +315,7 @@ def add_view_menu(window: MainWindow) -> QMenu:
 
     def zoom(factor: float) -> None:
         canvas = window.workbench.canvas
-        canvas.zoom(canvas.camera.scale * factor)
+        canvas.sight.zoom(canvas.sight.camera.scale * factor)
 
     menu.addActions(
         [
@@ -418,7 +337,7 @@ def add_view_menu(window: MainWindow) -> QMenu:
             add(
                 "zoom_fit",
                 tr("Show all"),
-                lambda: window.workbench.canvas.fit(),
+                lambda: window.workbench.canvas.sight.fit(),
                 icon_name="maximize",
                 keys="Ctrl+9",
             ),
@@ -429,7 +348,7 @@ def add_view_menu(window: MainWindow) -> QMenu:
     panels.aboutToShow.connect(lambda: _fill_panels(panels, window))
     minimap = add("minimap", tr("Minimap"), lambda: None, icon_name="map")
     minimap.setCheckable(True)
-    minimap.setChecked(is_minimap_shown(window.settings))
+    minimap.setChecked(window.settings.is_minimap_shown)
     minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
     menu.addAction(minimap)
     check = add("check", tr("Check"), window.show_problems, icon_name="circle-check", keys="F8")
@@ -456,12 +375,8 @@ def add_view_menu(window: MainWindow) -> QMenu:
         chosen,
         lambda scale: window.studio.choose_text_scale(float(scale)),
     )
+    menu.addSeparator()  # before what plugins add
     return menu
-
-
-def is_minimap_shown(settings: Settings) -> bool:
-    """Whether the person left the minimap open."""
-    return settings.is_shown("Minimap", default=False)
 
 
 def _fill_panels(menu: QMenu, window: MainWindow) -> None:
@@ -495,22 +410,15 @@ def add_help_menu(window: MainWindow) -> QMenu:
 def _help_actions(window: MainWindow) -> list[QAction]:
     """They are there before the help, which may come a moment later."""
     add, sign = window.actions_by_name.add, "circle-question-mark"
-
-    def desk() -> HelpDesk:
-        return window.later.help_desk
-
-    def browse() -> None:
-        from nep_studio.ui.plugins.help.help_controller import open_documentation
-
-        open_documentation(window.messages)
+    ask = window.host.ask
 
     contents, search = tr("Contents of the help"), tr("Search the help…")
     pages = tr("Documentation in the browser")
     return [
-        add("help", tr("Help"), lambda: desk().answer(), icon_name=sign, keys="F1"),
-        add("help_contents", contents, lambda: desk().open(), icon_name="book-open"),
-        add("help_search", search, lambda: desk().search(), icon_name="search"),
-        add("documentation", pages, browse, icon_name="external-link"),
+        add("help", tr("Help"), lambda: ask("help.answer"), icon_name=sign, keys="F1"),
+        add("help_contents", contents, lambda: ask("help.open"), icon_name="book-open"),
+        add("help_search", search, lambda: ask("help.search"), icon_name="search"),
+        add("documentation", pages, lambda: ask("help.documentation"), icon_name="external-link"),
     ]
 
 
@@ -524,7 +432,7 @@ def add_toolbar(window: MainWindow) -> QToolBar:
         if number:
             bar.addSeparator()
         bar.addActions([window.actions_by_name[name] for name in names])
-    bar.addWidget(RunState(window, bar))
+    bar.addWidget(RunState(window.look, bar))
     bar.addActions([window.actions_by_name[name] for name in LAST_BUTTONS])
     window.addToolBar(bar)
     dress_buttons(bar, window.look)

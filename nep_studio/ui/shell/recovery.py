@@ -19,11 +19,10 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.editor import Editor
 from nep_studio.project.journal import Recoverable
 from nep_studio.ui.canvas.block_pictures import picture_of
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 from nep_studio.ui.workbench.workbench import block_font
-
-from .app import Studio
 
 WIDTH_LINES, HEIGHT_LINES = 26, 13
 

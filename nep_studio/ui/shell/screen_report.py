@@ -37,8 +37,8 @@ def findings() -> Iterator[Finding]:
 def _sound() -> Iterator[Finding]:
     import importlib.util
 
-    from nep_studio.ui.plugins.speech.robot_voices import find_player
-    from nep_studio.ui.plugins.speech.voices import MODULE, find_system_voice
+    from nep_studio.ui.speech.robot_voices import find_player
+    from nep_studio.ui.speech.voices import MODULE, find_system_voice
 
     voice, player = find_system_voice(), find_player()
     with_qt = "Qt's voices are there" if importlib.util.find_spec(MODULE) else ""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,12 +40,12 @@ from nep_studio.settings import (
     ShowOptions,
 )
 from nep_studio.support.updates import Newest, UpdateChoice, ask, is_usable
+from nep_studio.ui.background import Background
 from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.words import available_languages, tr
-
-from .app import Studio
 
 if TYPE_CHECKING:
     from .main_window import MainWindow
@@ -290,12 +289,11 @@ class Asking(QObject):
     """One question at a time; ``answered`` gives the Newest, or None, in the window's thread."""
 
     answered = Signal(object)
-    _heard = Signal(int, object)
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._number = 0
-        self._heard.connect(self._on_heard, Qt.ConnectionType.QueuedConnection)
+        self._background = Background(self)
         self._patience = QTimer(self, interval=LONGEST_MS, singleShot=True)
         self._patience.timeout.connect(lambda: self._on_heard(self._number, None))
 
@@ -303,18 +301,13 @@ class Asking(QObject):
         """Ask; at the end of the program nobody waits."""
         self.cancel()
         self._patience.start()
-        words = (address, self._number)
-        threading.Thread(target=self._ask, args=words, name="updates", daemon=True).start()
+        tell = partial(self._on_heard, self._number)
+        self._background.start(partial(ask, address), tell, name="updates")
 
     def cancel(self) -> None:
         """Want no answer any more."""
         self._number += 1
         self._patience.stop()
-
-    def _ask(self, address: str, number: int) -> None:
-        newest = ask(address)
-        with suppress(RuntimeError):  # the window has gone meanwhile
-            self._heard.emit(number, newest)
 
     def _on_heard(self, number: int, newest: Newest | None) -> None:
         if number == self._number:

@@ -17,11 +17,11 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.ui.document_files import Files
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
 from nep_studio.ui.widgets.layouts import Flow, begin_where_reading_begins
 from nep_studio.ui.words import tr
 
-from .app import Studio
 from .gallery import Card, Gallery
 
 # The offer of the tour on the start page, until somebody has taken it or wants none.

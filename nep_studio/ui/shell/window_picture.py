@@ -63,7 +63,9 @@ class _Onlooker(QTimer):
 
 def main(arguments: list[str]) -> int:
     """Draw it, and print in JSON when it was first painted; 1 when it cannot be drawn."""
-    from .app import Studio, make_application
+    from nep_studio.ui.services import Studio
+
+    from .app import make_application
     from .main_window import MainWindow
 
     asked = _parser().parse_args(arguments)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QGuiApplication, QResizeEvent, QScreen
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QMenu, QSizePolicy, QWidget
 
 FEWEST_LETTERS = 10
 """With fewer than these the rest cannot be guessed, and nothing is shown."""
@@ -69,3 +69,13 @@ def _screen_of(widget: QWidget | None) -> QScreen:
     """
     middle = widget.mapToGlobal(widget.rect().center()) if widget is not None else QPoint()
     return QGuiApplication.screenAt(middle) or QGuiApplication.primaryScreen()
+
+
+# Titles inside menus: those that Qt has of its own are not painted in our style.
+
+
+def add_title(menu: QMenu, words: str) -> None:
+    """Begin a part of a menu with words that cannot be chosen."""
+    if not menu.isEmpty():
+        menu.addSeparator()
+    menu.addAction(words.replace("&", "&&")).setEnabled(False)

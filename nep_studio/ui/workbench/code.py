@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QGuiApplication, QHideEvent, QResizeEvent, QShowEvent
@@ -16,6 +16,8 @@ from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_launch
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes
+from nep_studio.blocks.slices import Sliced, Steps
+from nep_studio.ui.edits import edits_of
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon
@@ -24,7 +26,6 @@ from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.words import tr
 
 from .code_text import CodeText
-from .live_checks import SlicedCall
 
 # The Python of the page that is shown, made again after each edit; a long one in slices.
 
@@ -33,9 +34,6 @@ SLICE_S = 0.008
 """How long the making may take of one frame of the screen."""
 
 BETWEEN_SLICES_MS = 4
-
-
-Rest = Callable[[], None]
 
 
 class LiveCode(QObject):
@@ -60,18 +58,25 @@ class LiveCode(QObject):
         self.code: Code | None = None
         self._next_frame = QTimer(self, singleShot=True, interval=FRAME_MS)
         self._next_frame.timeout.connect(self.start)
-        self._call: SlicedCall[Code] | None = None
+        self._work: Sliced[Code] | None = None
         self._next_slice = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next_slice.timeout.connect(self._on_next_slice)
-        editor.history.listen(self._on_changes)
+        self._follow(editor)
 
     def set_editor(self, editor: Editor) -> None:
         """Follow another project."""
-        self._editor.history.unlisten(self._on_changes)
+        edits = edits_of(self._editor)
+        edits.edited.disconnect(self._on_edited)
+        edits.settled.disconnect(self._on_settled)
         self._editor = editor
         self._generator = self.code = None
-        editor.history.listen(self._on_changes)
+        self._follow(editor)
         self._grow_old()
+
+    def _follow(self, editor: Editor) -> None:
+        edits = edits_of(editor)
+        edits.edited.connect(self._on_edited)
+        edits.settled.connect(self._on_settled)
 
     def show_page(self, page: str) -> None:
         """Give the code of the kind of this page: the program, or what starts robots and nodes."""
@@ -97,10 +102,8 @@ class LiveCode(QObject):
         """Begin to make the code: most is made at once, a long one bit by bit."""
         self.cancel()
         self._is_old = False
-        self._call = SlicedCall(self._writer())
-        if self._call.run(SLICE_S):
-            self._finish(self._call)
-        else:
+        self._work = Sliced(self._steps())
+        if not self._take_slice(SLICE_S):
             self.began.emit()
             self._next_slice.start()
 
@@ -108,48 +111,53 @@ class LiveCode(QObject):
         """Make the code now, however long it takes."""
         self.cancel()
         self._is_old = False
-        call = self._call = SlicedCall(self._writer())
-        call.run(math.inf)
-        self._finish(call)
+        self._work = Sliced(self._steps())
+        self._take_slice(math.inf)
 
     def cancel(self) -> None:
         """Give up what is being made; it is old then."""
         self._next_frame.stop()
         self._next_slice.stop()
-        if self._call is not None:
-            self._call.cancel()
-            self._call, self._is_old = None, True
+        if self._work is not None:
+            self._work.cancel()
+            self._work, self._is_old = None, True
 
     def _on_next_slice(self) -> None:
-        call = self._call
-        if call is None:
-            return
-        if call.run(SLICE_S):
-            self._finish(call)
-        else:
+        if self._work is not None and not self._take_slice(SLICE_S):
             self._next_slice.start()
 
-    def _finish(self, call: SlicedCall[Code]) -> None:
-        self._call = None
+    def _take_slice(self, slice_s: float) -> bool:
+        """Make a part of the code, and tell when it is whole; whether it is over."""
+        work = self._work
+        assert work is not None
         try:
-            self.code = call.result()
+            if not work.run(slice_s):
+                return False
         except CodeRefused as refusal:
-            self.code = None
+            self._work = self.code = None
             self.refused.emit(refusal)
-            return
+            return True
+        self._work, self.code = None, work.result
         self.made.emit(self.code)
+        return True
 
-    def _writer(self) -> Callable[[Rest], Code]:
+    def _steps(self) -> Steps[Code]:
         editor = self._editor
         if self._page != "behaviour":
-            return lambda rest: generate_launch(editor.project, editor.language)
+            yield
+            return generate_launch(editor.project, editor.language)
         if self._generator is None or self._procedures != editor.project.procedure_revision:
             self._procedures = editor.project.procedure_revision
             self._generator = ProgramGenerator(editor.project, editor.language)
-        return self._generator.generate
+        return (yield from self._generator.steps())
 
-    def _on_changes(self, changes: Changes) -> None:
-        self._grow_old()
+    def _on_edited(self, _changes: Changes) -> None:
+        self.cancel()
+        self._is_old = True
+
+    def _on_settled(self, _changes: Changes) -> None:
+        if self._is_awake and self._is_old:
+            self.start()
 
     def _grow_old(self) -> None:
         self.cancel()
@@ -278,7 +286,7 @@ class CodePane(QWidget):
     def _on_code_made(self, code: Code) -> None:
         if self.is_editing:
             return
-        self._show_buttons()
+        self._show_title()
         self.note.hide()
         self.text.show_text(code.text)
         self._mark()
@@ -370,6 +378,10 @@ class CodePane(QWidget):
         self.apply_button.setVisible(self.is_editing)
         self.discard_button.setVisible(self.is_editing)
         self._name_buttons()
+        self._show_title()
+
+    def _show_title(self) -> None:
+        can_edit = self._kind == "behaviour"
         reading = tr("Made from the blocks") if can_edit else tr("Starts the robots and nodes")
         self.title.set_words(tr("You are changing the Python") if self.is_editing else reading)
 

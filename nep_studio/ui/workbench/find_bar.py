@@ -13,9 +13,8 @@ from nep_studio.blocks.edits.content import SetFlag
 from nep_studio.blocks.operations.finding import Subject, definition_of, find, subjects_of, uses_of
 from nep_studio.blocks.procedures import parameters, words
 from nep_studio.blocks.program import Changes, Project
-from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.painting.overlay import ring
-from nep_studio.ui.canvas.view import PageView
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import count_words, tr
 
@@ -33,18 +32,20 @@ class HitOverlay:
         """Mark these."""
         self._ids, self._current = frozenset(ids), current
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the lines; only blocks in view are looked at, however many were found."""
         if not self._ids:
             return
-        colour = view.theme.colour("search_hit")
-        pixel = 1 / view.camera.scale
-        shown = [placed.box.block for placed in view.page_layout.boxes(view.visible_page_rect())]
+        colour = view.look.theme.colour("search_hit")
+        pixel = 1 / view.sight.camera.scale
+        shown = [
+            placed.box.block for placed in view.page_layout.boxes(view.sight.visible_page_rect())
+        ]
         for block in shown:
             if block in self._ids:
                 ring(painter, view, block, colour, 4 * pixel)
         if self._current in self._ids:
-            ring(painter, view, self._current, view.theme.colour("focus"), 9 * pixel)
+            ring(painter, view, self._current, view.look.theme.colour("focus"), 9 * pixel)
             ring(painter, view, self._current, colour, 5 * pixel)
 
 
@@ -72,7 +73,7 @@ class FindBar(QFrame):
     It is hidden until it is opened, and lives above the canvas.
     """
 
-    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
+    def __init__(self, canvas: CanvasHost, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.canvas = canvas
         self.hits: tuple[str, ...] = ()
@@ -80,9 +81,8 @@ class FindBar(QFrame):
         self._subject: Subject | None = None
         self._history: History | None = None
         self._overlay = HitOverlay()
-        canvas.overlays.append(self._overlay)
-        canvas.page_changed.connect(self._listen)
-        canvas.uses_requested.connect(self.show_uses)
+        canvas.news.page_changed.connect(self._listen)
+        canvas.news.uses_requested.connect(self.show_uses)
         self.title = QLabel(self)
         self.line = QLineEdit(self)
         self.count = QLabel(self)
@@ -97,7 +97,7 @@ class FindBar(QFrame):
 
     def refresh(self) -> None:
         """Take the theme, the words and the project of the canvas."""
-        theme, side = self.canvas.theme, self.fontMetrics().height()
+        theme, side = self.canvas.look.theme, self.fontMetrics().height()
         self.setAccessibleName(tr("Find"))
         self.line.setPlaceholderText(tr("Find in the program"))
         self.line.setAccessibleName(tr("Find in the program"))
@@ -137,7 +137,7 @@ class FindBar(QFrame):
         """Show the uses of what a block names first; False when it names nothing."""
         subject = self._subject_of(block)
         if subject is None:
-            self.canvas.refused.emit(tr("This block names nothing that is used elsewhere."))
+            self.canvas.news.refused.emit(tr("This block names nothing that is used elsewhere."))
             return False
         self.show_uses(subject)
         return True
@@ -147,7 +147,9 @@ class FindBar(QFrame):
         editor, subject = self.canvas.editor, self._subject_of(block)
         found = definition_of(editor.project, editor.language, subject) if subject else None
         if found is None:
-            self.canvas.refused.emit(tr("What this block names is not defined in this program."))
+            self.canvas.news.refused.emit(
+                tr("What this block names is not defined in this program.")
+            )
             return False
         self._reveal(found)
         return True
@@ -157,7 +159,7 @@ class FindBar(QFrame):
         self.hits, self.index = (), -1
         self._mark()
         self.hide()
-        self.canvas.setFocus(Qt.FocusReason.OtherFocusReason)
+        self.canvas.area.setFocus(Qt.FocusReason.OtherFocusReason)
 
     # Going
 
@@ -219,7 +221,7 @@ class FindBar(QFrame):
 
     def _first_hit(self) -> int:
         """The first hit on the page that is shown, so that one does not jump away while typing."""
-        project, page = self.canvas.editor.project, self.canvas.page
+        project, page = self.canvas.editor.project, self.canvas.page_layout.page
         here = {stack.id for stack in project.pages.get(page, [])}
         on_page = (n for n, b in enumerate(self.hits) if project.stack_of(b).id in here)
         return next(on_page, 0)
@@ -233,7 +235,7 @@ class FindBar(QFrame):
             told = tr("Nothing found") if is_asked else ""
         if told != self.count.text():
             self.count.setText(told)
-            self.canvas.announced.emit(told)
+            self.canvas.news.announced.emit(told)
         wrong = "wrong" if is_asked and not self.hits else ""
         if self.line.property("state") != wrong:
             self.line.setProperty("state", wrong)
@@ -246,7 +248,8 @@ class FindBar(QFrame):
     def _mark(self) -> None:
         current = self.hits[self.index] if 0 <= self.index < len(self.hits) else ""
         self._overlay.show(self.hits, current)
-        self.canvas.viewport().update()
+        self.canvas.layers.show_overlay(self._overlay, is_shown=bool(self.hits))
+        self.canvas.area.viewport().update()
 
     # Subjects
 

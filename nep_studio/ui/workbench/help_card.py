@@ -35,7 +35,7 @@ class HelpCard(QFrame):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setObjectName("help_card")
         direction = Qt.LayoutDirection
-        mirrored = canvas.measures.is_mirrored
+        mirrored = canvas.look.measures.is_mirrored
         self.setLayoutDirection(direction.RightToLeft if mirrored else direction.LeftToRight)
         self._canvas, self._block = canvas, block
         self.text = QTextBrowser()
@@ -45,7 +45,7 @@ class HelpCard(QFrame):
         self.setAccessibleName(tr("Help"))
         self.setAccessibleDescription(told)
         self.text.setAccessibleName(told)
-        theme = canvas.theme
+        theme = canvas.look.theme
         self.setStyleSheet(
             f"#help_card {{ background: {theme.colour('menu').name()};"
             f" border: 1px solid {theme.colour('field_line').name()}; }}"
@@ -68,7 +68,7 @@ class HelpCard(QFrame):
 
     def show_beside(self) -> None:
         """Show it beside its block, inside the screen; what is too long scrolls."""
-        rect = self._canvas.view_rect_of(self._block)
+        rect = self._canvas.sight.view_rect_of(self._block)
         if rect is None:
             self.deleteLater()
             return
@@ -79,7 +79,7 @@ class HelpCard(QFrame):
         room = room_around(self._canvas)
         self.ensurePolished()
         self.resize(self._size(room.height() * 2 // 3).expandedTo(self.minimumSizeHint()))
-        mirrored = self._canvas.measures.is_mirrored
+        mirrored = self._canvas.look.measures.is_mirrored
         self.move(beside(head, self.size(), room, is_mirrored=mirrored))
         self.show()
         # shown, it may be larger than it was made: its style is known only now
@@ -123,8 +123,8 @@ class BlockOpening(QObject):
         super().__init__(canvas)
         self._canvas, self._find_bar = canvas, find_bar
         self.is_page_shown: Callable[[], bool] | None = None
-        canvas.block_opened.connect(self.open)
-        canvas.help_requested.connect(self._on_help_requested)
+        canvas.news.block_opened.connect(self.open)
+        canvas.news.help_requested.connect(self._on_help_requested)
 
     @property
     def canvas(self) -> Canvas:

@@ -73,11 +73,16 @@ class SuggestionList(QWidget):
 
     def show_clips(self, clips: Sequence[tuple[Clip, str]]) -> None:
         """Show these blocks with their sentences, and point at the first."""
-        measures = self._canvas.measures
+        measures = self._canvas.look.measures
         self._painter = BlockPainter(
-            self._canvas.theme, self._canvas.editor.language, measures, self._canvas.block_font
+            self._canvas.look.theme,
+            self._canvas.editor.language,
+            measures,
+            self._canvas.look.block_font,
         )
-        size = QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.block_font).pixelSize()
+        size = (
+            QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.look.block_font).pixelSize()
+        )
         self._scale = SCALE * size
         self.rows, self.current = [], 0
         y, gap = 4.0, measures.line * 0.35
@@ -106,7 +111,7 @@ class SuggestionList(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the rows."""
-        theme, is_mirrored = self._canvas.theme, self._canvas.measures.is_mirrored
+        theme, is_mirrored = self._canvas.look.theme, self._canvas.look.measures.is_mirrored
         with QPainter(self) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             for number, row in enumerate(self.rows):
@@ -205,13 +210,16 @@ class InsertBar(QFrame):
             column.addWidget(widget)
         canvas.keyboard.type_letter = self._on_letter
         canvas.viewport().installEventFilter(self)
-        canvas.page_changed.connect(self.hide)
+        canvas.news.page_changed.connect(self.hide)
         self.refresh()
         self.hide()
 
     def refresh(self) -> None:
         """Take the theme and the words."""
-        theme, words = self.canvas.theme, tr("What should happen? For example: say hello twice")
+        theme, words = (
+            self.canvas.look.theme,
+            tr("What should happen? For example: say hello twice"),
+        )
         self.setStyleSheet(
             f"#insert_bar {{ background: {theme.colour('menu').name()};"
             f" border: 2px solid {theme.colour('focus').name()}; border-radius: 8px; }}"
@@ -227,7 +235,7 @@ class InsertBar(QFrame):
     ) -> None:
         """Ask for a block: for a place, loose for a point of the page, or for after the cursor."""
         self._at, self._place = at, place
-        self.canvas.cancel_gesture()
+        self.canvas.pointing.cancel()
         self.line.setText(text)
         self._on_typed(text)
         self.show()
@@ -264,9 +272,9 @@ class InsertBar(QFrame):
 
     def _double_click(self, event: QMouseEvent) -> bool:
         is_left = event.button() == Qt.MouseButton.LeftButton
-        if not is_left or event.modifiers() or self.canvas.hit(event.position()) is not None:
+        if not is_left or event.modifiers() or self.canvas.sight.hit(event.position()) is not None:
             return False
-        self.open(self.canvas.to_page(event.position()))
+        self.open(self.canvas.sight.to_page(event.position()))
         return True
 
     def _press(self, event: QKeyEvent) -> bool:
@@ -333,21 +341,21 @@ class InsertBar(QFrame):
         self.setFixedWidth(wide)
         self.adjustSize()
         corner = view.geometry().topLeft() + self._target()
-        if self.canvas.measures.is_mirrored:
+        if self.canvas.look.measures.is_mirrored:
             corner.setX(corner.x() - wide)
         x = min(max(corner.x(), 8), max(8, view.width() - wide - 8))
         y = min(max(corner.y(), 8), max(8, view.height() - self.height() - 8))
         self.move(x, y)
 
     def _target(self) -> QPoint:
-        camera, view = self.canvas.camera, self.canvas.viewport()
+        camera, view = self.canvas.sight.camera, self.canvas.viewport()
         if self._at is not None:
             return camera.to_view(self._at.x(), self._at.y()).toPoint()
         cursor = self.canvas.selection.cursor
-        rect = self.canvas.view_rect_of(cursor) if cursor else None
+        rect = self.canvas.sight.view_rect_of(cursor) if cursor else None
         if rect is None or not rect.intersects(view.rect()):
             return QPoint(view.width() // 3, view.height() // 3)
-        corner = rect.bottomRight() if self.canvas.measures.is_mirrored else rect.bottomLeft()
+        corner = rect.bottomRight() if self.canvas.look.measures.is_mirrored else rect.bottomLeft()
         return corner.toPoint() + QPoint(0, 6)
 
     def _holds_focus(self) -> bool:

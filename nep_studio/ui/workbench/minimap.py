@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
@@ -38,10 +38,10 @@ class Minimap(QWidget):
         """How much room is left free under it, in pixels."""
         self._later = QTimer(self, singleShot=True, interval=DRAW_MS)
         self._later.timeout.connect(self._on_rested)
-        canvas.layout_changed.connect(self._on_layout_changed)
-        canvas.view_changed.connect(self._on_view_changed)
-        canvas.page_changed.connect(self.refresh)
-        canvas.viewport().installEventFilter(self)
+        canvas.news.layout_changed.connect(self._on_layout_changed)
+        canvas.news.view_changed.connect(self._on_view_changed)
+        canvas.news.page_changed.connect(self.refresh)
+        canvas.news.resized.connect(self._take_place)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.refresh()
@@ -66,7 +66,7 @@ class Minimap(QWidget):
         ratio = self.devicePixelRatioF()
         self._picture = QPixmap(self.size() * ratio)
         self._picture.setDevicePixelRatio(ratio)
-        self._picture.fill(self.canvas.theme.colour("panel"))
+        self._picture.fill(self.canvas.look.theme.colour("panel"))
         layout = self.canvas.page_layout
         bounds = layout.bounds()
         if bounds is None:
@@ -83,7 +83,7 @@ class Minimap(QWidget):
 
     def _draw_chain(self, painter: QPainter, chain: Chain, x: float, y: float) -> None:
         """One bar for each row of pixels at most, in the colour of the block that is there."""
-        scale, colours = self._scale, self.canvas.block_painter.colours
+        scale, colours = self._scale, self.canvas.look.block_painter.colours
         least = 1.0 / scale
         height = 0.0
         while height < chain.height:
@@ -118,7 +118,7 @@ class Minimap(QWidget):
 
     def view_frame(self) -> QRectF:
         """The part of the page in view, in the small picture."""
-        seen = self.canvas.visible_page_rect()
+        seen = self.canvas.sight.visible_page_rect()
         return QRectF(self._to_map(seen.x, seen.y), self._to_map(seen.right, seen.bottom))
 
     # Painting
@@ -127,7 +127,7 @@ class Minimap(QWidget):
         """Show the picture and the frame of the view."""
         if self._is_stale or self._picture.isNull():
             self.draw_now()
-        theme = self.canvas.theme
+        theme = self.canvas.look.theme
         with QPainter(self) as painter:
             painter.drawPixmap(0, 0, self._picture)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -171,12 +171,12 @@ class Minimap(QWidget):
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Zoom: the wheel over the small picture changes how much is seen."""
         factor = 1.15 if event.angleDelta().y() > 0 else 1 / 1.15
-        self.canvas.zoom(self.canvas.camera.scale * factor)
+        self.canvas.sight.zoom(self.canvas.sight.camera.scale * factor)
         event.accept()
 
     def _look_at(self, point: QPointF) -> None:
-        page, seen = self.to_page(point), self.canvas.visible_page_rect()
-        self.canvas.move_camera(page.x() - seen.width / 2, page.y() - seen.height / 2)
+        page, seen = self.to_page(point), self.canvas.sight.visible_page_rect()
+        self.canvas.sight.move_camera(page.x() - seen.width / 2, page.y() - seen.height / 2)
 
     # Following the canvas
 
@@ -187,19 +187,13 @@ class Minimap(QWidget):
         self.raise_()
         self._take_place()
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay in the corner of the canvas."""
-        if event.type() == QEvent.Type.Resize:
-            self._take_place()
-        return super().eventFilter(watched, event)
-
     def _take_place(self) -> None:
         view = self.canvas.viewport().geometry()
         size = self.sizeHint().boundedTo(view.size() / 2)
         if size != self.size():
             self.resize(size)
             self._is_stale = True
-        is_mirrored = self.canvas.measures.is_mirrored
+        is_mirrored = self.canvas.look.measures.is_mirrored
         x = view.left() + MARGIN if is_mirrored else view.right() - MARGIN - size.width()
         self.move(x, view.bottom() - self.below - MARGIN - size.height())
 
@@ -232,9 +226,9 @@ class EmptyHint(QLabel):
         self.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.setProperty("role", "hint")
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        canvas.layout_changed.connect(self._show_or_hide)
-        canvas.page_changed.connect(self.refresh)
-        canvas.viewport().installEventFilter(self)
+        canvas.news.layout_changed.connect(self._show_or_hide)
+        canvas.news.page_changed.connect(self.refresh)
+        canvas.news.resized.connect(self._take_place)
         self.refresh()
 
     def refresh(self) -> None:
@@ -248,12 +242,6 @@ class EmptyHint(QLabel):
         how = tr("Drag a block here, or press / and type what should happen.")
         self.setText(f"{first}\n{how}".strip())
         self._show_or_hide()
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay in the middle."""
-        if event.type() == QEvent.Type.Resize:
-            self._take_place()
-        return super().eventFilter(watched, event)
 
     def _show_or_hide(self) -> None:
         project, page = self._canvas.editor.project, self._canvas.page

@@ -18,7 +18,7 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Changes
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.canvas.accessibility import described
-from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.colours import PLACEHOLDER, Theme
 from nep_studio.ui.words import tr
 
@@ -183,10 +183,10 @@ class OutlineModel(QAbstractItemModel):
 class Outline(QTreeView):
     """The blocks of the canvas's page as a tree; both show the same block."""
 
-    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
+    def __init__(self, canvas: CanvasHost, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._canvas = canvas
-        self._rows = OutlineModel(canvas.editor, canvas.theme, self)
+        self._rows = OutlineModel(canvas.editor, canvas.look.theme, self)
         self._is_following = False
         self._unfolded: set[str] = set()
         self._take_rows()
@@ -197,17 +197,17 @@ class Outline(QTreeView):
         self.expanded.connect(lambda index: self._unfolded.add(index.data(BLOCK)))
         self.collapsed.connect(lambda index: self._unfolded.discard(index.data(BLOCK)))
         self.activated.connect(self._on_activated)
-        canvas.page_changed.connect(self._on_page_changed)
+        canvas.news.page_changed.connect(self._on_page_changed)
         canvas.selection.changed.connect(self._on_selection_changed)
-        self._on_page_changed(canvas.page)
+        self._on_page_changed(canvas.page_layout.page)
 
     def refresh(self) -> None:
         """Follow another project, another theme or another language of the canvas."""
         self._rows.close()
         self._rows.deleteLater()
-        self._rows = OutlineModel(self._canvas.editor, self._canvas.theme, self)
+        self._rows = OutlineModel(self._canvas.editor, self._canvas.look.theme, self)
         self._take_rows()
-        self._on_page_changed(self._canvas.page)
+        self._on_page_changed(self._canvas.page_layout.page)
 
     def _take_rows(self) -> None:
         self.setModel(self._rows)
@@ -235,7 +235,7 @@ class Outline(QTreeView):
 
     def _on_activated(self, index: QModelIndex) -> None:
         """Enter: go on with this block on the canvas."""
-        self._canvas.setFocus()
+        self._canvas.area.setFocus()
 
     def _on_selection_changed(self) -> None:
         if self._is_following:

@@ -11,7 +11,7 @@ from nep_studio.blocks.operations.moving import create_and_drop, why_not_create
 from nep_studio.blocks.places import InBody, InInput, InStack, Place
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.text import sentence
-from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.layout import Layout
 from nep_studio.ui.words import tr
 
@@ -22,7 +22,7 @@ BESIDE = 30.0
 
 
 def insert_clip(
-    canvas: Canvas, clip: Clip, *, at: QPointF | None = None, place: Place | None = None
+    canvas: CanvasHost, clip: Clip, *, at: QPointF | None = None, place: Place | None = None
 ) -> str:
     """Put new blocks into a program as one step, and select them; gives the first, or nothing.
 
@@ -35,11 +35,11 @@ def insert_clip(
     canvas.selection.set([made[0]])
     canvas.show_block(made[0])
     project, language = canvas.editor.project, canvas.editor.language
-    canvas.announced.emit(tr("added: {block}", block=sentence(project, language, made[0])))
+    canvas.news.announced.emit(tr("added: {block}", block=sentence(project, language, made[0])))
     return made[0]
 
 
-def place_after_cursor(canvas: Canvas, clip: Clip) -> Place | None:
+def place_after_cursor(canvas: CanvasHost, clip: Clip) -> Place | None:
     """The place after the cursor's block, or in it, that takes the blocks; None when none does."""
     editor = canvas.editor
     if canvas.selection.cursor not in editor.project.blocks:
@@ -50,17 +50,19 @@ def place_after_cursor(canvas: Canvas, clip: Clip) -> Place | None:
     return None
 
 
-def _insert(canvas: Canvas, clip: Clip, at: QPointF | None, place: Place | None) -> tuple[str, ...]:
+def _insert(
+    canvas: CanvasHost, clip: Clip, at: QPointF | None, place: Place | None
+) -> tuple[str, ...]:
     editor = canvas.editor
     if place is None and at is None:
         place = place_after_cursor(canvas, clip)
     if place is None:
         where = at or free_place(canvas, clip)
-        return paste(editor, clip, canvas.page, where.x(), where.y())
+        return paste(editor, clip, canvas.page_layout.page, where.x(), where.y())
     return create_and_drop(editor, clip, place, beside=_beside(canvas))
 
 
-def _places(canvas: Canvas, clip: Clip, cursor: str) -> Iterator[Place]:
+def _places(canvas: CanvasHost, clip: Clip, cursor: str) -> Iterator[Place]:
     """The places to try, the best first: the slots of the block, then below it and its owners."""
     editor = canvas.editor
     project = editor.project
@@ -74,7 +76,7 @@ def _places(canvas: Canvas, clip: Clip, cursor: str) -> Iterator[Place]:
         block = project.parents[block].owner
 
 
-def _slots(canvas: Canvas, block_id: str) -> Iterator[Place]:
+def _slots(canvas: CanvasHost, block_id: str) -> Iterator[Place]:
     """The empty slots of a block; those that can only hold a block come first."""
     block = canvas.editor.project.blocks[block_id]
     definition = canvas.editor.language.definitions.get(block.type)
@@ -101,14 +103,14 @@ def _below(project: Project, block_id: str) -> Iterator[Place]:
         yield InStack(parent.owner, index)
 
 
-def free_place(canvas: Canvas, clip: Clip) -> QPointF:
+def free_place(canvas: CanvasHost, clip: Clip) -> QPointF:
     """About the middle of the view, where no blocks are; the corner of the clip goes there."""
     project = clip.project
-    layout = Layout(project, canvas.editor.language.of(project), canvas.measures)
+    layout = Layout(project, canvas.editor.language.of(project), canvas.look.measures)
     chain = layout.chain(clip.roots[0])
-    seen = canvas.visible_page_rect()
+    seen = canvas.sight.visible_page_rect()
     width, height = min(chain.width, seen.width), min(chain.height, seen.height)
-    side = 1.0 if canvas.measures.is_mirrored else -1.0
+    side = 1.0 if canvas.look.measures.is_mirrored else -1.0
     x = seen.x + seen.width / 2 + side * width / 2
     y = seen.y + seen.height / 2 - height / 2
     while _is_taken(canvas, x, y, chain.width) and y < seen.bottom - STEP:
@@ -116,8 +118,8 @@ def free_place(canvas: Canvas, clip: Clip) -> QPointF:
     return QPointF(x, y)
 
 
-def _is_taken(canvas: Canvas, x: float, y: float, width: float) -> bool:
-    side = -1.0 if canvas.measures.is_mirrored else 1.0
+def _is_taken(canvas: CanvasHost, x: float, y: float, width: float) -> bool:
+    side = -1.0 if canvas.look.measures.is_mirrored else 1.0
     return any(
         canvas.page_layout.hit(x + side * width * part, y + down) is not None
         for part in (0.05, 0.5, 0.95)
@@ -125,7 +127,7 @@ def _is_taken(canvas: Canvas, x: float, y: float, width: float) -> bool:
     )
 
 
-def _beside(canvas: Canvas) -> tuple[float, float] | None:
+def _beside(canvas: CanvasHost) -> tuple[float, float] | None:
     """Where blocks go that the new ones push out: beside the cursor's block."""
     placed = canvas.page_layout.placed(canvas.selection.cursor)
     if placed is None:

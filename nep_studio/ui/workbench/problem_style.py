@@ -5,20 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtGui import QAction, QIcon
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QPushButton
 
-from nep_studio.ui.messages import KIND_ICONS
 from nep_studio.ui.theme import Theme, icon
 from nep_studio.ui.words import count_words, tr
 
 if TYPE_CHECKING:
     from nep_studio.blocks.checks import Problem
-
-
-def problem_icon(problem: Problem, theme: Theme) -> QIcon:
-    """The icon of how bad it is."""
-    return icon(KIND_ICONS[problem.severity], theme.colour(problem.severity))
 
 
 def severity_word(problem: Problem) -> str:

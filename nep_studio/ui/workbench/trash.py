@@ -6,7 +6,7 @@ from collections import deque
 from itertools import count
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QObject, QPoint, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -46,7 +46,7 @@ class Trash(QObject):
         self.canvas = canvas
         self.clips: deque[tuple[int, Clip]] = deque(maxlen=MOST_KEPT)
         self._numbers = count(1)
-        canvas.blocks_deleted.connect(self.add)
+        canvas.news.blocks_deleted.connect(self.add)
 
     def add(self, clip: Clip) -> None:
         """Keep deleted blocks."""
@@ -81,7 +81,7 @@ class Trash(QObject):
         self.take_out(number)
         canvas.selection.set(made)
         canvas.show_block(made[0])
-        canvas.announced.emit(tr("brought back"))
+        canvas.news.announced.emit(tr("brought back"))
         return True
 
     def title(self, clip: Clip) -> str:
@@ -132,7 +132,7 @@ class TrashPanel(QFrame):
 
     def refresh(self) -> None:
         """Take the theme and the words."""
-        theme = self.trash.canvas.theme
+        theme = self.trash.canvas.look.theme
         self.setStyleSheet(
             f"#trash_panel {{ background: {theme.colour('panel').name()};"
             f" border: 1px solid {theme.colour('field_line').name()}; border-radius: 8px; }}"
@@ -201,8 +201,8 @@ class TrashButton(QAbstractButton):
         self.panel.hide()
         self._is_taking = False
         add_delete_area(canvas, self)
-        canvas.delete_area_entered.connect(self._on_delete_area_entered)
-        canvas.viewport().installEventFilter(self)
+        canvas.news.delete_area_entered.connect(self._on_delete_area_entered)
+        canvas.news.resized.connect(self._take_place)
         self.trash.changed.connect(self._on_changed)
         self.clicked.connect(self._on_clicked)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -221,7 +221,7 @@ class TrashButton(QAbstractButton):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the sign and the count; red and wide open while it takes blocks."""
-        theme, line = self.canvas.theme, self.fontMetrics().height()
+        theme, line = self.canvas.look.theme, self.fontMetrics().height()
         fill = theme.colour("error_panel" if self._is_taking else "panel")
         sign = theme.colour("error" if self._is_taking else "muted")
         edge = theme.colour("focus") if self.hasFocus() else theme.colour("field_line")
@@ -238,7 +238,7 @@ class TrashButton(QAbstractButton):
                 self._paint_count(painter, rect)
 
     def _paint_count(self, painter: QPainter, rect: QRectF) -> None:
-        theme, line = self.canvas.theme, self.fontMetrics().height()
+        theme, line = self.canvas.look.theme, self.fontMetrics().height()
         side = line * 1.05
         badge = QRectF(rect.right() - side, rect.top(), side, side)
         painter.setPen(Qt.PenStyle.NoPen)
@@ -251,17 +251,11 @@ class TrashButton(QAbstractButton):
         painter.setPen(theme.colour("accent_text"))
         painter.drawText(badge, Qt.AlignmentFlag.AlignCenter, str(len(self.trash.clips)))
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay in the corner of the canvas."""
-        if event.type() == QEvent.Type.Resize:
-            self._take_place()
-        return super().eventFilter(watched, event)
-
     def _take_place(self) -> None:
         """In the corner where lines end: blocks begin at the other side."""
         view = self.canvas.viewport().geometry()
         self.resize(self.sizeHint())
-        is_mirrored = self.canvas.measures.is_mirrored
+        is_mirrored = self.canvas.look.measures.is_mirrored
         x = view.left() + MARGIN if is_mirrored else view.right() - MARGIN - self.width()
         self.move(x, view.bottom() - MARGIN - self.height())
         size = self.panel.sizeHint().boundedTo(view.size() - QSize(2 * MARGIN, 6 * MARGIN))

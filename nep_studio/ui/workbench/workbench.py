@@ -14,14 +14,13 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import apply_fix
 from nep_studio.blocks.program import Project
-from nep_studio.settings import Settings
+from nep_studio.settings import MINIMAP, Settings
 from nep_studio.ui.canvas.accessibility import make_accessible
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.painting.overlay import badge_rect
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Messages, announce
-from nep_studio.ui.shell.app import Studio
-from nep_studio.ui.shell.menus import is_minimap_shown
+from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.look import text_font
 from nep_studio.ui.words import is_right_to_left, tr
 
@@ -54,14 +53,13 @@ class CanvasHelpers(QObject):
         self.minimap = Minimap(canvas)
         self.trash = TrashButton(canvas)
         self.empty_hint = EmptyHint(canvas)
-        canvas.layout_changed.connect(canvas.update_scroll_bars)
         self.find_bar.hide()
         self._stack_corner()
-        self.minimap.setVisible(is_minimap_shown(settings))
+        self.minimap.setVisible(settings.is_minimap_shown)
 
     def show_minimap(self, is_shown: bool) -> None:
         """Show or hide the minimap."""
-        self._settings.set_shown("Minimap", is_shown)
+        self._settings.set_shown(MINIMAP, is_shown)
         self.minimap.setVisible(is_shown)
         self.minimap.refresh()
 
@@ -128,13 +126,13 @@ class Workbench(QWidget):
     def _connect(self) -> None:
         canvas = self.canvas
         self.pages_bar.page_chosen.connect(canvas.show_page)
-        canvas.page_changed.connect(self.pages_bar.show_page)
-        canvas.page_changed.connect(self.code.show_page)
+        canvas.news.page_changed.connect(self.pages_bar.show_page)
+        canvas.news.page_changed.connect(self.code.show_page)
         canvas.selection.changed.connect(self._on_selection_changed)
-        canvas.refused.connect(self._messages.refuse)
-        canvas.announced.connect(self._on_announced)
-        canvas.problem_opened.connect(self.open_bubble)
-        canvas.layout_changed.connect(self._messages.clear_passing)
+        canvas.news.refused.connect(self._messages.refuse)
+        canvas.news.announced.connect(self._on_announced)
+        canvas.news.problem_opened.connect(self.open_bubble)
+        canvas.news.layout_changed.connect(self._messages.clear_passing)
         self.code.block_asked.connect(self.show_block)
         self.checks.found.connect(self._on_problems_found)
         self.problems.opened.connect(self._on_problem_opened)
@@ -154,13 +152,7 @@ class Workbench(QWidget):
         editor = self._no_editor() if document is None else document.editor
         folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
         self._set_editor(editor)
-        self.show_folder(document)
         self.checks.follow(None if document is None else editor, folder)
-
-    def show_folder(self, document: Document | None) -> None:
-        """Choose files from where the project is now; it has a folder once it is saved."""
-        is_saved = document is not None and document.path is not None
-        self.canvas.fields.project_folder = document.folder if document and is_saved else None
 
     def restore(self, line: int) -> None:
         """Lay the panels out as the person left them; ``line`` is a line of text.
@@ -193,12 +185,12 @@ class Workbench(QWidget):
 
     def zoom_usual(self) -> None:
         """Show the blocks with words as large as those of the window."""
-        self.canvas.zoom(usual_scale(self._studio))
+        self.canvas.sight.zoom(usual_scale(self._studio))
 
     def _show_corner(self) -> None:
         """Look at the corner of the page where reading begins, at the usual size."""
         self.zoom_usual()
-        self.canvas.show_beginning()
+        self.canvas.sight.show_beginning()
 
     # Blocks and problems
 
@@ -231,7 +223,7 @@ class Workbench(QWidget):
         if not there or placed is None:
             return
         rect = badge_rect(placed, self.canvas)
-        camera, viewport = self.canvas.camera, self.canvas.viewport()
+        camera, viewport = self.canvas.sight.camera, self.canvas.viewport()
         corner = camera.to_view(rect.x(), rect.y()).toPoint()
         size = (rect.size() * camera.scale).toSize()
         bubble = self.bubble = ProblemBubble(there, self)
@@ -275,7 +267,7 @@ class Workbench(QWidget):
         )
         scale = usual_scale(self._studio)
         if scale != self._usual_scale:
-            self.canvas.zoom(self.canvas.camera.scale * scale / self._usual_scale)
+            self.canvas.sight.zoom(self.canvas.sight.camera.scale * scale / self._usual_scale)
             self._usual_scale = scale
         self.outline.refresh()
         self.helpers.refresh()

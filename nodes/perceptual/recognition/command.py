@@ -8,6 +8,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from nep_core.cli import steps_of
 from nep_core.errors import NepError, RecordingError
 from nodes.perceptual.recognition.model import METHODS, Model
 
@@ -110,7 +111,5 @@ def _report(output: Path, model: Model, has_own_everyday: bool) -> list[str]:
 
 
 def _tell_error(error: NepError, code: int) -> int:
-    print(error.sentence, file=sys.stderr)
-    for step in error.checklist:
-        print(f"  [ ] {step}", file=sys.stderr)
+    print("\n".join([str(error), *steps_of(error)]), file=sys.stderr)
     return code

@@ -72,7 +72,21 @@ def main(arguments: list[str]) -> int:
     threading.Thread(target=_read, args=(sys.stdin.buffer, orders), daemon=True).start()
     for parent in arguments[:1]:
         threading.Thread(target=_watch_parent, args=(int(parent),), daemon=True).start()
-    _train_without_delay()
+    try:
+        _train_without_delay()
+    except ImportError as error:
+        told.fault(
+            fault_of(
+                "A part that learning needs is not installed.",
+                code="not_installed",
+                checklist=(
+                    "Install NEP Studio again.",
+                    "From source: install the requirements again.",
+                ),
+            )
+        )
+        print(error, file=sys.stderr)
+        return 1
     told.tell({"ready": True})
     everybodys_movement()
     while True:

@@ -102,6 +102,9 @@ _STRECH_UP = Gesture(  # the hands, fingers laced and palms outward, stretched u
     duration_s=4.28,
 )
 
+MAKES_GESTURE = "makes_gesture"
+"""The code of what the virtual watch tells while it makes one, whose name is a value."""
+
 GESTURES = {gesture.name: gesture for gesture in (_BATTING, _HAND_UP, _KARATE, _KATANA, _STRECH_UP)}
 
 

@@ -18,7 +18,6 @@ from .everyday import CALM, EVERYDAY, HANGING, Activity, rest
 from .gestures import Gesture, gesture_named
 from .motion import LENGTHS, Body, Floats, Joint, Motion, Pose, Sensor, Swing, joint_values
 
-FIRST_UNSEEN = 100
 _SEED = 2018
 _SCALES = 7  # a source of chance of its own: people stay who they were
 _LEFT_HANDED = 9

@@ -11,8 +11,8 @@ import time
 from collections.abc import Generator, Mapping, Sequence
 from typing import Any
 
-from nep_core.errors import ActionFailed
 from robots.body.schedule import Task
+from robots.errors import ActionFailed
 from robots.naoqi.wire.errors import NaoqiError, NoConnection
 from robots.naoqi.wire.promise import Pending
 from robots.naoqi.wire.remote import RemoteObject

@@ -9,8 +9,6 @@ from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 from faults import fault_of
-from nep_core.errors import ActionFailed
-from nep_core.wire.messages import RobotState, SenseRequest, Thing
 from robots.body import actions as a
 from robots.body import actions as b
 from robots.body import actions as m
@@ -21,8 +19,10 @@ from robots.body.body import SINGLE_PARTS
 from robots.body.driver import Connection, Ended
 from robots.body.gaze import from_world
 from robots.body.limbs import MOVING, Limb
+from robots.body.messages import RobotState, SenseRequest, Thing
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Running, Task, advance
+from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
 
 from . import link, media, moving, speech, walking

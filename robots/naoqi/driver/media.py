@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import PurePosixPath
 
-from nep_core.errors import ActionFailed
 from robots.body import actions as a
 from robots.body import actions as s
 from robots.body import body
 from robots.body.schedule import Task
+from robots.errors import ActionFailed
 
 from .calls import waited
 from .real import RealRobot

@@ -7,7 +7,6 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from faults import Text
-from nep_core.errors import ActionFailed
 from robots.body import actions as a
 from robots.body import actions as b
 from robots.body import actions as m
@@ -17,6 +16,7 @@ from robots.body.limbs import MOVING
 from robots.body.motion import playable
 from robots.body.motor_tasks import SIDES
 from robots.body.schedule import Task
+from robots.errors import ActionFailed
 
 from .real import RealRobot
 
@@ -90,7 +90,6 @@ POSTURE_S = 60.0
 WAKING_S = 25.0
 POSTURE_SPEED = 0.6
 RETURN_SPEED = 0.3
-MOTORS_S = 2.0
 STIFF_S = 0.3
 OPEN, CLOSED = 1.0, 0.0
 RESTING = "Rest"

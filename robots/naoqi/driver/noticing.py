@@ -7,8 +7,8 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from nep_core.program.human import plain, state_of_thing, state_of_word
 from robots.body.gaze import to_world, torso_height_m
+from robots.body.messages import plain, state_of_thing, state_of_word
 from robots.body.surroundings import distance_word
 
 from .real import CLICKED_EVENT, TOUCH_EVENTS, RealRobot

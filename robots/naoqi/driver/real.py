@@ -11,10 +11,10 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from faults import Text
-from nep_core.errors import ActionFailed
 from robots.body.body import PLAIN_NAMES, SINGLE_PARTS, Angles, Body, part_of, parts_of_limbs
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
+from robots.errors import ActionFailed
 
 from .calls import ANSWER_S, Calling, Calls
 

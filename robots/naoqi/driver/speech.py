@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 
 from faults import Fault
-from nep_core.errors import ActionFailed
 from robots.body import actions as a
 from robots.body import actions as s
 from robots.body.animations import NO_GESTURE, Animation
@@ -13,6 +12,7 @@ from robots.body.keyframes import Keyframes
 from robots.body.schedule import Task
 from robots.body.speech import Spoken, speaking_time_s
 from robots.body.tasks import at_once, changed, fitted, spoken
+from robots.errors import ActionFailed
 
 from .calls import waited
 from .moving import play_keyframes, return_to_posture, take_posture

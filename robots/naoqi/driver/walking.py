@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 from faults import Text
-from nep_core.errors import ActionFailed
 from robots.body import actions as b
 from robots.body.gaze import arm_for, head_angles, in_torso, pointing
 from robots.body.limbs import MOVING
 from robots.body.schedule import Task
 from robots.body.tasks import DOES_NOT_STAND
+from robots.errors import ActionFailed
 
 from .calls import Calling
 from .real import RealRobot

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from nep_core.errors import ActionFailed
+from robots.errors import ActionFailed
 from robots.naoqi.wire.errors import NaoqiError
 from robots.naoqi.wire.promise import Pending
 

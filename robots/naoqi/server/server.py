@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from faults import Words, text_of
-from nep_core.errors import PortTaken
+from robots.errors import PortTaken
 from robots.naoqi.wire.codec import Reader, encode, read_value, reader_of
 from robots.naoqi.wire.errors import BadFrame, NaoqiError
 from robots.naoqi.wire.frames import (

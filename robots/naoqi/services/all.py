@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from nep_core.wire.messages import ActionResult, RobotState, SenseRequest
 from robots.body.actor import Actor
+from robots.body.messages import ActionResult, RobotState, SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.naoqi.server.server import Server
 from robots.naoqi.serving import ServedRobot

@@ -9,9 +9,9 @@ from typing import Any
 
 import msgspec
 
-from nep_core.errors import NodeStartError
 from robots.body.animations import Animations
 from robots.body.pose import VirtualRobot
+from robots.errors import FilesUnusable
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method, signal
@@ -77,7 +77,7 @@ def load_animation_names(folder: Path) -> AnimationNames:
     try:
         table = msgspec.toml.decode(path.read_bytes(), type=_Table)
     except (OSError, msgspec.DecodeError) as error:
-        raise NodeStartError(
+        raise FilesUnusable(
             "The table of NAOqi's animations, {path}, cannot be read.",
             checklist=("Install NEP Studio again: this file comes with it.",),
             details=str(error),

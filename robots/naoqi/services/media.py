@@ -5,8 +5,8 @@ from __future__ import annotations
 import contextlib
 from typing import Any
 
-from nep_core.wire.messages import ActionResult
 from robots.body.camera import frames_in
+from robots.body.messages import ActionResult
 from robots.body.sense_tasks import picture_path, video_path
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
@@ -193,7 +193,7 @@ class ALPhotoCapture(_Camera):
     @method("takePicture::m(ss)")
     def take_picture(self, folder: str, name: str) -> Any:
         """Take a picture; get the names of its files."""
-        file = str(picture_path(self._robot.name, name))
+        file = str(picture_path(self._robot.robot, name))
         return self._do("take_picture", [file], file=name, camera=self._name())
 
     @method("takePicture::m(ssb)")
@@ -206,7 +206,7 @@ class ALPhotoCapture(_Camera):
         """Take several pictures; get the names of their files."""
         within(count, 1, MOST_PICTURES, "The number of pictures")
         names = [f"{name}_{i}" for i in range(int(number(count)))]
-        files = [str(picture_path(self._robot.name, one)) for one in names]
+        files = [str(picture_path(self._robot.robot, one)) for one in names]
         for one in names[:-1]:
             self._robot.ask("take_picture", file=one, camera=self._name())
         return self._do("take_picture", files, file=names[-1], camera=self._name())
@@ -233,7 +233,7 @@ class ALVideoRecorder(_Camera):
         if self.is_recording():
             raise CallFailed("There is a video already that has to be stopped.")
         with contextlib.suppress(OSError):  # then the recording says why
-            video_path(self._robot.name, name).unlink(missing_ok=True)
+            video_path(self._robot.robot, name).unlink(missing_ok=True)
         self._failed, self._name_asked = "", name
         self._asked = self._robot.ask(
             "record_video", self._on_end, file=name, seconds=RECORDING_S, camera=self._name()
@@ -251,7 +251,7 @@ class ALVideoRecorder(_Camera):
             raise CallFailed("There is no video to stop.")
         asked, self._asked = self._asked, ""
         self._robot.stop_one(asked)
-        path = video_path(self._robot.name, self._name_asked)
+        path = video_path(self._robot.robot, self._name_asked)
         try:
             return [frames_in(path), str(path)]
         except OSError as error:

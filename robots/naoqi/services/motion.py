@@ -1,4 +1,4 @@
-"""ALMotion: joints, stiffness, walking, and what there is to know about the body."""
+"""ALMotion: joints, stiffness, walking, places of hands, and what there is to know of the body."""
 
 from __future__ import annotations
 
@@ -6,22 +6,36 @@ import math
 import time
 import zlib
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
-from robots.body.actions import Turn, Walk, WalkFreely
+from robots.body.actions import Approach, Turn, Walk, WalkFreely
 from robots.body.gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_S, STEP_TURN_RAD
+from robots.body.keyframes import SHORTEST_STEP_S
+from robots.body.kinematics import pose_of
 from robots.body.limbs import MOVING
+from robots.body.motor_tasks import stiffness
 from robots.body.schedule import Command
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.promise import Promise
 from robots.naoqi.wire.service import method
 
-from .arguments import EVERYTHING, chains_of, joint_names, number, within, words
+from .arguments import (
+    EVERYTHING,
+    chains_of,
+    joint_names,
+    joints_of,
+    lists,
+    number,
+    numbers,
+    rows,
+    texts,
+    within,
+    words,
+)
+from .ends import Ends, six_numbers
 from .module import Module, kept, one_by_one, play_script
-from .motion_joints import JointControl, Places, Reaching
-
-# The part of ALMotion that tells of the body, and of what goes on.
 
 CYCLE_MS = 10
 TORQUE = 0.0
@@ -43,9 +57,38 @@ SENSORS = [
     "SonarRight",
 ]
 
+MOVE_CONFIG = {
+    "MaxStepX": 0.04,
+    "MaxStepY": 0.14,
+    "MaxStepTheta": 0.349,
+    "MaxStepFrequency": 1.0,
+    "StepHeight": 0.02,
+    "TorsoWx": 0.0,
+    "TorsoWy": 0.0,
+}
+"""How a NAO walks by default, by NAOqi's names."""
+SAME = 0.05
+"""Speeds that differ by less than this part of the highest ones are the same."""
+SHORTEST_WALK_S = 2.5
+"""It walks for so long at least before it changes its speeds: each change costs it a step."""
+FASTEST = (STEP_FORWARD_M / STEP_S, STEP_LEFT_M / STEP_S, STEP_TURN_RAD / STEP_S)
+"""m/s forward, m/s to the left, rad/s."""
 
-class BodyInfo(Module):
-    """Names, limits, tasks, and what ALMotion only remembers."""
+SLOWEST = 0.01
+"""A fraction of the top speed below this is taken as this: 0 would never arrive."""
+SIDES = {"LHand": "left", "RHand": "right"}
+
+
+class ALMotion(Module):
+    """All that moves; NAOqi's older names for the same are there too."""
+
+    def __init__(self, robot: ServedRobot) -> None:
+        super().__init__(robot)
+        self._ends = Ends(robot)
+        self._next_change_s = 0.0
+        self._end_waiting: Callable[[], bool] = lambda: False
+
+    # Names, limits, tasks, and what it only remembers
 
     set_fall, fall = kept("setFallManagerEnabled::v(b)", "getFallManagerEnabled::b()", True)
     set_push, push = kept("setPushRecoveryEnabled::v(b)", "getPushRecoveryEnabled::b()", True)
@@ -193,38 +236,16 @@ class BodyInfo(Module):
         name = type(command.action).__name__
         return [name, _number(command), self.name, command.priority, joints]
 
+    @method("getSummary::s()")
+    def summary(self) -> str:
+        """Return a table of the joints: stiffness, and angle as told and as felt."""
+        lines = [f"{'JointName':>16} {'Stiffness':>10} {'Command':>10} {'Sensor':>10}"]
+        for joint in self._robot.robot.body.names:
+            numbers = self.stiffnesses(joint) + self.angles(joint, False) + self.angles(joint, True)
+            lines.append(f"{joint:>16} " + " ".join(f"{number:>10.6f}" for number in numbers))
+        return "\n".join(lines)
 
-def _number(command: Command) -> int:
-    return zlib.crc32(command.id.encode()) & 0x7FFFFFFF
-
-
-# The part of ALMotion that walks.
-
-MOVE_CONFIG = {
-    "MaxStepX": 0.04,
-    "MaxStepY": 0.14,
-    "MaxStepTheta": 0.349,
-    "MaxStepFrequency": 1.0,
-    "StepHeight": 0.02,
-    "TorsoWx": 0.0,
-    "TorsoWy": 0.0,
-}
-"""How a NAO walks by default, by NAOqi's names."""
-SAME = 0.05
-"""Speeds that differ by less than this part of the highest ones are the same."""
-SHORTEST_WALK_S = 2.5
-"""It walks for so long at least before it changes its speeds: each change costs it a step."""
-FASTEST = (STEP_FORWARD_M / STEP_S, STEP_LEFT_M / STEP_S, STEP_TURN_RAD / STEP_S)
-"""m/s forward, m/s to the left, rad/s."""
-
-
-class Locomotion(Module):
-    """Walking; NAOqi's older names for the same are there too."""
-
-    def __init__(self, robot: ServedRobot) -> None:
-        super().__init__(robot)
-        self._next_change_s = 0.0
-        self._end_waiting: Callable[[], bool] = lambda: False
+    # Walking
 
     @method("moveInit::v()")
     def move_init(self) -> Any:
@@ -431,6 +452,246 @@ class Locomotion(Module):
         free = next((one for one in actions if isinstance(one, WalkFreely)), None)
         return None if free is None else (free.forward, free.left, free.turn)
 
+    # Angles and stiffness
+
+    @method("angleInterpolation::v(mmmb)")
+    def angle_interpolation(
+        self, names: Any, angle_lists: Any, time_lists: Any, is_absolute: bool
+    ) -> Any:
+        """Move joints through angles (rad) at times (s); wait until they are there."""
+        joints = joints_of(self._robot.robot.body, names)
+        angles = lists(angle_lists, len(joints), "lists of angles")
+        times = lists(time_lists, len(joints), "lists of times")
+        tracks = {
+            joint: {"times": _rising(joint, at, keys), "keys": keys}
+            for joint, keys, at in zip(joints, angles, times, strict=True)
+        }
+        return self._do("move_through", tracks=tracks, relative=not is_absolute)
+
+    @method("angleInterpolationBezier::v([s]mm)")
+    def angle_interpolation_bezier(self, names: list[str], times: Any, control_points: Any) -> Any:
+        """Move joints through keys with Bezier handles; wait until they are there."""
+        joints = joints_of(self._robot.robot.body, names)
+        all_times, all_points = rows(times, "The times"), rows(control_points, "The keys")
+        if len(all_times) != len(joints) or len(all_points) != len(joints):
+            raise CallFailed(
+                "{count} joints need as many lists of times and of keys.", count=len(joints)
+            )
+        tracks = {}
+        for joint, at, of_joint in zip(joints, all_times, all_points, strict=True):
+            points = rows(of_joint, "The keys of a joint")
+            keys = [_key(point) for point in points]
+            tracks[joint] = {
+                "times": _rising(joint, [number(time) for time in rows(at, "The times")], keys),
+                "keys": keys,
+                "handles": [(*_handle(point, 1), *_handle(point, 2)) for point in points],
+            }
+        return self._do("move_through", tracks=tracks)
+
+    @method("angleInterpolationWithSpeed::v(mmf)")
+    def angle_interpolation_withspeed_of(self, names: Any, angles: Any, fraction: float) -> Any:
+        """Move joints to angles at a part of their top speed; wait until they are there."""
+        joints = joints_of(self._robot.robot.body, names)
+        goals = dict(zip(joints, numbers(angles, len(joints), "angles"), strict=True))
+        return self._do("reach_angles", angles=goals, speed=_speed_of(fraction))
+
+    @method("setAngles::v(mmf)")
+    def set_angles(self, names: Any, angles: Any, fraction: float) -> None:
+        """Let joints go to angles at a part of their top speed; nobody waits."""
+        joints = joints_of(self._robot.robot.body, names)
+        goals = dict(zip(joints, numbers(angles, len(joints), "angles"), strict=True))
+        self._set("set_angles", angles=goals, speed=_speed_of(fraction))
+
+    @method("setAngles::v(mm[f])")
+    def set_angles_each(self, names: Any, angles: Any, fractions: list[float]) -> None:
+        """Let joints go to angles, each at a part of its top speed."""
+        joints = joints_of(self._robot.robot.body, names)
+        goals = numbers(angles, len(joints), "angles")
+        speeds = numbers(fractions, len(joints), "fractions of the top speed")
+        for joint, angle, fraction in zip(joints, goals, speeds, strict=True):
+            self._set("set_angles", angles={joint: angle}, speed=_speed_of(fraction))
+
+    @method("changeAngles::v(mmf)")
+    def change_angles(self, names: Any, changes: Any, fraction: float) -> None:
+        """Let joints go further by some angles than where they were told to go."""
+        joints = joints_of(self._robot.robot.body, names)
+        by = numbers(changes, len(joints), "changes")
+        goals = {
+            name: self._commanded(name) + change for name, change in zip(joints, by, strict=True)
+        }
+        self._set("set_angles", angles=goals, speed=_speed_of(fraction))
+
+    @method("getAngles::[f](mb)")
+    def angles(self, names: Any, use_sensors: bool) -> list[float]:
+        """Return the angles (rad) of joints: where they are, or where they were told to go."""
+        robot = self._robot.robot
+        joints = joints_of(robot.body, names)
+        if not use_sensors:
+            return [self._commanded(joint) for joint in joints]
+        with self._robot.lock:
+            return [float(robot.angles[robot.body.index[joint]]) for joint in joints]
+
+    @method("openHand::v(s)")
+    def open_hand(self, hand: str) -> Any:
+        """Open a hand; wait until it is open."""
+        return self._do("hand", side=_side(hand), open=True)
+
+    @method("closeHand::v(s)")
+    def close_hand(self, hand: str) -> Any:
+        """Close a hand; wait until it is closed."""
+        return self._do("hand", side=_side(hand), open=False)
+
+    @method("wakeUp::b()")
+    def wake_up(self) -> Any:
+        """Let all motors hold, and stand up."""
+        return self._do("wake_up", True, stopped=False)
+
+    @method("rest::v()")
+    def rest(self) -> Any:
+        """Go down, and let all motors loose."""
+        return self._do("rest")
+
+    @method("robotIsWakeUp::b()")
+    def robot_is_wake_up(self) -> bool:
+        """Return whether motors hold and it does not rest."""
+        return bool(self._robot.state().settings["awake"])
+
+    @method("setStiffnesses::v(mm)")
+    def set_stiffnesses(self, names: Any, stiffnesses: Any) -> Any:
+        """Let motors hold firmly (1), a little, or not at all (0)."""
+        return self._do("set_stiffness", joints=self._firmness(names, stiffnesses))
+
+    @method("stiffnessInterpolation::v(mmm)")
+    def stiffness_interpolation(self, names: Any, stiffness_lists: Any, time_lists: Any) -> Any:
+        """Let motors hold as the last value of each list says, after its last time (s)."""
+        joints = joints_of(self._robot.robot.body, names)
+        values = lists(stiffness_lists, len(joints), "lists of stiffnesses")
+        times = lists(time_lists, len(joints), "lists of times")
+        firmness = self._firmness(joints, [row[-1] for row in values])
+        return self._do(
+            "set_stiffness", joints=firmness, seconds=max((row[-1] for row in times), default=0.0)
+        )
+
+    @method("getStiffnesses::[f](m)")
+    def stiffnesses(self, names: Any) -> list[float]:
+        """Return how firmly motors hold, 0 to 1."""
+        robot = self._robot.robot
+        with self._robot.lock:
+            return [stiffness(robot, joint) for joint in joints_of(robot.body, names)]
+
+    def _firmness(self, names: Any, stiffnesses: Any) -> dict[str, float]:
+        joints = joints_of(self._robot.robot.body, names)
+        values = numbers(stiffnesses, len(joints), "stiffnesses")
+        return {
+            joint: within(value, 0.0, 1.0, "The stiffness")
+            for joint, value in zip(joints, values, strict=True)
+        }
+
+    def _commanded(self, joint: str) -> float:
+        """Return where a joint was told to go."""
+        robot = self._robot.robot
+        with self._robot.lock:
+            for command in self._robot.commands():
+                if isinstance(command.action, Approach) and joint in command.action.targets:
+                    return command.action.targets[joint].angle
+            return float(robot.angles[robot.body.index[joint]])
+
+    # Places of the parts of the body, and hands and head that go to places
+
+    @method("getPosition::[f](sib)")
+    def position(self, name: str, space: int, use_sensors: bool) -> list[float]:
+        """Return where a part is: x, y, z m and turns about them, rad."""
+        frame = self._ends.frame(name, space)
+        x, y, z, roll, pitch, yaw = pose_of(frame[:3, :3], frame[:3, 3])
+        return [x, y, z, roll, pitch, yaw]
+
+    @method("getTransform::[f](sib)")
+    def transform(self, name: str, space: int, use_sensors: bool) -> list[float]:
+        """Return where a part is, as the 16 numbers of a frame, row by row."""
+        return [float(number) for number in self._ends.frame(name, space).ravel()]
+
+    @method("getCOM::[f](sib)")
+    def centre_of_mass(self, name: str, space: int, use_sensors: bool) -> list[float]:
+        """Return where the centre of mass of the whole body is, m."""
+        return self._ends.centre_of_mass(name, space)
+
+    @method("setPosition::v(si[f]fi)")
+    def set_position(
+        self, name: str, space: int, place: list[float], fraction: float, mask: int
+    ) -> None:
+        """Let an end go to a place at a part of the joints' top speed; nobody waits."""
+        keys = self._ends.keys(name, space, [six_numbers(place)], mask, is_absolute=True)
+        angles = {joint: row[0] for joint, row in keys.items()}
+        self._set("set_angles", angles=angles, speed=_speed_of(fraction))
+
+    @method("setPositions::v(mmmfm)")
+    def set_positions(
+        self, names: Any, spaces: Any, places: Any, fraction: float, masks: Any
+    ) -> None:
+        """Let several ends go to places; nobody waits."""
+        ends = texts(names)
+        of_each = _for_each(places, len(ends))
+        where = zip(ends, _whole(spaces, ends), of_each, _whole(masks, ends), strict=True)
+        for name, space, place, mask in where:
+            self.set_position(name, space, six_numbers(place), fraction, mask)
+
+    @method("changePosition::v(si[f]fi)")
+    def change_position(
+        self, name: str, space: int, change: list[float], fraction: float, mask: int
+    ) -> None:
+        """Let an end go further by a way from where it is; nobody waits."""
+        keys = self._ends.keys(name, space, [six_numbers(change)], mask, is_absolute=False)
+        angles = {joint: row[0] for joint, row in keys.items()}
+        self._set("set_angles", angles=angles, speed=_speed_of(fraction))
+
+    @method("positionInterpolation::v(simimb)")
+    def position_interpolation(
+        self, name: str, space: int, path: Any, mask: int, times: Any, is_absolute: bool
+    ) -> Any:
+        """Move an end by places at times (s); wait until it is there."""
+        tracks = self._tracks(name, space, path, mask, times, is_absolute=is_absolute)
+        return self._do("move_through", tracks=tracks)
+
+    @method("positionInterpolations::v([s]immmb)")
+    def position_interpolations(
+        self, names: list[str], space: int, paths: Any, masks: Any, times: Any, is_absolute: bool
+    ) -> Any:
+        """Move several ends by places at times; wait until they are there."""
+        tracks: dict[str, Any] = {}
+        of_each, at_each = _for_each(paths, len(names)), _for_each(times, len(names))
+        for name, path, mask, at in zip(names, of_each, _whole(masks, names), at_each, strict=True):
+            tracks |= self._tracks(name, space, path, mask, at, is_absolute=is_absolute)
+        return self._do("move_through", tracks=tracks)
+
+    @method("positionInterpolations::v(mmmmm)")
+    def position_interpolations_in(
+        self, names: Any, spaces: Any, paths: Any, masks: Any, times: Any
+    ) -> Any:
+        """Move several ends by places at times, each in a space of its own."""
+        ends, tracks = texts(names), dict[str, Any]()
+        of_each, at_each = _for_each(paths, len(ends)), _for_each(times, len(ends))
+        where = zip(ends, _whole(spaces, ends), of_each, _whole(masks, ends), at_each, strict=True)
+        for name, space, path, mask, at in where:
+            tracks |= self._tracks(name, space, path, mask, at, is_absolute=True)
+        return self._do("move_through", tracks=tracks)
+
+    def _tracks(
+        self, name: str, space: int, path: Any, mask: int, times: Any, *, is_absolute: bool
+    ) -> dict[str, Any]:
+        listed = rows(path, "The path")
+        places = listed if listed and isinstance(listed[0], (list, tuple)) else [listed]
+        keys = self._ends.keys(
+            name, space, [six_numbers(one) for one in places], mask, is_absolute=is_absolute
+        )
+        ends = numbers(times, len(places), "times") if len(places) > 1 else [_single(times)]
+        return {
+            joint: {"times": _rising(joint, ends, row), "keys": row} for joint, row in keys.items()
+        }
+
+
+def _number(command: Command) -> int:
+    return zlib.crc32(command.id.encode()) & 0x7FFFFFFF
+
 
 def _is_walk(command: Command) -> bool:
     return isinstance(command.action, (Walk, Turn, WalkFreely))
@@ -463,14 +724,61 @@ def _check_config(config: Any) -> None:
             raise CallFailed("There is no setting “{name}” of walking.", name=name)
 
 
-class ALMotion(JointControl, Locomotion, BodyInfo, Places, Reaching):
-    """All that moves."""
+def _speed_of(fraction: float) -> float:
+    """Return a fraction of the top speed, never quite 0. Raises CallFailed."""
+    return max(SLOWEST, within(fraction, 0.0, 1.0, "The fraction of the top speed"))
 
-    @method("getSummary::s()")
-    def summary(self) -> str:
-        """Return a table of the joints: stiffness, and angle as told and as felt."""
-        lines = [f"{'JointName':>16} {'Stiffness':>10} {'Command':>10} {'Sensor':>10}"]
-        for joint in self._robot.robot.body.names:
-            numbers = self.stiffnesses(joint) + self.angles(joint, False) + self.angles(joint, True)
-            lines.append(f"{joint:>16} " + " ".join(f"{number:>10.6f}" for number in numbers))
-        return "\n".join(lines)
+
+def _side(hand: str) -> str:
+    if hand not in SIDES:
+        raise CallFailed("There is no hand “{hand}”. Possible: LHand, RHand.", hand=hand)
+    return SIDES[hand]
+
+
+def _rising(joint: str, times: list[float], keys: list[float]) -> list[float]:
+    """Return the times of a joint. Raises CallFailed unless each is later than the one before."""
+    if len(times) != len(keys):
+        raise CallFailed(
+            "{joint}: there are {count} angles for {count_2} times.",
+            joint=joint,
+            count=len(keys),
+            count_2=len(times),
+        )
+    if any(late - early < SHORTEST_STEP_S for early, late in pairwise([0.0, *times])):
+        raise CallFailed(
+            "{joint}: times must be above 0, and each later than the one before.", joint=joint
+        )
+    return times
+
+
+def _key(point: Any) -> float:
+    return number(point[0] if isinstance(point, (list, tuple)) and point else point)
+
+
+def _handle(point: Any, place: int) -> tuple[float, float]:
+    """Return the time (s) and angle (rad) of one of a key's handles: [kind, time, angle]."""
+    handles = point if isinstance(point, (list, tuple)) else []
+    if len(handles) <= place:
+        return 0.0, 0.0
+    _, time, angle, *_ = [*rows(handles[place], "A handle"), 0.0, 0.0, 0.0]
+    return number(time), number(angle)
+
+
+def _single(times: Any) -> float:
+    return numbers(times, 1, "times")[0]
+
+
+def _whole(value: Any, names: list[str]) -> list[int]:
+    """Return a whole number for each end; a single one stands for all of them."""
+    return [int(one) for one in numbers(value, len(names), "numbers")]
+
+
+def _for_each(value: Any, count: int) -> list[Any]:
+    found = rows(value, "A list for each end")
+    if len(found) != count:
+        raise CallFailed(
+            "There are {count} lists for {count_2} ends of the body.",
+            count=len(found),
+            count_2=count,
+        )
+    return found

@@ -20,7 +20,7 @@ NaoqiError (a RobotError: a sentence and a checklist)
 
 from __future__ import annotations
 
-from nep_core.errors import RobotError
+from robots.errors import RobotError
 
 
 class NaoqiError(RobotError):

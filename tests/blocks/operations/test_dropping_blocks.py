@@ -173,7 +173,7 @@ def test_refusals_say_why(language):
     number, a = stacks(editor)[1].body[0], stacks(editor)[2].body[0]
 
     def why(block, place):
-        return why_not_drop(editor, pick_up(editor.project, block), place) or ""
+        return str(why_not_drop(editor, pick_up(editor.project, block), place) or "")
 
     assert "inside itself" in why(branch, InBody(branch, "do", 0))
     assert "gives a value" in why(number, InStack(stacks(editor)[0].id, 1))
@@ -238,7 +238,7 @@ def test_several_stacks_cannot_be_dropped_into_one_place(language):
     a, b, _ = (stack.body[0] for stack in stacks(editor))
     carried = pick_up(editor.project, a, selected={a, b})
 
-    assert "Several stacks" in (
+    assert "Several stacks" in str(
         why_not_drop(editor, carried, InStack(stacks(editor)[2].id, 1)) or ""
     )
     clip = copy(editor.project, language, [a, b])

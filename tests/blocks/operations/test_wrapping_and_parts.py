@@ -56,7 +56,7 @@ def test_a_hat_stays_outside_of_what_is_wrapped(language):
 def test_blocks_that_do_not_follow_each_other_cannot_be_wrapped(language):
     editor, chain = rule(language, say("a"), say("b"), say("c"))
 
-    assert "follow each other" in (why_not_wrap(editor, [chain[1], chain[3]]) or "")
+    assert "follow each other" in str(why_not_wrap(editor, [chain[1], chain[3]]) or "")
     assert why_not_wrap(editor, [chain[1], chain[2]]) is None
     with pytest.raises(EditRefused, match="no place"):
         wrap(editor, [chain[1]], "robot.say")
@@ -106,7 +106,7 @@ def test_a_part_comes_with_its_defaults_and_goes_with_its_blocks_set_free(langua
 
     assert editor.project.stack_of(number).body == [number]
     assert editor.project.stack_of(number).x == 7
-    assert "fewer parts" in (why_not_remove_part(editor, block, "item", 1) or "")
+    assert "fewer parts" in str(why_not_remove_part(editor, block, "item", 1) or "")
     with pytest.raises(EditRefused):
         remove_part(editor, block, "item", 1)
 

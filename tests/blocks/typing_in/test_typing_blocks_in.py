@@ -151,7 +151,7 @@ def test_the_sentences_of_another_language_are_understood_without_accents(langua
         {**language.definitions, "robot.say": say},
         language.categories,
         language.choices,
-        language.profile,
+        language.profiles,
     )
 
     found = suggestions("dit bonjour a la fenetre", french, Project())[0]

@@ -60,7 +60,7 @@ def test_on_windows_it_must_be_in_the_users_own_folder(
 
 
 def test_a_file_that_is_not_there_says_how_to_get_one(tmp_path: Path) -> None:
-    with pytest.raises(KeyFileError, match="cannot be read: No such file") as missing:
+    with pytest.raises(KeyFileError, match="cannot be read: no such file") as missing:
         KeyFile(tmp_path / "no.keys")
 
     assert any("nep pair" in step for step in map(str, missing.value.checklist))
@@ -141,7 +141,7 @@ def test_writing_that_fails_leaves_the_file_as_it_was(
 
     monkeypatch.setattr(os, "fsync", full)
 
-    with pytest.raises(KeyFileError, match="cannot be written: No space left"):
+    with pytest.raises(KeyFileError, match="cannot be written: no space left"):
         write_keys(key_file.path, new_keys("other"))
     assert key_file.path.read_bytes() == before
     assert len(list(key_file.path.parent.iterdir())) == 1

@@ -38,7 +38,7 @@ def test_programs_of_two_computers_that_were_let_in_talk(opened: Opened) -> None
     publisher.send({"x": 1})
 
     assert heard.receive(5.0) == {"x": 1}
-    assert opened.master.take_warning() == ""
+    assert opened.master.take_warning() is None
 
 
 def test_a_computer_that_is_let_in_later_talks_with_programs_that_run(opened: Opened) -> None:
@@ -52,7 +52,7 @@ def test_a_computer_that_is_let_in_later_talks_with_programs_that_run(opened: Op
 
     assert heard.receive(5.0) == {"x": 2}
     assert answers.wait_for_publishers(1, 5.0)
-    assert first.take_warning() == late.take_warning() == ""
+    assert first.take_warning() is late.take_warning() is None
 
 
 def test_the_tools_see_an_opened_network_with_its_keys_only(opened: Opened) -> None:
@@ -178,7 +178,7 @@ def test_a_program_with_keys_says_when_it_meets_one_without(opened: Opened, free
         opened.use(opened.file.path)
         with DirectNetwork(endpoint) as careful:
             Subscriber("/imu", network=careful)
-            told = wait_until(lambda: f"at {endpoint} does not have" in careful.take_warning())
+            told = wait_until(lambda: f"at {endpoint} does not have" in str(careful.take_warning()))
 
     assert told
 
@@ -193,11 +193,11 @@ def test_the_same_refusal_is_told_once_in_a_while_and_many_places_in_one_sentenc
     other = refusals.take()
     refusals.refuse("198.51.100.7")
 
-    assert told.startswith(
+    assert str(told).startswith(
         "A program at 198.51.100.0, 198.51.100.1, 198.51.100.10 and 17 more showed"
     )
-    assert "at 198.51.100.7 showed" in other
-    assert refusals.take() == ""
+    assert "at 198.51.100.7 showed" in str(other)
+    assert refusals.take() is None
 
 
 def test_a_broker_uses_the_keys_too(opened: Opened, free_port: int) -> None:
@@ -240,8 +240,8 @@ def ask_names(opened: Opened) -> list[str]:
     return [told.node for told in listing.registrations]
 
 
-def _is_about_refusal(warning: str) -> bool:
-    return REFUSED in warning
+def _is_about_refusal(warning: object) -> bool:
+    return REFUSED in str(warning)
 
 
 def _states_for(seen: Subscriber[NodeState], seconds: float) -> list[NodeState]:

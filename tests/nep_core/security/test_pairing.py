@@ -275,7 +275,7 @@ def test_both_sides_hear_when_the_door_cannot_keep_the_new_key(
 
     with pytest.raises(PairingError, match="cannot keep your key"):
         pair(HOST, door.port, code, tmp_path / "guest.keys")
-    assert "No space left" in caplog.text
+    assert "no space left" in caplog.text
     caplog.clear()
 
 

@@ -16,16 +16,18 @@ import pytest
 from nep_core.errors import NodeStartError
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program.robot import Robot
-from nep_core.wire.messages import ROBOT_STATE, ActionRequest, ActionResult, RobotState, Thing
+from nep_core.wire.messages import ROBOT_STATE
 from nep_core.wire.pubsub import Subscriber
-from nodes.resources import resource_folder
+from nodes.resources import model_folder, model_of, resource_folder
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import NO_GESTURE, load_animations
-from robots.body.body import Body, load_body, model_of, robot_folder
+from robots.body.body import Body, load_body
+from robots.body.messages import ActionRequest, ActionResult, RobotState, Thing
 from robots.body.motion import keyframe_motion
 from robots.body.pose import VirtualRobot
 from robots.body.speech import CONTEXTUAL, RANDOM
 from robots.body.virtual import VirtualDriver
+from robots.errors import FilesUnusable
 from tests.node_running import NodeRunner, until
 
 ROBOTS = resource_folder() / "robots"
@@ -162,16 +164,33 @@ def test_pepper_says_which_postures_it_has() -> None:
 
 def test_an_unknown_model_is_told_with_those_that_there_are() -> None:
     with pytest.raises(NodeStartError, match='no robot model "zora"') as told:
-        robot_folder("zora")
+        model_folder("zora")
 
     assert "nao, pepper" in str(told.value.checklist[0])
 
 
 def test_a_model_is_named_by_its_folder(tmp_path: Path) -> None:
-    assert model_of(robot_folder("nao")) == ""
-    assert model_of(robot_folder("pepper")) == "pepper"
+    assert model_of(model_folder("nao")) == ""
+    assert model_of(model_folder("pepper")) == "pepper"
     shutil.copy(PEPPER / "body.json", tmp_path)
-    assert model_of(robot_folder(str(tmp_path))) == str(tmp_path.resolve())
+    assert model_of(model_folder(str(tmp_path))) == str(tmp_path.resolve())
+
+
+def test_a_robot_is_called_as_its_profile_says_and_without_one_as_its_folder(
+    folder: Path,
+) -> None:
+    called = load_body(folder).title
+    (folder / "robot.toml").unlink()
+
+    assert (called, load_body(folder).title) == ("Sitter", "sitter")
+    assert (load_body(PEPPER).title, load_body(ROBOTS / "nao").title) == ("Pepper", "NAO")
+
+
+def test_a_profile_without_a_title_is_told(folder: Path) -> None:
+    (folder / "robot.toml").write_text('name = "sitter"')
+
+    with pytest.raises(FilesUnusable, match=r"robot\.toml, cannot be read"):
+        load_body(folder)
 
 
 @pytest.fixture
@@ -192,6 +211,8 @@ def folder(tmp_path: Path) -> Path:
     body["postures"]["Sit"] = {**body["postures"]["Crouch"], "family": "sitting", "next": ["Stand"]}
     body["postures"]["Stand"]["next"].append("Sit")
     (made / "body.json").write_text(json.dumps(body))
+    profile = made / "robot.toml"
+    profile.write_text(profile.read_text().replace('title = "Pepper"', 'title = "Sitter"'))
     for path in (made / "animations").glob("*.toml"):
         path.unlink()
     (made / "animations" / "deep_nod.toml").write_text(NOD)
@@ -230,7 +251,7 @@ def test_a_robot_made_as_a_folder_acts_without_any_code(
 ) -> None:
     states = Subscriber(ROBOT_STATE, RobotState, network=network)
     runner.start_node("action/nao", "sitter", robot="Sitter", model=str(folder), speed=20)
-    runner.state("ready")
+    ready = runner.state("ready")
     robot = Robot("Sitter")
 
     robot.play("deep_nod")
@@ -239,6 +260,7 @@ def test_a_robot_made_as_a_folder_acts_without_any_code(
     robot.do("posture_sit")
 
     last = until(states, lambda state: state.posture == "Sit")[-1]
+    assert ready.description == "virtual Sitter, standing"
     assert last.model == str(folder.resolve())
     assert last.base[0] == pytest.approx(0.3, abs=1e-3)
     assert "LWristYaw" not in last.joints and len(last.joints) == 15

@@ -100,13 +100,13 @@ class Desk:
 
     def grip(self, block: str) -> QPointF:
         """A point of a block that is no field, in the view."""
-        rect = self.canvas.view_rect_of(block)
+        rect = self.canvas.sight.view_rect_of(block)
         assert rect is not None
         return rect.topLeft() + QPointF(5, 14)
 
     def corner(self, block: str) -> QPointF:
         """The upper left corner of a block in the view."""
-        rect = self.canvas.view_rect_of(block)
+        rect = self.canvas.sight.view_rect_of(block)
         assert rect is not None
         return rect.topLeft()
 
@@ -116,7 +116,7 @@ class Desk:
         assert placed is not None
         piece = next(piece for piece in placed.box.pieces if piece.key == key)
         x = placed.x + piece.x + piece.width / 2
-        return self.canvas.camera.to_view(x, placed.y + piece.y + piece.height / 2)
+        return self.canvas.sight.camera.to_view(x, placed.y + piece.y + piece.height / 2)
 
     def carry(self, block: str, to: QPointF, modifiers=PLAIN) -> None:
         """Drag a block so that its upper left corner comes to a point of the view."""
@@ -143,7 +143,7 @@ def show(qtbot: QtBot) -> Callable[..., Desk]:
             canvas.show()
         canvas.setFocus()
         if is_mirrored:
-            canvas.move_camera(-900, 0)
+            canvas.sight.move_camera(-900, 0)
         return Desk(canvas, editor, Mouse(canvas))
 
     return shown

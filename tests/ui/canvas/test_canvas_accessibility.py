@@ -11,7 +11,7 @@ from nep_studio.blocks.edits.content import SetComment, SetFlag
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.accessibility import interface_of, make_accessible
-from nep_studio.ui.canvas.view import ScrollingView
+from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 
@@ -19,13 +19,13 @@ NAME, DESCRIPTION = QAccessible.Text.Name, QAccessible.Text.Description
 
 
 @pytest.fixture
-def view(qtbot) -> ScrollingView:
+def view(qtbot) -> Canvas:
     does = [B("robot.say", {"text": "one"}), B("control.wait"), B("control.wait")]
     number = B("math.arithmetic", {"a": 4, "b": 6})
     repeat = B("control.repeat", {}, {"times": number}, {"do": does})
     far_away = [B("event.started")]
     editor = build(studio_language(), [B("event.started"), repeat], *[far_away] * 9)
-    view = ScrollingView(editor, load_theme("light"))
+    view = Canvas(editor, load_theme("light"))
     make_accessible(view)
     qtbot.addWidget(view)
     view.resize(600, 500)
@@ -34,11 +34,11 @@ def view(qtbot) -> ScrollingView:
     return view
 
 
-def block_of(view: ScrollingView, block_type: str) -> str:
+def block_of(view: Canvas, block_type: str) -> str:
     return next(b.id for b in view.editor.project.blocks.values() if b.type == block_type)
 
 
-def test_the_canvas_is_a_tree_of_the_blocks_in_view(view: ScrollingView) -> None:
+def test_the_canvas_is_a_tree_of_the_blocks_in_view(view: Canvas) -> None:
     tree = QAccessible.queryAccessibleInterface(view)
 
     names = [tree.child(number).text(NAME) for number in range(tree.childCount())]
@@ -48,7 +48,7 @@ def test_the_canvas_is_a_tree_of_the_blocks_in_view(view: ScrollingView) -> None
     assert len(names) < 11
 
 
-def test_a_block_has_the_blocks_inside_it_as_children(view: ScrollingView) -> None:
+def test_a_block_has_the_blocks_inside_it_as_children(view: Canvas) -> None:
     tree = interface_of(view)
     repeat = tree.block(block_of(view, "control.repeat"))
 
@@ -61,7 +61,7 @@ def test_a_block_has_the_blocks_inside_it_as_children(view: ScrollingView) -> No
     assert inside[1].text(DESCRIPTION) == "1 of 3, level 2"
 
 
-def test_a_place_on_the_screen_leads_to_the_block_there(view: ScrollingView) -> None:
+def test_a_place_on_the_screen_leads_to_the_block_there(view: Canvas) -> None:
     tree = interface_of(view)
     say = tree.block(block_of(view, "robot.say"))
     rect = say.rect()
@@ -73,7 +73,7 @@ def test_a_place_on_the_screen_leads_to_the_block_there(view: ScrollingView) -> 
     assert tree.childAt(rect.right() + 150, rect.center().y() + 5) is None
 
 
-def test_what_a_block_looks_like_is_said_in_words(view: ScrollingView) -> None:
+def test_what_a_block_looks_like_is_said_in_words(view: Canvas) -> None:
     wait = block_of(view, "control.wait")
     view.editor.apply(SetFlag(wait, "disabled", True))
     view.editor.apply(SetComment(wait, "a short rest"))
@@ -87,7 +87,7 @@ def test_what_a_block_looks_like_is_said_in_words(view: ScrollingView) -> None:
     assert item.state().disabled
 
 
-def test_a_folded_block_hides_its_children(view: ScrollingView) -> None:
+def test_a_folded_block_hides_its_children(view: Canvas) -> None:
     repeat = block_of(view, "control.repeat")
     view.editor.apply(SetFlag(repeat, "collapsed", True))
 
@@ -98,7 +98,7 @@ def test_a_folded_block_hides_its_children(view: ScrollingView) -> None:
     assert interface_of(view).block(block_of(view, "robot.say")).state().invisible
 
 
-def test_the_block_of_the_keyboard_has_the_focus(view: ScrollingView) -> None:
+def test_the_block_of_the_keyboard_has_the_focus(view: Canvas) -> None:
     QAccessible.setActive(True)
     say = block_of(view, "robot.say")
     view.setFocus()
@@ -111,7 +111,7 @@ def test_the_block_of_the_keyboard_has_the_focus(view: ScrollingView) -> None:
     QAccessible.setActive(False)
 
 
-def test_a_deleted_block_is_not_valid_any_more(view: ScrollingView) -> None:
+def test_a_deleted_block_is_not_valid_any_more(view: Canvas) -> None:
     wait = block_of(view, "control.wait")
     item = interface_of(view).block(wait)
 
@@ -122,7 +122,7 @@ def test_a_deleted_block_is_not_valid_any_more(view: ScrollingView) -> None:
     del item
 
 
-def test_blocks_outside_the_view_say_so(view: ScrollingView) -> None:
+def test_blocks_outside_the_view_say_so(view: Canvas) -> None:
     last = view.editor.project.pages["behaviour"][-1].body[0]
 
     item = interface_of(view).block(last)

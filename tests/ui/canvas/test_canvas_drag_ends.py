@@ -43,7 +43,7 @@ def test_esc_during_a_drag_restores_everything(desk, qtbot):
     assert desk.file == before
     assert desk.editor.history.undo_label == label
     assert desk.corner(two) == place
-    assert desk.canvas.sprite is None
+    assert desk.canvas.layers.sprite is None
     desk.mouse.move(QPointF(900, 700))
     assert desk.canvas.grab().toImage() == picture
 
@@ -56,7 +56,7 @@ def test_the_right_button_during_a_drag_restores_everything(desk):
     desk.mouse.press(FREE, Qt.MouseButton.RightButton)
 
     assert desk.file == before
-    assert desk.canvas.gesture is None
+    assert desk.canvas.pointing.gesture is None
     assert desk.canvas.pointing.was_cancelled_by_right
 
 
@@ -67,7 +67,7 @@ def test_losing_the_focus_restores_everything(desk):
 
     desk.canvas.clearFocus()
 
-    assert desk.canvas.gesture is None
+    assert desk.canvas.pointing.gesture is None
     assert desk.file == before
 
 
@@ -79,7 +79,7 @@ def test_a_release_that_went_elsewhere_restores_everything(desk):
     desk.mouse.held = Qt.MouseButton.NoButton
     desk.mouse.move(FREE + QPointF(20, 0))
 
-    assert desk.canvas.gesture is None
+    assert desk.canvas.pointing.gesture is None
     assert desk.file == before
 
 
@@ -90,8 +90,8 @@ def test_a_change_of_the_program_ends_a_drag_first(desk):
 
     desk.editor.apply(SetField(one, "text", "changed"))
 
-    assert desk.canvas.gesture is None
-    assert desk.canvas.sprite is None
+    assert desk.canvas.pointing.gesture is None
+    assert desk.canvas.layers.sprite is None
     assert len(desk.body()) == 4
 
 
@@ -115,19 +115,19 @@ def test_a_shaky_click_is_no_drag(desk):
 
     desk.mouse.drag(grip, grip + QPointF(4, 3))
 
-    assert not isinstance(desk.canvas.gesture, DragBlocks)
+    assert not isinstance(desk.canvas.pointing.gesture, DragBlocks)
 
 
 def test_blocks_dropped_on_the_delete_area_are_deleted(desk, qtbot):
     desk = desk(story())
     before, (hat, one, two, _) = desk.file, list(desk.body())
     corner = desk.canvas.viewport().mapToGlobal(QPoint(700, 500))
-    desk.canvas.delete_area = lambda at: at.x() >= corner.x() and at.y() >= corner.y()
-    with qtbot.waitSignal(desk.canvas.delete_area_entered):
+    desk.canvas.marks.delete_area = lambda at: at.x() >= corner.x() and at.y() >= corner.y()
+    with qtbot.waitSignal(desk.canvas.news.delete_area_entered):
         desk.carry(two, QPointF(760, 560))
 
-    assert desk.canvas.bubble.text() == "Let go to delete 2 blocks"
-    with qtbot.waitSignal(desk.canvas.blocks_deleted) as deleted:
+    assert desk.canvas.marks.bubble.text() == "Let go to delete 2 blocks"
+    with qtbot.waitSignal(desk.canvas.news.blocks_deleted) as deleted:
         desk.mouse.release()
 
     assert desk.body() == [hat, one]
@@ -138,7 +138,7 @@ def test_blocks_dropped_on_the_delete_area_are_deleted(desk, qtbot):
 def test_a_stack_dropped_onto_another_without_snapping_is_moved_clear_of_it(desk):
     desk = desk(story(), loose("four"))
     before, [four] = desk.file, list(desk.body(1))
-    two = desk.canvas.view_rect_of(desk.body()[2])
+    two = desk.canvas.sight.view_rect_of(desk.body()[2])
 
     desk.put(four, two.topLeft() + QPointF(60, 8))
 
@@ -155,7 +155,7 @@ def test_blocks_dropped_outside_the_view_can_still_be_seen(desk):
 
     desk.put(two, QPointF(-500, 3000))
 
-    rect = desk.canvas.view_rect_of(two)
+    rect = desk.canvas.sight.view_rect_of(two)
     assert desk.canvas.viewport().rect().toRectF().intersects(rect)
 
 
@@ -163,15 +163,15 @@ def test_the_page_scrolls_while_blocks_are_held_at_its_edge(desk, qtbot):
     desk = desk(story())
     two, right = desk.body()[2], desk.canvas.viewport().width()
     desk.carry(two, FREE)
-    start = desk.canvas.camera.x
+    start = desk.canvas.sight.camera.x
     desk.mouse.move(QPointF(right - 6, 300))
 
-    qtbot.waitUntil(lambda: desk.canvas.camera.x > start + 60)
+    qtbot.waitUntil(lambda: desk.canvas.sight.camera.x > start + 60)
     desk.mouse.move(FREE)
-    at_rest = desk.canvas.camera.x
+    at_rest = desk.canvas.sight.camera.x
     desk.mouse.release()
 
-    assert desk.canvas.camera.x == at_rest
+    assert desk.canvas.sight.camera.x == at_rest
     assert (desk.corner(two) - FREE).manhattanLength() < 60
 
 
@@ -180,8 +180,8 @@ def test_carried_blocks_are_shown_outside_the_view_too(desk):
     desk.carry(desk.body()[2], FREE)
 
     desk.mouse.move(QPointF(-60, 200))
-    outside = desk.canvas.floating.isVisible()
+    outside = desk.canvas.marks.floating.isVisible()
     desk.mouse.move(FREE)
 
     assert outside
-    assert not desk.canvas.floating.isVisible()
+    assert not desk.canvas.marks.floating.isVisible()

@@ -85,7 +85,7 @@ def test_nothing_changes_in_the_program_until_the_drop(desk):
 def test_a_dropped_stack_snaps_to_the_block_above(desk):
     desk = desk(story(), loose("four", "five"))
     before, last, (four, five) = desk.file, desk.body()[-1], list(desk.body(1))
-    rect = desk.canvas.view_rect_of(last)
+    rect = desk.canvas.sight.view_rect_of(last)
 
     desk.put(four, rect.bottomLeft() + QPointF(9, 11))
 
@@ -130,7 +130,7 @@ def test_the_gap_closes_when_the_blocks_are_carried_on(desk):
 def test_a_stack_held_over_the_head_of_another_goes_on_top_of_it(desk):
     desk = desk(loose("four", "five"), loose("six"))
     before, (four, five), [six] = desk.file, list(desk.body(0)), list(desk.body(1))
-    height = desk.canvas.view_rect_of(four).height() * 2
+    height = desk.canvas.sight.view_rect_of(four).height() * 2
     place = desk.corner(six)
 
     desk.put(four, place - QPointF(-7, height - 5))
@@ -193,14 +193,14 @@ def test_what_does_not_fit_is_told_beside_the_pointer_and_refused_at_the_drop(de
     slot = desk.field(repeat, "times")
     desk.carry(text, slot - QPointF(10, 14))
 
-    assert "needs a number" in desk.canvas.bubble.text()
-    assert desk.canvas.bubble.isVisible()
-    with qtbot.waitSignal(desk.canvas.refused) as refused:
+    assert "needs a number" in desk.canvas.marks.bubble.text()
+    assert desk.canvas.marks.bubble.isVisible()
+    with qtbot.waitSignal(desk.canvas.news.refused) as refused:
         desk.mouse.release()
 
-    assert "needs a number" in refused.args[0]
+    assert "needs a number" in str(refused.args[0])
     assert "times" not in desk.editor.project.blocks[repeat].inputs
-    assert not desk.canvas.bubble.isVisible()
+    assert not desk.canvas.marks.bubble.isVisible()
 
 
 def test_dragging_one_of_several_selected_blocks_carries_them_all(desk):
@@ -269,8 +269,8 @@ def test_blocks_snap_in_a_mirrored_layout_too(desk):
     desk = desk(story(), loose("four"), is_mirrored=True)
     hat, one, two, three = desk.body()
     [four] = desk.body(1)
-    right = desk.canvas.view_rect_of(two).topRight()
-    width = desk.canvas.view_rect_of(four).width()
+    right = desk.canvas.sight.view_rect_of(two).topRight()
+    width = desk.canvas.sight.view_rect_of(four).width()
 
     desk.put(four, right + QPointF(-width - 8, 6))
 
@@ -280,7 +280,7 @@ def test_blocks_snap_in_a_mirrored_layout_too(desk):
 @pytest.mark.parametrize("zoom", [0.5, 2.0])
 def test_blocks_snap_at_any_zoom(desk, zoom):
     desk = desk(story(), loose("four"))
-    desk.canvas.zoom(zoom, QPointF(0, 0))
+    desk.canvas.sight.zoom(zoom, QPointF(0, 0))
     hat, one, two, three = desk.body()
     [four] = desk.body(1)
 

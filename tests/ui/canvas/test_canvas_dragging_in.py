@@ -56,7 +56,7 @@ def test_the_variable_of_a_header_is_dragged_out_as_a_block(desk):
 
 def test_a_new_block_is_dragged_in_from_another_widget(desk, qtbot):
     desk = desk(story())
-    before, last = desk.file, desk.canvas.view_rect_of(desk.body()[-1])
+    before, last = desk.file, desk.canvas.sight.view_rect_of(desk.body()[-1])
     palette = QLabel("palette")
     qtbot.addWidget(palette)
     palette.show()
@@ -87,11 +87,11 @@ def test_a_new_block_that_is_let_go_outside_the_view_is_not_made(desk, qtbot):
 
     QTest.mousePress(palette, Qt.MouseButton.LeftButton, pos=QPoint(5, 5))
     QTest.mouseMove(palette, palette.mapFromGlobal(outside))
-    is_carried = desk.canvas.sprite is not None
+    is_carried = desk.canvas.layers.sprite is not None
     QTest.mouseRelease(palette, Qt.MouseButton.LeftButton, pos=palette.mapFromGlobal(outside))
 
     assert is_carried
-    assert desk.canvas.sprite is None
+    assert desk.canvas.layers.sprite is None
     assert desk.file == before
 
 
@@ -105,7 +105,7 @@ def test_a_click_on_the_palette_drags_nothing_in(desk, qtbot):
 
     QTest.mouseClick(palette, Qt.MouseButton.LeftButton, pos=QPoint(8, 8))
 
-    assert desk.canvas.gesture is None
+    assert desk.canvas.pointing.gesture is None
     assert desk.file == before
 
 
@@ -141,7 +141,7 @@ def test_any_other_text_is_not_taken(desk):
     drag_in(desk, data, to=FREE)
 
     assert desk.file == before
-    assert desk.canvas.gesture is None
+    assert desk.canvas.pointing.gesture is None
 
 
 def test_a_project_file_that_is_dropped_is_told_of(desk, qtbot, tmp_path):
@@ -149,7 +149,7 @@ def test_a_project_file_that_is_dropped_is_told_of(desk, qtbot, tmp_path):
     before, data = desk.file, QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(tmp_path / "greeting.nep"))])
 
-    with qtbot.waitSignal(desk.canvas.file_dropped) as dropped:
+    with qtbot.waitSignal(desk.canvas.news.file_dropped) as dropped:
         drag_in(desk, data, to=FREE)
 
     assert dropped.args == [str(tmp_path / "greeting.nep")]
@@ -161,8 +161,8 @@ def test_a_block_of_another_page_is_refused(desk, qtbot):
     before, data = desk.file, QMimeData()
     data.setText(to_text(clip_of(desk.editor.language, "robots.robot")))
 
-    with qtbot.waitSignal(desk.canvas.refused) as refused:
+    with qtbot.waitSignal(desk.canvas.news.refused) as refused:
         drag_in(desk, data, to=FREE)
 
-    assert "belongs on the page" in refused.args[0]
+    assert "belongs on the page" in str(refused.args[0])
     assert desk.file == before

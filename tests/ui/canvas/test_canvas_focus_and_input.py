@@ -98,7 +98,7 @@ def test_a_note_that_is_written_writes_nothing_into_the_next_project(window) -> 
 
     window.canvas.set_editor(other)
 
-    assert window.canvas.note_editor is None
+    assert window.canvas.notes.writing is None
     assert "old" in before.project.notes["n1"].text
     assert other.project.notes["n1"].text == "a note"
 
@@ -108,9 +108,9 @@ def test_a_note_that_is_written_writes_nothing_into_the_next_project(window) -> 
 
 def test_space_with_a_press_pans_and_picks_nothing_up(window) -> None:
     canvas, told = window.canvas, []
-    canvas.announced.connect(told.append)
+    canvas.news.announced.connect(told.append)
     canvas.selection.set([window.block])
-    corner = canvas.camera.x
+    corner = canvas.sight.camera.x
 
     QTest.keyPress(canvas, SPACE)
     QTest.mousePress(canvas.viewport(), Qt.MouseButton.LeftButton, pos=QPointF(300, 300).toPoint())
@@ -121,13 +121,13 @@ def test_space_with_a_press_pans_and_picks_nothing_up(window) -> None:
     QTest.keyRelease(canvas, SPACE)
 
     assert told == []
-    assert canvas.gesture is None
-    assert canvas.camera.x == pytest.approx(corner + 50)
+    assert canvas.pointing.gesture is None
+    assert canvas.sight.camera.x == pytest.approx(corner + 50)
 
 
 def test_space_picks_up_and_puts_down_however_long_it_is_held(window) -> None:
     canvas, told = window.canvas, []
-    canvas.announced.connect(told.append)
+    canvas.news.announced.connect(told.append)
     canvas.selection.set([window.block])
     press, none = QEvent.Type.KeyPress, Qt.KeyboardModifier.NoModifier
 
@@ -135,11 +135,11 @@ def test_space_picks_up_and_puts_down_however_long_it_is_held(window) -> None:
     for _ in range(5):
         QApplication.sendEvent(canvas, QKeyEvent(press, SPACE, none, " ", True))
     QTest.keyRelease(canvas, SPACE)
-    carried = canvas.gesture
+    carried = canvas.pointing.gesture
     QTest.keyClick(canvas, SPACE)
 
     assert carried is not None
-    assert canvas.gesture is None
+    assert canvas.pointing.gesture is None
     assert len(told) == 2
 
 
@@ -184,7 +184,7 @@ def test_a_popup_stays_inside_the_screen(window, qtbot, corner) -> None:
     canvas.window().move(screen.bottomRight() - canvas.window().rect().bottomRight())
     block = canvas.editor.create("robot.do", canvas.editor.new_stack("behaviour", 0, 400))
     field = canvas.page_layout.placed(block)
-    canvas.move_camera(field.x - corner.x() + 200, field.y - corner.y() + 40)
+    canvas.sight.move_camera(field.x - corner.x() + 200, field.y - corner.y() + 40)
 
     assert canvas.fields.open(block, "posture")
 

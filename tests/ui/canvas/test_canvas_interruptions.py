@@ -45,7 +45,7 @@ def show_other_page(desk) -> None:
 
 
 def change_theme(desk) -> None:
-    desk.canvas.set_look(load_theme("dark"), desk.canvas.block_font, is_mirrored=True)
+    desk.canvas.set_look(load_theme("dark"), desk.canvas.look.block_font, is_mirrored=True)
 
 
 def hide_canvas(desk) -> None:
@@ -85,8 +85,8 @@ def test_a_drag_that_is_interrupted_leaves_the_program_as_it_was(two_stacks, int
     two_stacks.mouse.release()
 
     assert two_stacks.file == before
-    assert canvas.gesture is None
-    assert canvas.sprite is None
+    assert canvas.pointing.gesture is None
+    assert canvas.layers.sprite is None
     assert not canvas.page_layout.layout.hidden
 
 
@@ -96,8 +96,8 @@ def test_an_interrupted_drag_has_ended(two_stacks, interrupt) -> None:
 
     interrupt(two_stacks)
 
-    assert two_stacks.canvas.gesture is None
-    assert two_stacks.canvas.sprite is None
+    assert two_stacks.canvas.pointing.gesture is None
+    assert two_stacks.canvas.layers.sprite is None
 
 
 def test_a_drag_ends_when_another_view_deletes_what_is_carried(two_stacks) -> None:
@@ -119,7 +119,7 @@ def test_a_rubber_band_that_another_project_ends_selects_nothing_in_it(two_stack
 
     canvas.set_editor(build(studio_language(), [B("robot.say")]))
 
-    assert canvas.gesture is None
+    assert canvas.pointing.gesture is None
     assert canvas.selection.ids == ()
 
 
@@ -130,7 +130,7 @@ def test_a_rubber_band_that_another_page_ends_selects_nothing_on_it(two_stacks) 
 
     canvas.show_page("robots")
 
-    assert canvas.gesture is None
+    assert canvas.pointing.gesture is None
     assert canvas.selection.ids == ()
 
 
@@ -143,8 +143,8 @@ def test_blocks_carried_by_keyboard_are_put_back_when_the_project_changes(two_st
     canvas.set_editor(build(studio_language(), [B("robot.say")]))
 
     assert two_stacks.file == before
-    assert canvas.sprite is None
-    assert canvas.gesture is None
+    assert canvas.layers.sprite is None
+    assert canvas.pointing.gesture is None
 
 
 @pytest.mark.parametrize("key", [Qt.Key.Key_Space, Qt.Key.Key_Down, Qt.Key.Key_Return])
@@ -168,12 +168,12 @@ def open_field(desk) -> str:
 
 def zoom_in_and_out(desk) -> None:
     for scale in (4.0, 0.1, 1.0):
-        desk.canvas.zoom(scale)
+        desk.canvas.sight.zoom(scale)
 
 
 def scroll_far(desk) -> None:
-    desk.canvas.pan(5000, 5000)
-    desk.canvas.pan(-5000, -5000)
+    desk.canvas.sight.pan(5000, 5000)
+    desk.canvas.sight.pan(-5000, -5000)
 
 
 STAYS: list[Callable[[object], None]] = [zoom_in_and_out, scroll_far]

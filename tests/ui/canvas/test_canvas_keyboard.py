@@ -155,13 +155,13 @@ def test_space_picks_up_arrows_choose_a_place_and_enter_puts_down(canvas, qtbot)
 
     assert texts_inside(canvas) == ["one", "after", "two"]
     assert at(canvas) == "NAO says after with no gesture"
-    assert canvas.gesture is None
-    assert canvas.sprite is None
+    assert canvas.pointing.gesture is None
+    assert canvas.layers.sprite is None
 
 
 def test_what_is_carried_is_shown_as_a_gap_and_told(canvas, qtbot) -> None:
     told: list[str] = []
-    canvas.announced.connect(told.append)
+    canvas.news.announced.connect(told.append)
     go_to(qtbot, canvas, "after")
 
     press(qtbot, canvas, Key.Key_Space, Key.Key_Up, Key.Key_Up)
@@ -217,12 +217,12 @@ def test_copied_blocks_are_pasted_with_control_c_and_control_v(canvas, qtbot) ->
 def test_the_menu_key_asks_for_the_menu_at_the_block(canvas, qtbot) -> None:
     block = go_to(qtbot, canvas, "one")
     asked: list[QPoint] = []
-    canvas.menu_requested.disconnect()
-    canvas.menu_requested.connect(asked.append)
+    canvas.news.menu_requested.disconnect()
+    canvas.news.menu_requested.connect(asked.append)
 
     press(qtbot, canvas, Key.Key_F10, held=Modifier.ShiftModifier)
 
-    hit = canvas.hit(asked[0])
+    hit = canvas.sight.hit(asked[0])
     assert hit is not None
     assert hit.block == block
 
@@ -285,9 +285,9 @@ def test_only_control_shift_space_picks_a_block_up_alone(canvas, qtbot) -> None:
     go_to(qtbot, canvas, "one")
 
     press(qtbot, canvas, Key.Key_Space, held=Modifier.ControlModifier)
-    by_control = canvas.gesture
+    by_control = canvas.pointing.gesture
     press(qtbot, canvas, Key.Key_Space, held=Modifier.ControlModifier | Modifier.ShiftModifier)
 
     assert by_control is None
-    assert canvas.gesture is not None
+    assert canvas.pointing.gesture is not None
     press(qtbot, canvas, Key.Key_Escape)

@@ -28,7 +28,7 @@ def waiting(monkeypatch, desk):
     monkeypatch.setattr(page_module, "MOST_STACKS_AT_ONCE", 3)
     stacks = [[B("robot.say", {"text": str(n)}), B("control.wait")] for n in range(20)]
     shown = desk(*stacks)
-    shown.canvas._rest.stop()
+    shown.canvas.later_layout.stop()
     return shown
 
 
@@ -47,7 +47,7 @@ def spread(shown) -> None:
         stack.y = 40.0 + number * 600
     canvas.page_layout.refresh_all()
     canvas.repaint_all()
-    canvas._rest.stop()
+    canvas.later_layout.stop()
     picture(shown)
 
 
@@ -94,12 +94,12 @@ def test_blocks_deeper_than_was_assumed_are_shown_in_the_end(monkeypatch, desk, 
     blocks = shown.editor.project.blocks.values()
     deepest = next(block.id for block in blocks if block.type == "robot.say")
     placed = shown.canvas.page_layout.placed(deepest)
-    shown.canvas.move_camera(placed.x - 10, placed.y - 10)
+    shown.canvas.sight.move_camera(placed.x - 10, placed.y - 10)
     shown.canvas.page_layout.refresh_all()
     shown.canvas.repaint_all()
-    shown.canvas._rest.stop()
+    shown.canvas.later_layout.stop()
     early = picture(shown)
-    shown.canvas._rest.start()
+    shown.canvas.later_layout.start()
     qtbot.waitUntil(lambda: not far_chains(shown).is_waiting)
     QApplication.processEvents()
 
@@ -108,14 +108,14 @@ def test_blocks_deeper_than_was_assumed_are_shown_in_the_end(monkeypatch, desk, 
     shown.canvas.repaint_all()
     assert late == picture(shown)
     assert late != early
-    assert shown.canvas.hit(QPointF(20, 20)) is not None
+    assert shown.canvas.sight.hit(QPointF(20, 20)) is not None
 
 
 def test_carried_blocks_come_before_the_layout_of_what_is_out_of_view(waiting) -> None:
     spread(waiting)
     waiting.carry(waiting.body(0)[1], QPointF(500, 500))
 
-    waiting.canvas._rest.start()
+    waiting.canvas.later_layout.start()
     waiting.canvas.lay_out_more()
 
     assert far_chains(waiting).is_waiting
@@ -132,7 +132,7 @@ def test_dropped_blocks_are_not_pushed_away_by_stacks_that_only_seem_large(waiti
     waiting.put(block, QPointF(300, 400))
 
     stack = waiting.editor.project.stack_of(block)
-    place = waiting.canvas.to_page(QPointF(300, 400))
+    place = waiting.canvas.sight.to_page(QPointF(300, 400))
     assert abs(stack.x - place.x()) < 2
     assert abs(stack.y - place.y()) < 2
 
@@ -150,7 +150,7 @@ def test_all_of_a_large_selection_is_carried_and_dropped(waiting) -> None:
 
 
 def test_a_rubber_band_over_everything_selects_the_blocks_of_all_stacks(waiting) -> None:
-    waiting.canvas.fit()
+    waiting.canvas.sight.fit()
 
     waiting.mouse.drop(QPointF(2, 2), QPointF(995, 795))
 

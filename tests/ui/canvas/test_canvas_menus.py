@@ -72,7 +72,7 @@ def test_the_menu_of_one_of_several_selected_blocks_is_about_all(shown):
 def test_delete_takes_the_block_and_closes_the_stack(shown, qtbot):
     before, (hat, one, repeat, two) = shown.file, list(shown.body())
 
-    with qtbot.waitSignal(shown.canvas.blocks_deleted):
+    with qtbot.waitSignal(shown.canvas.news.blocks_deleted):
         entry(menu_of(shown, one), "delete").trigger()
 
     assert shown.body() == [hat, repeat, two]
@@ -83,7 +83,7 @@ def test_delete_takes_the_block_and_closes_the_stack(shown, qtbot):
 def test_delete_below_takes_all_that_follows(shown, qtbot):
     before, (hat, one, _, _) = shown.file, list(shown.body())
 
-    with qtbot.waitSignal(shown.canvas.blocks_deleted) as deleted:
+    with qtbot.waitSignal(shown.canvas.news.blocks_deleted) as deleted:
         entry(menu_of(shown, one), "delete_below").trigger()
 
     assert shown.body() == [hat]
@@ -162,7 +162,7 @@ def test_a_block_is_folded(shown):
 def test_the_uses_of_a_variable_are_asked_for(desk, qtbot):
     desk = desk([B("event.started"), B("variable.set", {"variable": "v1"})])
 
-    with qtbot.waitSignal(desk.canvas.uses_requested) as asked:
+    with qtbot.waitSignal(desk.canvas.news.uses_requested) as asked:
         entry(menu_of(desk, desk.body()[1]), "uses").trigger()
 
     assert (asked.args[0].kind, asked.args[0].name) == ("variable", "v1")
@@ -180,7 +180,7 @@ def test_the_definition_of_a_variable_is_gone_to(desk):
 
 
 def test_help_is_asked_for(shown, qtbot):
-    with qtbot.waitSignal(shown.canvas.help_requested) as asked:
+    with qtbot.waitSignal(shown.canvas.news.help_requested) as asked:
         entry(menu_of(shown, shown.body()[1]), "help").trigger()
 
     assert asked.args[0]
@@ -197,7 +197,7 @@ def test_the_menu_of_the_canvas_undoes(shown):
 
 def test_blocks_are_pasted_where_the_menu_was_opened(shown):
     entry(menu_of(shown, shown.body()[1]), "copy").trigger()
-    at = shown.canvas.to_page(EMPTY)
+    at = shown.canvas.sight.to_page(EMPTY)
 
     entry(right_click(shown, EMPTY), "paste").trigger()
 

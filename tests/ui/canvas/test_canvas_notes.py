@@ -22,7 +22,7 @@ LEFT = Qt.MouseButton.LeftButton
 @pytest.fixture
 def canvas(qtbot) -> Canvas:
     canvas = Canvas(Editor(Project("Test"), studio_language()), load_theme("light"))
-    canvas.set_look(canvas.theme, text_font(11), is_mirrored=False)
+    canvas.set_look(canvas.look.theme, text_font(11), is_mirrored=False)
     qtbot.addWidget(canvas)
     canvas.resize(600, 400)
     canvas.show()
@@ -31,7 +31,7 @@ def canvas(qtbot) -> Canvas:
 
 
 def view_point(canvas: Canvas, x: float, y: float) -> QPoint:
-    return canvas.camera.to_view(x, y).toPoint()
+    return canvas.sight.camera.to_view(x, y).toPoint()
 
 
 def drag(canvas: Canvas, start: QPoint, by: QPoint) -> None:
@@ -58,8 +58,8 @@ def test_a_note_is_painted_below_the_blocks(canvas) -> None:
 
     picture = canvas.viewport().grab().toImage()
 
-    note = canvas.theme.colour("note")
-    wait = canvas.theme.block("control").fill
+    note = canvas.look.theme.colour("note")
+    wait = canvas.look.theme.block("control").fill
     assert picture.pixelColor(view_point(canvas, 150, 100)) == note
     assert picture.pixelColor(view_point(canvas, 27, 38)) == wait
 

@@ -48,92 +48,92 @@ def pinch(desk, value: float, at: QPointF = SOMEWHERE) -> None:
 
 
 def test_the_middle_button_moves_the_page_under_the_pointer(shown):
-    page = shown.canvas.to_page(SOMEWHERE)
+    page = shown.canvas.sight.to_page(SOMEWHERE)
 
     shown.mouse.press(SOMEWHERE, Qt.MouseButton.MiddleButton)
     shown.mouse.move(SOMEWHERE + QPointF(-80, 40))
     shown.mouse.release()
 
-    moved = shown.canvas.to_page(SOMEWHERE + QPointF(-80, 40))
+    moved = shown.canvas.sight.to_page(SOMEWHERE + QPointF(-80, 40))
     assert (moved - page).manhattanLength() < 1
 
 
 def test_space_and_the_left_button_move_the_page(shown):
     block, before = shown.body()[1], shown.file
     start = shown.grip(block)
-    page = shown.canvas.to_page(start)
+    page = shown.canvas.sight.to_page(start)
 
     QTest.keyPress(shown.canvas, Qt.Key.Key_Space)
     shown.mouse.drop(start, start + QPointF(120, 90))
     QTest.keyRelease(shown.canvas, Qt.Key.Key_Space)
 
-    assert (shown.canvas.to_page(start + QPointF(120, 90)) - page).manhattanLength() < 1
+    assert (shown.canvas.sight.to_page(start + QPointF(120, 90)) - page).manhattanLength() < 1
     assert shown.file == before
     assert not shown.canvas.pointing.is_space_down
 
 
 def test_esc_while_the_page_is_moved_moves_it_back(shown):
-    page = shown.canvas.to_page(SOMEWHERE)
+    page = shown.canvas.sight.to_page(SOMEWHERE)
     shown.mouse.press(SOMEWHERE, Qt.MouseButton.MiddleButton)
     shown.mouse.move(SOMEWHERE + QPointF(-80, 40))
 
     QTest.keyClick(shown.canvas, Qt.Key.Key_Escape)
 
-    assert (shown.canvas.to_page(SOMEWHERE) - page).manhattanLength() < 1
+    assert (shown.canvas.sight.to_page(SOMEWHERE) - page).manhattanLength() < 1
 
 
 def test_the_wheel_scrolls_down(shown):
-    y = shown.canvas.camera.y
+    y = shown.canvas.sight.camera.y
 
     wheel(shown, -1)
 
-    assert shown.canvas.camera.y > y + 30
+    assert shown.canvas.sight.camera.y > y + 30
 
 
 def test_the_wheel_scrolls_sideways_with_shift(shown):
-    x, y = shown.canvas.camera.x, shown.canvas.camera.y
+    x, y = shown.canvas.sight.camera.x, shown.canvas.sight.camera.y
 
     wheel(shown, -1, SHIFT)
 
-    assert shown.canvas.camera.x > x + 30
-    assert shown.canvas.camera.y == y
+    assert shown.canvas.sight.camera.x > x + 30
+    assert shown.canvas.sight.camera.y == y
 
 
 def test_a_touch_pad_scrolls_by_pixels(shown):
-    y = shown.canvas.camera.y
+    y = shown.canvas.sight.camera.y
 
     wheel(shown, -0.1, pixels=QPoint(0, -13))
 
-    assert shown.canvas.camera.y == y + 13
+    assert shown.canvas.sight.camera.y == y + 13
 
 
 def test_the_wheel_with_ctrl_zooms_at_the_pointer(shown):
-    page = shown.canvas.to_page(SOMEWHERE)
+    page = shown.canvas.sight.to_page(SOMEWHERE)
 
     wheel(shown, 2, CTRL)
 
-    assert shown.canvas.camera.scale > 1.3
-    assert (shown.canvas.to_page(SOMEWHERE) - page).manhattanLength() < 1
+    assert shown.canvas.sight.camera.scale > 1.3
+    assert (shown.canvas.sight.to_page(SOMEWHERE) - page).manhattanLength() < 1
 
 
 def test_the_zoom_has_an_end(shown):
     for _ in range(40):
         wheel(shown, 3, CTRL)
-    nearest = shown.canvas.camera.scale
+    nearest = shown.canvas.sight.camera.scale
     for _ in range(80):
         wheel(shown, -3, CTRL)
 
     assert nearest == 4.0
-    assert shown.canvas.camera.scale == 0.1
+    assert shown.canvas.sight.camera.scale == 0.1
 
 
 def test_pinching_a_touch_pad_zooms(shown):
-    page = shown.canvas.to_page(SOMEWHERE)
+    page = shown.canvas.sight.to_page(SOMEWHERE)
 
     pinch(shown, 0.25)
 
-    assert shown.canvas.camera.scale == pytest.approx(1.25)
-    assert (shown.canvas.to_page(SOMEWHERE) - page).manhattanLength() < 1
+    assert shown.canvas.sight.camera.scale == pytest.approx(1.25)
+    assert (shown.canvas.sight.to_page(SOMEWHERE) - page).manhattanLength() < 1
 
 
 def test_carried_blocks_stay_at_the_pointer_while_the_wheel_scrolls(shown):
@@ -154,7 +154,7 @@ def test_carried_blocks_stay_at_the_pointer_while_the_wheel_zooms(shown):
     wheel(shown, -2, CTRL)
     shown.mouse.release()
 
-    rect = shown.canvas.view_rect_of(block)
+    rect = shown.canvas.sight.view_rect_of(block)
     assert rect.adjusted(-2, -2, 2, 2).contains(SOMEWHERE)
 
 

@@ -22,7 +22,7 @@ def part_button(desk, block: str, number: int) -> QPointF:
     placed = desk.canvas.page_layout.placed(block)
     piece = next(p for p in placed.box.pieces if p.kind == "remove" and p.number == number)
     x, y = placed.x + piece.x + piece.width / 2, placed.y + piece.y + piece.height / 2
-    return desk.canvas.camera.to_view(x, y)
+    return desk.canvas.sight.camera.to_view(x, y)
 
 
 def joined(desk, *, is_mirrored: bool = False):
@@ -60,14 +60,14 @@ def test_a_plugged_block_moves_along(desk):
 def test_esc_leaves_the_items_as_they_were(desk, qtbot):
     desk, block = joined(desk)
     before = desk.file
-    overlays = list(desk.canvas.overlays)
+    overlays = list(desk.canvas.layers.overlays)
     desk.mouse.drag(part_button(desk, block, 3), desk.field(block, "item.1"))
 
     qtbot.keyClick(desk.canvas, Qt.Key.Key_Escape)
     desk.mouse.release()
 
     assert desk.file == before
-    assert desk.canvas.overlays == overlays
+    assert desk.canvas.layers.overlays == overlays
 
 
 def test_a_click_on_the_minus_still_takes_the_item_away(desk):
@@ -100,4 +100,4 @@ def test_a_part_that_is_alone_is_no_grip_but_carries_its_block(desk):
 
     desk.mouse.drag(part_button(desk, block, 1), QPointF(620, 480))
 
-    assert desk.canvas.sprite is not None
+    assert desk.canvas.layers.sprite is not None

@@ -69,7 +69,7 @@ def test_a_click_on_one_of_several_selected_blocks_selects_it_alone(desk):
 def test_a_rubber_band_selects_the_blocks_that_it_touches(desk):
     desk = desk(story())
     _, one, repeat, two = desk.body()
-    low = desk.canvas.view_rect_of(two).center().y()
+    low = desk.canvas.sight.view_rect_of(two).center().y()
 
     desk.mouse.drop(QPointF(900, low), desk.grip(one) + QPointF(20, 4))
 
@@ -82,7 +82,7 @@ def test_a_rubber_band_in_a_mouth_selects_the_blocks_inside_only(desk):
     first, second = desk.editor.project.blocks[repeat].bodies["do"]
 
     desk.mouse.drop(
-        QPointF(900, desk.canvas.view_rect_of(first).center().y()),
+        QPointF(900, desk.canvas.sight.view_rect_of(first).center().y()),
         desk.grip(second) + QPointF(20, 4),
     )
 
@@ -93,7 +93,7 @@ def test_a_rubber_band_with_shift_adds_to_the_selection(desk):
     desk = desk(story())
     _, one, _, two = desk.body()
     desk.canvas.selection.set([one])
-    y = desk.canvas.view_rect_of(two).center().y()
+    y = desk.canvas.sight.view_rect_of(two).center().y()
 
     desk.mouse.drop(QPointF(900, y), QPointF(60, y + 4), SHIFT)
 
@@ -104,13 +104,13 @@ def test_esc_during_a_rubber_band_gives_the_old_selection_back(desk):
     desk = desk(story())
     one = desk.body()[1]
     desk.canvas.selection.set([one])
-    overlays = list(desk.canvas.overlays)
+    overlays = list(desk.canvas.layers.overlays)
     desk.mouse.drag(QPointF(900, 600), QPointF(50, 50))
 
     QTest.keyClick(desk.canvas, Qt.Key.Key_Escape)
 
     assert desk.canvas.selection.ids == (one,)
-    assert desk.canvas.overlays == overlays
+    assert desk.canvas.layers.overlays == overlays
 
 
 def test_selecting_changes_nothing_in_the_program(desk):
@@ -150,7 +150,9 @@ def test_a_click_on_a_button_of_a_block_does_what_it_says(desk):
     before = dict(desk.editor.project.blocks[fork].groups)
     placed = desk.canvas.page_layout.placed(fork)
     plus = next(p for p in placed.box.pieces if p.piece == "button" and p.kind == "add")
-    at = desk.canvas.camera.to_view(placed.x + plus.x + 6, placed.y + plus.y + plus.height / 2)
+    at = desk.canvas.sight.camera.to_view(
+        placed.x + plus.x + 6, placed.y + plus.y + plus.height / 2
+    )
 
     desk.mouse.click(at)
 
@@ -163,9 +165,9 @@ def test_a_click_on_a_badge_opens_the_problem(desk, qtbot):
     problem = Problem("error", "some_kind", "behaviour", one, "This is wrong.")
     desk.canvas.problems.show([problem])
     badge = badge_rect(desk.canvas.page_layout.placed(one), desk.canvas)
-    at = desk.canvas.camera.to_view(badge.center().x() + 4, badge.center().y())
+    at = desk.canvas.sight.camera.to_view(badge.center().x() + 4, badge.center().y())
 
-    with qtbot.waitSignal(desk.canvas.problem_opened) as opened:
+    with qtbot.waitSignal(desk.canvas.news.problem_opened) as opened:
         desk.mouse.click(at)
 
     assert opened.args == [one]
@@ -175,7 +177,7 @@ def test_a_double_click_opens_the_block(desk, qtbot):
     desk = desk(story())
     one = desk.body()[1]
 
-    with qtbot.waitSignal(desk.canvas.block_opened) as opened:
+    with qtbot.waitSignal(desk.canvas.news.block_opened) as opened:
         desk.mouse.double_click(desk.grip(one))
 
     assert opened.args == [one]

@@ -119,12 +119,12 @@ def test_a_condition_dropped_anywhere_on_a_wide_hole_is_plugged_in(desk, share, 
     placed = desk.canvas.page_layout.placed(block)
     hole = next(piece for piece in placed.box.pieces if piece.key == "condition")
     x, y = placed.x + piece_x(hole, share), placed.y + hole.y + hole.height / 2
-    grabbed = desk.canvas.view_rect_of(condition)
+    grabbed = desk.canvas.sight.view_rect_of(condition)
     start = (
         grabbed.topRight() + QPointF(-6, 6) if is_mirrored else grabbed.topLeft() + QPointF(6, 6)
     )
 
-    desk.mouse.drop(start, desk.canvas.camera.to_view(x, y))
+    desk.mouse.drop(start, desk.canvas.sight.camera.to_view(x, y))
 
     assert desk.editor.project.blocks[block].inputs == {"condition": condition}
 

@@ -92,26 +92,26 @@ def test_a_shaky_finger_is_no_drag(shown, fingers):
 
 def test_a_finger_on_the_empty_canvas_moves_the_page(shown, fingers):
     start = QPointF(700, 500)
-    page = shown.canvas.to_page(start)
+    page = shown.canvas.sight.to_page(start)
 
     fingers.to(start)
     fingers.to(start + QPointF(-60, -40))
     fingers.up(start + QPointF(-60, -40))
 
-    assert (shown.canvas.to_page(start + QPointF(-60, -40)) - page).manhattanLength() < 1
+    assert (shown.canvas.sight.to_page(start + QPointF(-60, -40)) - page).manhattanLength() < 1
 
 
 def test_two_fingers_zoom_and_move_the_page(shown, fingers):
     left, right = QPointF(300, 300), QPointF(500, 300)
-    page = shown.canvas.to_page(QPointF(400, 300))
+    page = shown.canvas.sight.to_page(QPointF(400, 300))
 
     fingers.to(left)
     fingers.to(left, right)
     fingers.to(left + QPointF(-100, 50), right + QPointF(100, 50))
     fingers.up(left, right)
 
-    assert shown.canvas.camera.scale == pytest.approx(2.0)
-    assert (shown.canvas.to_page(QPointF(400, 350)) - page).manhattanLength() < 1
+    assert shown.canvas.sight.camera.scale == pytest.approx(2.0)
+    assert (shown.canvas.sight.to_page(QPointF(400, 350)) - page).manhattanLength() < 1
 
 
 def test_a_second_finger_gives_carried_blocks_back(shown, fingers):
@@ -124,7 +124,7 @@ def test_a_second_finger_gives_carried_blocks_back(shown, fingers):
     fingers.up(start + QPointF(200, 200), start)
 
     assert shown.file == before
-    assert shown.canvas.sprite is None
+    assert shown.canvas.layers.sprite is None
 
 
 def test_a_touch_that_the_system_takes_away_gives_carried_blocks_back(shown, fingers):
@@ -136,7 +136,7 @@ def test_a_touch_that_the_system_takes_away_gives_carried_blocks_back(shown, fin
     fingers.lost()
 
     assert shown.file == before
-    assert shown.canvas.gesture is None
+    assert shown.canvas.pointing.gesture is None
 
 
 def test_a_finger_that_rests_opens_the_menu(shown, fingers, qtbot):
@@ -148,4 +148,4 @@ def test_a_finger_that_rests_opens_the_menu(shown, fingers, qtbot):
     assert shown.canvas.selection.ids == (block,)
     shown.canvas.menu.close()
     fingers.up(shown.grip(block))
-    assert shown.canvas.gesture is None
+    assert shown.canvas.pointing.gesture is None

@@ -8,6 +8,7 @@ import pytest
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
+from nep_studio.blocks.slots import kind_of
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.layout.slot_style import shown_text, unit_of
 from nep_studio.ui.words import available_languages, use_language
@@ -27,4 +28,4 @@ def test_no_sentence_says_the_unit_of_its_field_twice(code: str) -> None:
     block = editor.project.blocks[block_id]
 
     assert shown_text(editor.project, editor.language, block, "seconds", slot) == "1"
-    assert unit_of("duration").strip()
+    assert unit_of(kind_of("duration")).strip()

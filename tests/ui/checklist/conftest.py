@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.checklist.person import CTRL, Fingers, Key, Person
 from tests.ui.window.conftest import home, studio

@@ -81,9 +81,9 @@ class Person:
 
     def look_at_corner(self) -> None:
         x = -20.0
-        if self.canvas.measures.is_mirrored:
-            x = 300 - self.canvas.viewport().width() / self.canvas.camera.scale
-        self.canvas.move_camera(x, -20)
+        if self.canvas.look.measures.is_mirrored:
+            x = 300 - self.canvas.viewport().width() / self.canvas.sight.camera.scale
+        self.canvas.sight.move_camera(x, -20)
 
     def body(self, number: int = 0) -> list[str]:
         """The blocks of a stack of the page."""
@@ -101,14 +101,14 @@ class Person:
     # Where it is
 
     def rect(self, block: str) -> QRectF:
-        found = self.canvas.view_rect_of(block)
+        found = self.canvas.sight.view_rect_of(block)
         assert found is not None
         return found
 
     def corner(self, block: str) -> QPoint:
         """Where a block begins: its upper left corner, or the right one of a mirrored page."""
         rect = self.rect(block)
-        is_mirrored = self.canvas.measures.is_mirrored
+        is_mirrored = self.canvas.look.measures.is_mirrored
         return (rect.topRight() if is_mirrored else rect.topLeft()).toPoint()
 
     def foot(self, block: str) -> QPoint:
@@ -117,7 +117,7 @@ class Person:
 
     def grip(self, block: str) -> QPoint:
         """A point of a block that is no field."""
-        side = -5 if self.canvas.measures.is_mirrored else 5
+        side = -5 if self.canvas.look.measures.is_mirrored else 5
         return self.corner(block) + QPoint(side, 14)
 
     def piece(self, block: str, key: str, *, kind: str = "", number: int = 0) -> QPoint:
@@ -130,12 +130,12 @@ class Person:
             if p.key == key and kind in ("", p.kind) and number in (0, p.number)
         )
         x, y = placed.x + piece.x + piece.width / 2, placed.y + piece.y + piece.height / 2
-        return self.canvas.camera.to_view(x, y).toPoint()
+        return self.canvas.sight.camera.to_view(x, y).toPoint()
 
     def seen(self, colour: str, rect: QRectF) -> int:
         """How many pixels of a part of the canvas have a colour of the theme."""
         image = self.canvas.viewport().grab(rect.toAlignedRect()).toImage()
-        wanted = self.canvas.theme.colour(colour).rgb()
+        wanted = self.canvas.look.theme.colour(colour).rgb()
         points = ((x, y) for x in range(image.width()) for y in range(image.height()))
         return sum(image.pixel(x, y) == wanted for x, y in points)
 
@@ -290,4 +290,4 @@ class PaintedPixels(QObject):
 
 def is_dragging(person: Person) -> bool:
     """Whether blocks are in the hand."""
-    return person.canvas.sprite is not None and person.canvas.gesture is not None
+    return person.canvas.layers.sprite is not None and person.canvas.pointing.gesture is not None

@@ -79,7 +79,7 @@ def test_replace_preview_highlights_the_block_that_will_be_pushed_out(person: Pe
 def test_snap_radius_of_28_pixels_and_hysteresis_of_8_pixels(person: Person) -> None:
     """Hysteresis on the current candidate (8 px), snap radius 28 px (Snap 20)."""
     person.make(story(), [B("control.wait")])
-    person.canvas.zoom(1.0)
+    person.canvas.sight.zoom(1.0)
     person.look_at_corner()
     wait, last = person.body(1)[0], person.body()[-1]
     one, two = person.foot(person.body()[1]), person.foot(person.body()[2])
@@ -146,14 +146,14 @@ def test_escape_cancels_a_drag_and_restores(person: Person) -> None:
     person.release(place)
 
     assert person.file == before and person.editor.history.steps == steps
-    assert person.canvas.sprite is None and person.canvas.page_layout.layout.gap is None
+    assert person.canvas.layers.sprite is None and person.canvas.page_layout.layout.gap is None
     assert not person.canvas.page_layout.layout.hidden
 
 
 def test_edge_scroll_and_wheel_scroll_while_dragging(person: Person) -> None:
     """Edge auto-scroll while dragging; wheel scroll while dragging."""
     person.make(story())
-    camera, block = person.canvas.camera, person.body()[3]
+    camera, block = person.canvas.sight.camera, person.body()[3]
     view = person.canvas.viewport().rect()
 
     place = person.carry(block, FREE)
@@ -196,8 +196,8 @@ def test_type_check_at_connect_says_why(person: Person) -> None:
     before, check, number = person.file, person.body()[0], person.body(1)[0]
 
     place = person.carry(number, person.piece(check, "condition") - QPoint(40, 14))
-    told = person.canvas.bubble.text()
-    shown = person.canvas.bubble.isVisible()
+    told = person.canvas.marks.bubble.text()
+    shown = person.canvas.marks.bubble.isVisible()
     person.release(place)
 
     assert shown and len(told) > 10
@@ -211,7 +211,7 @@ def test_touch_taps_drags_pinches_and_opens_menus(person: Person, fingers: Finge
     """Touch: pinch + long press."""
     person.make(story())
     before, last = person.file, person.body()[3]
-    start, camera = person.grip(last), person.canvas.camera
+    start, camera = person.grip(last), person.canvas.sight.camera
 
     fingers.to(start)
     for step in range(1, 5):
@@ -227,7 +227,7 @@ def test_touch_taps_drags_pinches_and_opens_menus(person: Person, fingers: Finge
     fingers.up(middle - QPoint(100, 0), middle + QPoint(100, 0))
     assert camera.scale == pytest.approx(scale * 2, rel=0.1)
 
-    person.canvas.zoom(scale)
+    person.canvas.sight.zoom(scale)
     person.look_at_corner()
     place = person.grip(person.body()[1])
     fingers.to(place)

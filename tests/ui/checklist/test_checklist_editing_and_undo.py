@@ -37,7 +37,7 @@ def test_block_and_page_comments_that_can_be_resized(person: Person) -> None:
     person.click(QPoint(30, 700))
     [note] = person.project.notes.values()
     assert note.text == "to do"
-    rect = person.canvas.camera.view_rect(person.canvas.notes.rect_of(note))
+    rect = person.canvas.sight.camera.view_rect(person.canvas.notes.rect_of(note))
     person.drop(
         rect.bottomRight().toPoint() - QPoint(4, 4), rect.bottomRight().toPoint() + FREE / 9
     )
@@ -90,7 +90,7 @@ def test_context_menus_of_block_page_and_note_with_own_entries(person: Person) -
     person.canvas.menu_sections.append(lambda canvas, place: [own])
     note = person.canvas.notes.add(300, 100, "note")
     rect = person.canvas.notes.rect_of(person.project.notes[note])
-    middle = person.canvas.camera.view_rect(rect).center().toPoint()
+    middle = person.canvas.sight.camera.view_rect(rect).center().toPoint()
 
     menus = [person.menu(at) for at in (person.grip(person.body()[1]), FREE, middle)]
     block, page, comment = ({a.objectName() for a in menu.actions()} for menu in menus)

@@ -89,7 +89,7 @@ def test_a_screen_reader_hears_the_blocks_and_the_moves(person: Person) -> None:
     """Screen reader: works in Qt."""
     person.make([B("event.started"), B("control.repeat", bodies={"do": [say("a"), say("b")]})])
     loop, heard = person.body()[1], []
-    person.canvas.announced.connect(heard.append)
+    person.canvas.news.announced.connect(heard.append)
     tree = QAccessible.queryAccessibleInterface(person.canvas)
     name = QAccessible.Text.Name
 
@@ -112,13 +112,13 @@ def test_zoom_with_wheel_pinch_and_buttons_pan_fit_and_go_to_a_block(person: Per
     place = person.editor.new_stack("behaviour", 3000, 2500)
     far = person.editor.create("event.started", place)
     person.make(story())
-    camera, view = person.canvas.camera, person.canvas.viewport()
+    camera, view = person.canvas.sight.camera, person.canvas.viewport()
     at = QPoint(300, 200)
-    usual, fixed = camera.scale, person.canvas.to_page(at)
+    usual, fixed = camera.scale, person.canvas.sight.to_page(at)
 
     person.wheel(1, CTRL, at)
     assert camera.scale == pytest.approx(usual * 1.2)
-    assert (person.canvas.to_page(at) - fixed).manhattanLength() < 2
+    assert (person.canvas.sight.to_page(at) - fixed).manhattanLength() < 2
     toolbar, actions = person.window.toolbar, person.window.actions_by_name
     QTest.mouseClick(toolbar.widgetForAction(actions["zoom_out"]), LEFT)
     assert camera.scale == pytest.approx(usual)

@@ -32,7 +32,7 @@ def test_a_drag_step_paints_the_same_in_a_program_of_any_size(
 
     def painted_in_a_drag() -> tuple[int, float]:
         """How many boxes, and at a usual step how many pixels, are painted."""
-        person.qtbot.waitUntil(lambda: not person.canvas._rest.isActive(), timeout=60_000)
+        person.qtbot.waitUntil(lambda: not person.canvas.later_layout.isActive(), timeout=60_000)
         for _ in range(3):  # the palette shows what was used last
             QApplication.processEvents()
         block = person.body()[2]

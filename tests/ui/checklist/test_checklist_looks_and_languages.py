@@ -46,10 +46,10 @@ def test_warnings_are_shown_on_their_block_with_a_reason_and_a_fix(person: Perso
     person.qtbot.waitUntil(lambda: check in canvas.problems.problems)
     placed = canvas.page_layout.placed(check)
     rect = badge_rect(placed, canvas)
-    middle = canvas.camera.to_view(rect.center().x(), rect.center().y()).toPoint()
+    middle = canvas.sight.camera.to_view(rect.center().x(), rect.center().y()).toPoint()
     person.click(middle)
     bubble = person.window.workbench.bubble
-    sentence = canvas.problems.problems[check].sentence
+    sentence = str(canvas.problems.problems[check].sentence)
 
     assert bubble is not None and bubble.isVisible()
     assert sentence in bubble.accessibleName() or any(
@@ -72,7 +72,7 @@ def test_the_running_blocks_glow_in_small_rectangles(person: Person) -> None:
     plain = [person.seen("glow", person.rect(block)) for block in (first, second)]
     with person.qtbot.waitSignal(person.window.workbench.checks.found):
         person.window.workbench.checks.start()  # it draws badges when it is done
-    person.qtbot.waitUntil(lambda: not person.canvas.sharpen.isActive())
+    person.qtbot.waitUntil(lambda: not person.canvas.layers.sharpen.isActive())
     QApplication.processEvents()
     view, painted = person.canvas.viewport(), PaintedPixels()
     view.installEventFilter(painted)
@@ -142,7 +142,7 @@ def test_themes_light_dark_and_high_contrast(person: Person, name: str) -> None:
     choose_in_view_menu(person, name)
 
     theme = load_theme(name)
-    assert person.canvas.theme is theme
+    assert person.canvas.look.theme is theme
     image = person.canvas.viewport().grab(QRect(600, 600, 4, 4)).toImage()
     assert contrast(image.pixelColor(2, 2), theme.colour("text")) >= 4.5
     panel = person.window.palette().window().color()

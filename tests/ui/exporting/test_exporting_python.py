@@ -11,7 +11,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.plugins.exporting import add_exporting, save_python
+from nep_studio.ui.plugins.exporting import save_python
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
@@ -25,7 +25,7 @@ def told(window: MainWindow) -> list[str]:
 def test_the_saved_python_is_python_and_says_how_to_run_it(
     karate: MainWindow, tmp_path: Path
 ) -> None:
-    assert save_python(karate, tmp_path / "karate.py")
+    assert save_python(karate.host, tmp_path / "karate.py")
 
     text = (tmp_path / "karate.py").read_text(encoding="utf-8")
     assert text.startswith("# To run this program")
@@ -38,8 +38,6 @@ def test_the_saved_python_is_python_and_says_how_to_run_it(
 def test_the_dialog_suggests_a_name_that_python_can_import(
     karate: MainWindow, qtbot: QtBot
 ) -> None:
-    add_exporting(karate)
-
     karate.actions_by_name["save_python"].trigger()
 
     [dialog] = karate.findChildren(QFileDialog)
@@ -49,8 +47,6 @@ def test_the_dialog_suggests_a_name_that_python_can_import(
 
 
 def test_copying_puts_the_python_on_the_clipboard(karate: MainWindow) -> None:
-    add_exporting(karate)
-
     karate.actions_by_name["copy_python"].trigger()
 
     assert 'nao.say("Impressive!")' in QGuiApplication.clipboard().text()
@@ -62,7 +58,7 @@ def test_a_place_that_cannot_be_written_is_told_and_leaves_nothing(
 ) -> None:
     (tmp_path / "a_folder").mkdir()
 
-    assert not save_python(karate, tmp_path / place)
+    assert not save_python(karate.host, tmp_path / place)
 
     assert told(karate) == ["The Python could not be saved"]
     assert [path.name for path in tmp_path.iterdir() if path.name != "home"] == ["a_folder"]

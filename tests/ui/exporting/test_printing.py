@@ -19,7 +19,6 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.files import load
 from nep_studio.blocks.program import Project
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.exporting import add_exporting
 from nep_studio.ui.plugins.exporting.paper import (
     SMALLEST_SCALE,
     USUAL_SCALE,
@@ -30,7 +29,7 @@ from nep_studio.ui.plugins.exporting.paper import (
     cut,
 )
 from nep_studio.ui.plugins.exporting.print_dialog import ProgramPrintDialog
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
@@ -148,7 +147,6 @@ def test_long_lines_of_python_go_on_below_and_none_is_lost() -> None:
 
 
 def test_the_action_shows_what_will_be_printed(karate: MainWindow, qtbot: QtBot) -> None:
-    add_exporting(karate)
     karate.actions_by_name["print"].trigger()
     [dialog] = karate.findChildren(ProgramPrintDialog)
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from PySide6.QtPrintSupport import QPrinter
 
+from nep_studio.ui.plugins.exporting.picture import PictureOptions, pdf_of
 from nep_studio.ui.plugins.exporting.print_dialog import ProgramPrintDialog
-from nep_studio.ui.plugins.picture.writing import PictureOptions, pdf_of
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 

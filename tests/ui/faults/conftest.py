@@ -15,8 +15,6 @@ from pytestqt.qtbot import QtBot
 from nep_core.wire import messages as m
 from nep_studio.run.local_network import MASTER
 from nep_studio.ui.messages import Message
-from nep_studio.ui.plugins.nodes import add_nodes_panel
-from nep_studio.ui.plugins.nodes.panel import NodesPanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
@@ -123,9 +121,7 @@ class Scene:
 
 
 def scene_of(window: MainWindow, qtbot: QtBot) -> Scene:
-    """The scene of a window that also has the node panel."""
-    if window.findChild(NodesPanel) is None:
-        add_nodes_panel(window)
+    """The scene of a window, which has the node panel."""
     return Scene(window, qtbot)
 
 

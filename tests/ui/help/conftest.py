@@ -16,7 +16,7 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.plugins.help.help_controller import HelpDesk
 from nep_studio.ui.plugins.help.panel import HelpPanel
 from nep_studio.ui.plugins.help.repository import Book
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import home, studio
 from tests.ui.window.putting_away import put_away
@@ -45,7 +45,7 @@ def window(studio: Studio, qtbot: QtBot) -> MainWindow:
 @pytest.fixture
 def desk(window: MainWindow) -> HelpDesk:
     """The help of the window."""
-    made = window.later.help_desk
+    made = window.findChild(HelpDesk)
     yield made
     if made._window is not None:
         made._window.close()

@@ -184,8 +184,8 @@ def test_f1_on_an_entry_of_a_menu_closes_it_and_tells_about_it(karate, desk, qtb
 
 def test_f1_on_an_entry_of_the_menu_of_a_block_is_answered(karate, desk, first_of, qtbot):
     canvas = karate.workbench.canvas
-    canvas.request_menu(
-        canvas.view_rect_of(first_of("robot.say")).topLeft().toPoint() + QPoint(9, 9)
+    canvas.pointing.request_menu(
+        canvas.sight.view_rect_of(first_of("robot.say")).topLeft().toPoint() + QPoint(9, 9)
     )
     menu = canvas.menu
     menu.setActiveAction(menu.actions()[0])

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
-from nep_studio.ui.plugins.motion import MotionKit, add_motion
+from nep_studio.ui.plugins.motion import MotionKit
 from nep_studio.ui.plugins.motion.window import MotionWindow
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.running.conftest import open_program
@@ -21,8 +21,7 @@ __all__ = ["answer", "chooser", "home", "open_program", "studio", "window"]
 
 @pytest.fixture
 def kit(window: MainWindow) -> MotionKit:
-    found = window.actions_by_name.findChildren(MotionKit)
-    return found[0] if found else add_motion(window)
+    return window.actions_by_name.findChild(MotionKit)
 
 
 @pytest.fixture

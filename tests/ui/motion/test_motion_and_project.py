@@ -36,7 +36,7 @@ keys.append([0.3, 0.0])
 def entries(kit: MotionKit, window: MainWindow, block: str) -> dict[str, object]:
     canvas = window.workbench.canvas
     place = MenuPlace(Hit(block, placed=None), QPointF())
-    return {entry.id: entry.run for entry in kit._section(canvas, place)}
+    return {entry.id: entry.run for entry in kit.section(canvas, place)}
 
 
 def test_the_menu_of_a_block_makes_a_motion_that_it_plays(

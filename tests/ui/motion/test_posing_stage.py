@@ -10,7 +10,7 @@ from nep_studio.blocks.own_animations import OwnAnimation
 from nep_studio.ui.plugins.motion.motion_controller import MotionDesk
 from nep_studio.ui.plugins.motion.stage import ROBOT, PosingStage
 from nep_studio.ui.robot_view.view import RobotView, nao_folder
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from robots.body.body import load_body
 from tests.ui.window.conftest import home, studio
 

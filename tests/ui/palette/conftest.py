@@ -39,7 +39,7 @@ def canvas(qtbot, window) -> Canvas:
     qtbot.waitExposed(window)
     window.activateWindow()
     canvas.setFocus()
-    canvas.move_camera(0, 0)
+    canvas.sight.move_camera(0, 0)
     return canvas
 
 

@@ -74,9 +74,9 @@ def test_what_is_found_is_marked_on_the_canvas(canvas, bar):
 
     with_mark = canvas.viewport().grab().toImage()
 
-    rect = canvas.view_rect_of(bar.hits[0])
+    rect = canvas.sight.view_rect_of(bar.hits[0])
     place = rect.topLeft().toPoint()
-    hit = canvas.theme.colour("search_hit").name()
+    hit = canvas.look.theme.colour("search_hit").name()
     near = {with_mark.pixelColor(place.x() + dx, place.y() + 20).name() for dx in range(-6, 7)}
     assert hit in near
     assert with_mark != without
@@ -105,7 +105,7 @@ def test_a_hit_inside_a_folded_block_unfolds_it(canvas, bar):
 
     assert bar.hits == (inner,)
     assert not canvas.editor.project.blocks[together].collapsed
-    assert canvas.view_rect_of(inner) is not None
+    assert canvas.sight.view_rect_of(inner) is not None
 
 
 def test_nothing_found_is_said_in_words_and_by_the_line(canvas, bar):
@@ -150,7 +150,7 @@ def test_the_uses_of_what_a_block_names_are_listed(canvas, bar):
 
 
 def test_the_menu_of_the_canvas_asks_for_uses(canvas, bar):
-    canvas.uses_requested.emit(Subject("variable", "v1"))
+    canvas.news.uses_requested.emit(Subject("variable", "v1"))
 
     assert bar.isVisible()
 
@@ -162,7 +162,7 @@ def test_the_definition_of_what_a_block_names_is_gone_to(canvas, bar):
 
 
 def test_a_block_that_names_nothing_is_answered_kindly(canvas, bar, qtbot):
-    with qtbot.waitSignal(canvas.refused):
+    with qtbot.waitSignal(canvas.news.refused):
         assert not bar.show_uses_of(first_of(canvas, "event.started"))
 
 

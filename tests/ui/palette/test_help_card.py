@@ -39,9 +39,9 @@ def card() -> HelpCard:
 def double_click(canvas, block: str, qtbot) -> None:
     """Double click on the left edge of a block, where it has no field."""
     canvas.show_block(block)
-    rect = canvas.view_rect_of(block)
+    rect = canvas.sight.view_rect_of(block)
     place = rect.topLeft().toPoint() + QPoint(4, round(min(rect.height(), 30) / 2))
-    assert canvas.hit(place).block == block
+    assert canvas.sight.hit(place).block == block
     viewport, left = canvas.viewport(), Qt.MouseButton.LeftButton
     qtbot.mouseClick(viewport, left, pos=place)
     qtbot.mouseDClick(viewport, left, pos=place)
@@ -67,7 +67,9 @@ def test_f1_tells_about_the_selected_block_and_escape_takes_the_card_away(canvas
 
 def test_help_of_the_menu_opens_the_card(canvas, opening, qtbot):
     block = first_of(canvas, "event.gesture")
-    canvas.request_menu(canvas.view_rect_of(block).topLeft().toPoint() + QPoint(12, 20))
+    canvas.pointing.request_menu(
+        canvas.sight.view_rect_of(block).topLeft().toPoint() + QPoint(12, 20)
+    )
 
     help_action = next(each for each in canvas.menu.actions() if each.text() == "Help")
     canvas.menu.close()
@@ -86,7 +88,7 @@ def test_f1_without_a_selected_block_shows_nothing(canvas, opening, qtbot):
 
 
 def test_a_card_is_inside_the_screen_and_reads_from_the_side_of_the_canvas(canvas, opening, qtbot):
-    canvas.set_look(canvas.theme, canvas.block_font, is_mirrored=True)
+    canvas.set_look(canvas.look.theme, canvas.look.block_font, is_mirrored=True)
     canvas.selection.set([first_of(canvas, "control.together")])
 
     qtbot.keyClick(canvas, KEY.Key_F1)

@@ -48,11 +48,13 @@ def test_a_double_click_on_the_empty_page_opens_the_bar_there(canvas, bar):
     QTest.mouseDClick(canvas.viewport(), Qt.MouseButton.LeftButton, pos=place)
 
     assert bar.isVisible()
-    assert bar._at == canvas.to_page(place)
+    assert bar._at == canvas.sight.to_page(place)
 
 
 def test_a_double_click_on_a_block_does_not(canvas, bar):
-    place = canvas.view_rect_of(first_of(canvas, "robot.do")).topLeft().toPoint() + QPoint(6, 10)
+    place = canvas.sight.view_rect_of(first_of(canvas, "robot.do")).topLeft().toPoint() + QPoint(
+        6, 10
+    )
 
     QTest.mouseDClick(canvas.viewport(), Qt.MouseButton.LeftButton, pos=place)
 
@@ -191,7 +193,7 @@ def test_suggestions_are_painted_as_blocks(canvas, bar, qtbot):
 
     image = bar.list.grab().toImage()
 
-    fill = canvas.theme.block("control").fill
+    fill = canvas.look.theme.block("control").fill
     row = bar.list.rows[0]
     colours = {image.pixelColor(x, round(row.y + 12)).name() for x in range(8, 120)}
     assert fill.name() in colours

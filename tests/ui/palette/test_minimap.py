@@ -20,7 +20,7 @@ def minimap(canvas) -> Minimap:
 
 
 def centre_of_view(canvas) -> QPointF:
-    seen = canvas.visible_page_rect()
+    seen = canvas.sight.visible_page_rect()
     return QPointF(seen.x + seen.width / 2, seen.y + seen.height / 2)
 
 
@@ -41,7 +41,7 @@ def test_it_stays_there_when_the_canvas_changes_its_size(canvas, minimap, window
 
 
 def test_a_mirrored_canvas_has_it_on_the_other_side(canvas, minimap):
-    canvas.set_look(canvas.theme, canvas.block_font, is_mirrored=True)
+    canvas.set_look(canvas.look.theme, canvas.look.block_font, is_mirrored=True)
 
     minimap.refresh()
 
@@ -57,17 +57,17 @@ def test_stacks_are_shown_in_the_colours_of_their_blocks(canvas, minimap):
         for y in range(0, image.height(), 2)
     }
 
-    minimap.canvas.move_camera(5000, 5000)  # so that the frame does not tint them
+    minimap.canvas.sight.move_camera(5000, 5000)  # so that the frame does not tint them
     image = minimap.grab().toImage()
     colours |= {
         image.pixelColor(x, y).name() for x in range(image.width()) for y in range(image.height())
     }
-    assert canvas.theme.block("events").fill.name() in colours
-    assert canvas.theme.block("robot").fill.name() in colours
+    assert canvas.look.theme.block("events").fill.name() in colours
+    assert canvas.look.theme.block("robot").fill.name() in colours
 
 
 def test_a_press_looks_there(canvas, minimap):
-    canvas.move_camera(3000, 3000)
+    canvas.sight.move_camera(3000, 3000)
     place = QPoint(minimap.width() // 2, minimap.height() // 2)
 
     QTest.mouseClick(minimap, LEFT, pos=place)
@@ -78,8 +78,8 @@ def test_a_press_looks_there(canvas, minimap):
 
 def test_the_frame_is_dragged(canvas, minimap):
     minimap.grab()
-    canvas.zoom(2.0)
-    canvas.move_camera(40, 40)
+    canvas.sight.zoom(2.0)
+    canvas.sight.move_camera(40, 40)
     start = minimap.view_frame().center().toPoint()
     before = centre_of_view(canvas)
 
@@ -95,7 +95,7 @@ def test_the_frame_is_dragged(canvas, minimap):
 def test_the_frame_follows_the_view(canvas, minimap):
     before = minimap.view_frame()
 
-    canvas.pan(0, 200)
+    canvas.sight.pan(0, 200)
 
     assert minimap.view_frame().y() > before.y()
 
@@ -119,7 +119,7 @@ def test_a_hidden_minimap_does_nothing(canvas, minimap):
     key = minimap._picture.cacheKey()
 
     canvas.editor.history.undo()
-    canvas.pan(10, 10)
+    canvas.sight.pan(10, 10)
 
     assert not minimap._later.isActive()
     assert minimap._picture.cacheKey() == key

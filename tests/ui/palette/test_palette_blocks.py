@@ -140,7 +140,7 @@ def test_a_click_without_a_selection_inserts_where_one_looks(palette):
     click(palette, "event.started")
 
     made = palette.canvas.selection.ids[0]
-    rect = palette.canvas.view_rect_of(made)
+    rect = palette.canvas.sight.view_rect_of(made)
     assert palette.canvas.viewport().rect().contains(rect.center().toPoint())
 
 
@@ -157,7 +157,7 @@ def test_a_block_dragged_out_is_carried_and_lands_on_the_canvas(palette):
     before = len(types(palette))
 
     press_and_drag(palette, "control.wait", QPoint(450, 60))
-    is_carried = palette.canvas.sprite is not None and len(types(palette)) == before
+    is_carried = palette.canvas.layers.sprite is not None and len(types(palette)) == before
     drop(palette, QPoint(450, 60))
 
     assert is_carried
@@ -175,7 +175,7 @@ def test_a_short_drag_is_a_click(palette):
     QTest.mouseRelease(viewport, LEFT, pos=place + QPoint(3, 2))
 
     assert len(types(palette)) == before + 1
-    assert palette.canvas.sprite is None
+    assert palette.canvas.layers.sprite is None
 
 
 def test_a_block_dragged_back_to_the_palette_is_let_go(palette):
@@ -193,14 +193,14 @@ def test_a_block_dragged_back_to_the_palette_is_let_go(palette):
 def test_blocks_dropped_on_the_palette_are_deleted_and_it_says_so(palette, qtbot):
     canvas = palette.canvas
     say = next(b.id for b in canvas.editor.project.blocks.values() if b.type == "robot.say")
-    place = canvas.view_rect_of(say).topLeft().toPoint() + QPoint(10, 24)
+    place = canvas.sight.view_rect_of(say).topLeft().toPoint() + QPoint(10, 24)
     over = canvas.viewport().mapFromGlobal(palette.mapToGlobal(QPoint(200, 300)))
 
     QTest.mousePress(canvas.viewport(), LEFT, pos=place)
     QTest.mouseMove(canvas.viewport(), place + QPoint(20, 20))
     QTest.mouseMove(canvas.viewport(), over)
     was_shown = palette.shelf._is_delete
-    with qtbot.waitSignal(canvas.blocks_deleted):
+    with qtbot.waitSignal(canvas.news.blocks_deleted):
         QTest.mouseRelease(canvas.viewport(), LEFT, pos=over)
 
     assert was_shown and not palette.shelf._is_delete

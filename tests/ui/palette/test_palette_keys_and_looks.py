@@ -140,7 +140,7 @@ def test_a_category_of_the_narrow_palette_opens_it(palette, qtbot):
 
 def test_the_palette_takes_another_theme_and_direction(palette):
     canvas = palette.canvas
-    canvas.set_look(load_theme("dark"), canvas.block_font, is_mirrored=True)
+    canvas.set_look(load_theme("dark"), canvas.look.block_font, is_mirrored=True)
 
     palette.refresh()
 

@@ -50,7 +50,7 @@ def test_selected_blocks_are_kept_by_a_name_in_a_file(palette, qtbot):
 def test_without_a_selection_the_palette_says_what_to_do(palette, qtbot):
     palette.canvas.selection.clear()
 
-    with qtbot.waitSignal(palette.canvas.refused) as told:
+    with qtbot.waitSignal(palette.canvas.news.refused) as told:
         palette.snippet_menu.ask_to_keep()
 
     assert "Select" in told.args[0]
@@ -58,9 +58,11 @@ def test_without_a_selection_the_palette_says_what_to_do(palette, qtbot):
 
 def test_the_menu_of_a_block_offers_to_keep_it(palette):
     canvas = palette.canvas
-    hit = canvas.hit(canvas.view_rect_of(next(iter(canvas.editor.project.blocks))).center())
+    hit = canvas.sight.hit(
+        canvas.sight.view_rect_of(next(iter(canvas.editor.project.blocks))).center()
+    )
 
-    menu = menu_for(canvas, hit, canvas.to_page(QPoint(0, 0)))
+    menu = menu_for(canvas, hit, canvas.sight.to_page(QPoint(0, 0)), canvas.menu_sections)
 
     assert "keep" in [action.objectName() for action in menu.actions()]
     menu.deleteLater()

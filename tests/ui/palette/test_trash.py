@@ -136,7 +136,7 @@ def test_blocks_come_back_on_a_page_of_their_kind(canvas, trash):
 
 def test_blocks_dropped_on_the_trash_are_deleted_and_it_says_so(canvas, trash):
     block = first_of(canvas, "robot.say")
-    place = canvas.view_rect_of(block).topLeft().toPoint() + QPoint(10, 24)
+    place = canvas.sight.view_rect_of(block).topLeft().toPoint() + QPoint(10, 24)
     over = canvas.viewport().mapFromGlobal(trash.mapToGlobal(trash.rect().center()))
 
     QTest.mousePress(canvas.viewport(), LEFT, pos=place)

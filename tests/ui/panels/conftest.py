@@ -37,19 +37,9 @@ class Bench:
         return [card.message.title for card in self.window.message_area.cards]
 
 
-def find_panel(window: MainWindow, kind: type):
-    from nep_studio.ui.plugins.network import add_network_panel
-    from nep_studio.ui.plugins.nodes import add_nodes_panel
-
-    found = window.findChild(kind)
-    if found is None:
-        found = {NodesPanel: add_nodes_panel, NetworkPanel: add_network_panel}[kind](window)
-    return found
-
-
 @pytest.fixture
 def bench(karate: MainWindow, qtbot: QtBot) -> Iterator[Bench]:
-    made = Bench(karate, find_panel(karate, NodesPanel), find_panel(karate, NetworkPanel))
+    made = Bench(karate, karate.findChild(NodesPanel), karate.findChild(NetworkPanel))
     karate.workbench.panels.show(made.nodes)
     qtbot.waitUntil(made.nodes.isVisible)
     yield made

@@ -14,7 +14,7 @@ from nep_studio.project.triggers import kept_cues
 from nep_studio.ui.documents import Document
 from nep_studio.ui.plugins.cues.arranging import ArrangeDialog
 from nep_studio.ui.plugins.cues.board import COLOURS, columns_for, ink_on
-from nep_studio.ui.plugins.cues.panel import CuePanel, add_cues_panel
+from nep_studio.ui.plugins.cues.panel import CuePanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.theme.colour_seeing import contrast
@@ -35,7 +35,7 @@ def panel(window: MainWindow, qtbot: QtBot) -> Iterator[Callable[..., CuePanel]]
     def show(*stacks: list[B]) -> CuePanel:
         editor = build(window.studio.language, *stacks)
         build(window.studio.language, [B("robots.robot")], page="robots", editor=editor)
-        made = add_cues_panel(window)
+        made = window.findChild(CuePanel)
         window.files.document = Document(editor, parent=window)
         window.files.document_changed.emit(window.files.document)
         window.workbench.panels.show(made)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.plugins.nodes.log_view import MOST_LINES, PIECE_LINES, LogTail, LogView
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 
 
 @pytest.fixture

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import pytest
 
+from faults import fault_of
+from nep_core.processes.process import Outcome
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.plugins.nodes.notices import (
     Circumstances,
@@ -40,30 +42,32 @@ def test_a_frozen_node_of_somebody_else_has_no_button_that_cannot_work() -> None
 
 
 def test_a_wrong_address_offers_the_robot_on_the_screen_and_the_address() -> None:
-    words = "NAO does not answer: not at 10.0.0.9.\n[ ] Is NAO switched on?\n[ ] Same network?"
-    after = changed(event="connection_failed", health="crashed", description=words)
+    steps = ("Is NAO switched on?", "Same network?")
+    told = fault_of("NAO does not answer: not at {at}.", checklist=steps, at="10.0.0.9")
+    after = changed(event="connection_failed", health="crashed", fault=told)
 
     notice = notice_of(READY, after, replace(OURS, has_block=True, address="10.0.0.9"))
 
     assert notice is not None
     assert notice.fixes == ("use_virtual", "test_connection", "change_address")
-    assert notice.problem.sentence == "NAO does not answer: not at 10.0.0.9."
-    assert notice.problem.checklist == ("Is NAO switched on?", "Same network?")
+    assert str(notice.problem.sentence) == "NAO does not answer: not at 10.0.0.9."
+    assert tuple(map(str, notice.problem.checklist)) == steps
 
 
 def test_a_killed_node_that_is_started_again_says_so() -> None:
-    words = "karate was killed; it is started again"
-    after = changed(event="crashed", health="crashed", description=words)
+    told = Outcome("karate", -9).fault(again=True)
+    after = changed(event="crashed", health="crashed", fault=told)
 
     notice = notice_of(READY, after, OURS)
 
     assert notice is not None
     assert (notice.kind, notice.fixes) == ("warning", ("show_log",))
     assert "started again" in notice.problem.title
+    assert str(notice.problem.sentence) == "karate was killed"
 
 
 def test_a_node_that_is_given_up_can_be_started() -> None:
-    after = changed(event="crashed", health="crashed", description="karate was killed")
+    after = changed(event="crashed", health="crashed", fault=Outcome("karate", -9).fault())
 
     notice = notice_of(READY, after, OURS)
 
@@ -72,7 +76,7 @@ def test_a_node_that_is_given_up_can_be_started() -> None:
 
 
 def test_the_last_words_of_a_node_itself_are_waited_out() -> None:
-    after = changed(event="crashed", health="crashed", description="division by zero")
+    after = changed(event="crashed", health="crashed", fault=fault_of("division by zero"))
 
     assert notice_of(READY, after, OURS) is None
 
@@ -97,19 +101,19 @@ def test_a_node_that_ends_by_itself_is_no_passing_matter() -> None:
 
 @pytest.mark.parametrize(("event", "health"), [("stopped", "stopped"), ("crashed", "crashed")])
 def test_nothing_is_told_while_everything_is_being_stopped(event: str, health: str) -> None:
-    after = changed(event=event, health=health, description="karate was killed")
+    after = changed(event=event, health=health, fault=Outcome("karate", -9).fault())
 
     assert notice_of(READY, after, replace(OURS, is_ending=True)) is None
 
 
 def test_lost_messages_are_a_warning() -> None:
     words = "3 messages of /imu were lost."
-    after = changed(event="warning", health="warning", description=words)
+    after = changed(event="warning", health="warning", fault=fault_of(words))
 
     notice = notice_of(READY, after, OURS)
 
     assert notice is not None
-    assert (notice.kind, notice.problem.sentence) == ("warning", words)
+    assert (notice.kind, str(notice.problem.sentence)) == ("warning", words)
 
 
 def test_a_heartbeat_tells_nothing() -> None:
@@ -127,8 +131,8 @@ def test_a_node_that_answers_again_has_recovered() -> None:
 
 
 def test_a_killed_program_that_begins_again_says_so_and_can_be_stopped() -> None:
-    words = "program was killed; it is started again"
-    after = changed(name="program", event="crashed", health="crashed", description=words)
+    told = Outcome("program", -9).fault(again=True)
+    after = changed(name="program", event="crashed", health="crashed", fault=told)
 
     notice = notice_of(READY, after, Circumstances(is_program=True))
 

@@ -19,12 +19,11 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.program import Project
+from nep_studio.project import picture_files
+from nep_studio.project.picture_files import project_bytes_from
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.picture import embedding
-from nep_studio.ui.plugins.picture.dialog import PictureDialog
-from nep_studio.ui.plugins.picture.embedding import project_bytes_from
-from nep_studio.ui.plugins.picture.writing import (
+from nep_studio.ui.plugins.exporting.picture import (
     LARGEST_PIXELS,
     PictureOptions,
     copy_picture,
@@ -35,6 +34,7 @@ from nep_studio.ui.plugins.picture.writing import (
     svg_of,
     write_picture,
 )
+from nep_studio.ui.plugins.exporting.picture_dialog import PictureDialog
 from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build, karate
 
@@ -121,7 +121,7 @@ def test_the_background_is_the_theme_or_nothing(canvas):
     painted = image_of(canvas, PictureOptions())
     bare = image_of(canvas, PictureOptions(is_transparent=True))
 
-    assert painted.pixelColor(1, 1) == canvas.theme.colour("canvas")
+    assert painted.pixelColor(1, 1) == canvas.look.theme.colour("canvas")
     assert bare.pixelColor(1, 1).alpha() == 0
 
 
@@ -204,11 +204,15 @@ def test_the_dialog_says_why_a_picture_cannot_be_saved(canvas, tmp_path):
 @given(st.binary(max_size=3000))
 def test_any_bytes_come_back_from_a_picture(program):
     header = struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)
-    png = embedding.SIGNATURE + embedding._chunk(b"IHDR", header) + embedding._chunk(b"IEND", b"")
+    png = (
+        picture_files.SIGNATURE
+        + picture_files._chunk(b"IHDR", header)
+        + picture_files._chunk(b"IEND", b"")
+    )
 
-    assert embedding.program_in_png(embedding.png_with_program(png, program)) == program
-    svg = embedding.svg_with_program(b"<svg></svg>", program)
-    assert embedding.program_in_svg(svg) == (program or None)
+    assert picture_files.program_in_png(picture_files.png_with_program(png, program)) == program
+    svg = picture_files.svg_with_program(b"<svg></svg>", program)
+    assert picture_files.program_in_svg(svg) == (program or None)
 
 
 @settings(max_examples=80, deadline=None)
@@ -216,24 +220,28 @@ def test_any_bytes_come_back_from_a_picture(program):
 def test_a_damaged_picture_gives_the_program_or_nothing(data):
     program = b'{"format": "x"}' * 20
     header = struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)
-    png = embedding.SIGNATURE + embedding._chunk(b"IHDR", header) + embedding._chunk(b"IEND", b"")
-    whole = embedding.png_with_program(png, program)
+    png = (
+        picture_files.SIGNATURE
+        + picture_files._chunk(b"IHDR", header)
+        + picture_files._chunk(b"IEND", b"")
+    )
+    whole = picture_files.png_with_program(png, program)
     at = data.draw(st.integers(0, len(whole) - 1))
 
-    cut = embedding.program_in_png(whole[:at])
-    changed = embedding.program_in_png(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1 :])
+    cut = picture_files.program_in_png(whole[:at])
+    changed = picture_files.program_in_png(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1 :])
 
     assert cut in (None, program)
     assert changed in (None, program)
 
 
 HOSTILE = {
-    "bomb": embedding.SIGNATURE
-    + embedding._chunk(
-        b"iTXt", embedding.KEY + b"\0\x01\0\0\0" + zlib.compress(b"\0" * 65_000_000, 1)
+    "bomb": picture_files.SIGNATURE
+    + picture_files._chunk(
+        b"iTXt", picture_files.KEY + b"\0\x01\0\0\0" + zlib.compress(b"\0" * 65_000_000, 1)
     ),
-    "long": embedding.SIGNATURE + struct.pack(">I", 0xFFFFFFFF) + b"iTXt" + b"x" * 50,
-    "short": embedding.SIGNATURE + embedding._chunk(b"iTXt", embedding.KEY + b"\0"),
+    "long": picture_files.SIGNATURE + struct.pack(">I", 0xFFFFFFFF) + b"iTXt" + b"x" * 50,
+    "short": picture_files.SIGNATURE + picture_files._chunk(b"iTXt", picture_files.KEY + b"\0"),
     "laughs": b'<!DOCTYPE s [<!ENTITY a "ha"><!ENTITY b "&a;&a;">]><svg>'
     b'<metadata id="nep-studio-project">&b;&b;</metadata></svg>',
     "open": b'<svg><metadata id="nep-studio-project">QUJD',

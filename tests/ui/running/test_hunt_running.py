@@ -25,11 +25,12 @@ OTHER = paths.examples() / "dance.nep"
 @pytest.fixture
 def slow_checks(monkeypatch: pytest.MonkeyPatch) -> None:
     """As in a project of thousands of blocks: the checks take many turns."""
-    monkeypatch.setattr("nep_studio.ui.workbench.live_checks.SLICE_S", 0.0)
+    monkeypatch.setattr("nep_studio.ui.running.runner.SLICE_S", 0.0)
 
 
 def settled(window: MainWindow, qtbot: QtBot) -> None:
     """Wait until all that was about to happen has happened."""
+    qtbot.waitUntil(lambda: window.running.runner.controller.state == "idle")
     found = qtbot.waitSignal(window.workbench.checks.found)
     with found:
         window.workbench.checks.start()
@@ -42,13 +43,13 @@ def test_a_project_that_is_opened_while_another_is_checked_does_not_run(
 ) -> None:
     open_program(WAITING)
     window.running.runner.run()
-    assert window.running.runner.state == "idle"
+    assert window.running.runner.controller.state == "checking"
 
     window.files.open_example(OTHER)
     settled(window, qtbot)
 
     assert window.running.runner.state == "idle"
-    assert window.running.runner.play is None
+    assert window.running.runner.controller.request is None
 
 
 def test_a_project_that_is_opened_while_another_runs_again_does_not_run(
@@ -90,7 +91,7 @@ def test_a_language_that_is_chosen_during_the_checks_does_not_skip_them(
     window.running.runner.run()
 
     window.studio.choose_language("en")
-    assert window.running._preparation is None
+    assert window.running.runner.controller.state == "checking"
     settled(window, qtbot)
 
     assert seen.states == []
@@ -100,7 +101,7 @@ def test_nothing_starts_once_the_window_is_closed(
     window: MainWindow, qtbot: QtBot, open_program: Callable[..., Seen]
 ) -> None:
     seen = open_program(WAITING)
-    window.running.begin()
+    window.running.runner.run()
 
     window.close()
     window.running.runner.start_node(window.running.planned()[0])

@@ -7,7 +7,7 @@ import socket
 from nep_studio.blocks.checks.problem import Fix, Problem
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.running.control import Need, answers_at, needs_of
+from nep_studio.ui.running.needs import Need, answers_at, needs_of
 
 KARATE = PlannedNode("perceptual/gesture", "karate", {}, "a rule waits for this gesture")
 REAL = PlannedNode("action/nao", "NAO", {"driver": "naoqi", "address": "10.0.0.9"}, block_id="b1")

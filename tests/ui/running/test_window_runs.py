@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
 from nep_studio.blocks.edits.content import SetField
-from nep_studio.ui.running.control import NeedsDialog
+from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import (

@@ -38,7 +38,7 @@ def show(window: MainWindow) -> Iterator[Callable[..., ShowWindow]]:
     modes = []
 
     def begin(path=None, **options: object) -> ShowWindow:
-        modes.append(ShowMode(window))
+        modes.append(ShowMode(window.host))
         return modes[-1].begin(ShowOptions(**options), path)
 
     yield begin

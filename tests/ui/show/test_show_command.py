@@ -14,13 +14,11 @@ import psutil
 import pytest
 
 from nep_studio.settings import ShowOptions
-from nep_studio.ui.plugins.show.command import parser, show_options
+from nep_studio.ui.shell.show_command import parser, show_options
 from tests.blocks.block_building import B, build
 
 WAIT_S = 40.0
-SHOW = (
-    "import sys; from nep_studio.ui.plugins.show.command import main; sys.exit(main(sys.argv[1:]))"
-)
+SHOW = "import sys; from nep_studio.ui.shell.show_command import main; sys.exit(main(sys.argv[1:]))"
 
 
 def until(is_so: Callable[[], bool]) -> None:

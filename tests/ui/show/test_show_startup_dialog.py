@@ -20,7 +20,7 @@ def dialog(window: MainWindow, open_program: Callable[..., None], tmp_path: Path
     open_program([B("event.started")])
     window.files.document.save(tmp_path / "my play.nep")
     place = Place("linux", tmp_path, tmp_path / "settings", has_systemd=True)
-    made = StartupDialog(window, place)
+    made = StartupDialog(window.host, place)
     made.open()
     return made
 
@@ -83,7 +83,7 @@ def test_a_project_that_was_never_saved_cannot_start_with_the_computer(
 ) -> None:
     open_program([B("event.started")])
 
-    dialog = StartupDialog(window, Place("darwin", tmp_path, tmp_path))
+    dialog = StartupDialog(window.host, Place("darwin", tmp_path, tmp_path))
 
     assert not dialog.write_button.isEnabled()
     assert dialog.state.text() == "Save the project first: the computer has to find it."

@@ -13,8 +13,8 @@ from PySide6.QtCore import QObject
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
-from nep_studio.ui.plugins.speech.robot_voices import RobotSounds, find_player
-from nep_studio.ui.plugins.speech.voices import Utterance
+from nep_studio.ui.speech.robot_voices import RobotSounds, find_player
+from nep_studio.ui.speech.voices import Utterance
 
 PLAYER = """
     #!{python}

@@ -16,9 +16,10 @@ from pytestqt.qtbot import QtBot
 from nep_core.wire import messages as m
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import Settings
-from nep_studio.ui.plugins.speech import Sound
-from nep_studio.ui.plugins.speech.robot_voices import RobotVoices
-from nep_studio.ui.plugins.speech.voices import (
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.speech import Sound
+from nep_studio.ui.speech.robot_voices import RobotVoices
+from nep_studio.ui.speech.voices import (
     MOST_FAILURES,
     ChildVoice,
     Utterance,
@@ -27,7 +28,6 @@ from nep_studio.ui.plugins.speech.voices import (
     own_pitch,
     utterance_of,
 )
-from nep_studio.ui.running.runner import Runner
 
 NODE_START_MS = 30_000
 SPEAKER = """
@@ -66,7 +66,7 @@ def ears(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ears:
     (folder / "espeak-ng").write_text(script)
     (folder / "espeak-ng").chmod(0o755)
     monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
-    monkeypatch.setattr("nep_studio.ui.plugins.speech.voices.qt_voice", lambda parent: None)
+    monkeypatch.setattr("nep_studio.ui.speech.voices.qt_voice", lambda parent: None)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     return Ears(heard)
 

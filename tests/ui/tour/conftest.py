@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from nep_studio.ui.plugins.tour.tour import Tour, add_tour
+from nep_studio.ui.plugins.tour.tour import Tour
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
@@ -14,4 +14,4 @@ __all__ = ["answer", "chooser", "home", "karate", "studio", "tour", "window"]
 @pytest.fixture
 def tour(window: MainWindow) -> Tour:
     """The tour of the window, which nobody has begun."""
-    return window.findChild(Tour) or add_tour(window)
+    return window.findChild(Tour)

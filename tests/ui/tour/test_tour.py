@@ -49,8 +49,8 @@ def drag_say_block(window: MainWindow) -> None:
         if entry.drawer.id == "robot" and entry.kind == "block"
     )
     rect = shelf.rect_of(next(wanted))
-    hat = canvas.view_rect_of(canvas.editor.project.pages["behaviour"][0].body[0])
-    is_mirrored = canvas.measures.is_mirrored
+    hat = canvas.sight.view_rect_of(canvas.editor.project.pages["behaviour"][0].body[0])
+    is_mirrored = canvas.look.measures.is_mirrored
     side = -1 if is_mirrored else 1
     start = (rect.topRight() if is_mirrored else rect.topLeft()) + QPoint(5 * side, 10)
     corner = (hat.bottomRight() if is_mirrored else hat.bottomLeft()).toPoint()
@@ -91,14 +91,14 @@ def test_the_steps_wait_for_what_is_really_done(
 
     drag_say_block(window)
     qtbot.waitUntil(lambda: begun.number == WORDS)
-    canvas.fields.open(say_block(window).id, "text")
+    canvas.fields.open(say_block(window.host).id, "text")
     QTest.keyClick(canvas.fields.widget, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
     QTest.keyClicks(canvas.fields.widget, "Good day")
     assert begun.number == WORDS
     QTest.keyClick(canvas.fields.widget, Qt.Key.Key_Return)
 
     qtbot.waitUntil(lambda: begun.number == RUN)
-    assert say_block(window).fields["text"] == "Good day"
+    assert say_block(window.host).fields["text"] == "Good day"
 
 
 def test_run_really_runs_what_was_made_in_the_tour(
@@ -120,7 +120,7 @@ def test_run_really_runs_what_was_made_in_the_tour(
 def test_who_presses_next_gets_what_the_next_step_needs(window: MainWindow, begun: Tour) -> None:
     go_to(begun, WORDS)
 
-    assert say_block(window).type == "robot.say"
+    assert say_block(window.host).type == "robot.say"
     assert begun.veil.hole.height() < window.workbench.canvas.height() / 2
 
 
@@ -160,7 +160,7 @@ def test_a_hidden_panel_is_shown(window: MainWindow, tour: Tour, qtbot: QtBot) -
     qtbot.waitUntil(lambda: tour.is_running)
     assert palette.isVisible() and not palette.is_narrow
     qtbot.waitUntil(lambda: palette.width() > palette.categories.width())
-    qtbot.waitUntil(lambda: tour.veil.hole == place_of(window, palette))
+    qtbot.waitUntil(lambda: tour.veil.hole == place_of(window.host, palette))
 
 
 def test_the_veil_follows_the_window(window: MainWindow, begun: Tour, qtbot: QtBot) -> None:
@@ -168,7 +168,7 @@ def test_the_veil_follows_the_window(window: MainWindow, begun: Tour, qtbot: QtB
 
     qtbot.waitUntil(lambda: begun.veil.geometry() == window.rect())
     palette = window.workbench.helpers.palette
-    qtbot.waitUntil(lambda: begun.veil.hole == place_of(window, palette) & window.rect())
+    qtbot.waitUntil(lambda: begun.veil.hole == place_of(window.host, palette) & window.rect())
     assert window.rect().contains(begun.bubble.geometry())
 
 
@@ -194,7 +194,7 @@ def test_esc_ends_it_from_the_bubble_and_from_the_page(
 def test_esc_in_a_field_closes_the_field_only(window: MainWindow, begun: Tour) -> None:
     go_to(begun, WORDS)
     canvas = window.workbench.canvas
-    canvas.fields.open(say_block(window).id, "text")
+    canvas.fields.open(say_block(window.host).id, "text")
 
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_Escape)
 
@@ -208,7 +208,7 @@ def test_done_ends_it_and_the_program_stays(window: MainWindow, begun: Tour) -> 
     click(begun.bubble.next_button)
 
     assert not begun.is_running
-    assert say_block(window) is not None
+    assert say_block(window.host) is not None
     assert window.workbench.canvas.hasFocus()
 
 
@@ -237,7 +237,7 @@ def test_the_tour_goes_on_in_another_language_from_right_to_left(
     window.studio.choose_language(PSEUDO)
     qtbot.waitUntil(lambda: begun.bubble.next_button.text().startswith("["))
     palette = window.workbench.helpers.palette
-    qtbot.waitUntil(lambda: begun.veil.hole == place_of(window, palette) & window.rect())
+    qtbot.waitUntil(lambda: begun.veil.hole == place_of(window.host, palette) & window.rect())
     click(begun.bubble.next_button)
 
     drag_say_block(window)

@@ -7,10 +7,12 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import msgspec
 import pytest
 from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
 
+from faults import Fault, Text
 from nep_studio.blocks.own_gestures import keep_gesture, own_recogniser
 from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
 from nep_studio.ui.plugins.gestures.results.findings import findings_of
@@ -121,9 +123,9 @@ def test_a_cancelled_training_keeps_nothing_and_a_new_process_gets_warm(
         ("    sys.stderr.write('MemoryError'); sys.exit(1)\n", "too little memory"),
         ("    import os; os.kill(os.getpid(), 9)\n", "too little memory"),
         (
-            '    print(json.dumps({"error": "No gesture is marked.", "checklist": ["Mark one."]}),'
-            " flush=True)\n",
-            "No gesture is marked.",
+            '    print(json.dumps({"fault": {"code": "none_marked", "sentence": {"text": "Keine'
+            ' Geste ist markiert."}, "checklist": [{"text": "Eine markieren."}]}}), flush=True)\n',
+            "Keine Geste ist markiert.",
         ),
         ('    print(json.dumps({"done": "/nowhere"}), flush=True)\n', "could not be written"),
     ],
@@ -273,6 +275,7 @@ def test_lines_of_the_process_are_read_and_others_are_left_out() -> None:
     assert read_line(b'{"ready": true}') == Ready(True)
     assert read_line(b'{"progress": 0.5, "step": "Learning"}') == Progress(0.5, "Learning")
     assert read_line(json.dumps({"done": "x", "seconds": 2, "report": {}}).encode()) == Done("x", 2)
-    assert read_line(b'{"error": "No.", "checklist": ["Do."]}') == Failed("No.", ("Do.",))
+    fault = Fault("no", Text("No."), (Text("Do."),))
+    assert read_line(msgspec.json.encode({"fault": fault})) == Failed(fault)
     for noise in (b"", b"a warning", b"[1, 2]", b"3", b"{}", b'{"progress": "much"}', b"\xff"):
         assert read_line(noise) is None

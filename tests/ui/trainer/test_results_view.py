@@ -10,11 +10,13 @@ from PySide6.QtGui import QAccessible, QColor
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from faults import Fault, Text
 from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
 from nep_studio.ui.plugins.gestures.results.confusion import ConfusionView
 from nep_studio.ui.plugins.gestures.results.labels import contrast, legible, mixed
 from nep_studio.ui.plugins.gestures.results.training import Training, worker_ended
 from nep_studio.ui.plugins.gestures.results.view import ResultsView
+from nep_studio.ui.plugins.gestures.results.worker import Ended
 from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.words import use_language
 from tests.ui.trainer.results_desk import desk, look
@@ -177,7 +179,7 @@ def test_a_point_that_is_not_dragged_stays(shown: ResultsView, desk: TrainerDesk
 def test_a_failure_is_shown_with_its_checklist_until_the_next_training(
     view: ResultsView,
 ) -> None:
-    view.training.problem = worker_ended("MemoryError")
+    view.training.problem = worker_ended(Ended(1, "MemoryError"))
     view.training.changed.emit()
     assert view.failure.isVisible()
 
@@ -185,6 +187,23 @@ def test_a_failure_is_shown_with_its_checklist_until_the_next_training(
     view.training.changed.emit()
 
     assert not view.failure.isVisible()
+
+
+def test_a_remark_that_the_advice_tells_too_is_left_out_in_any_language(
+    shown: ResultsView,
+) -> None:
+    shown.training.remarks = (
+        Fault("few_takes", Text("Zu wenige Durchgänge.")),
+        Fault("left_out", Text("{count} Zeilen fehlen.", {"count": 3})),
+    )
+    shown.training.changed.emit()
+
+    told = [row.advice.words for row in shown.advice.rows]
+    shown.advice.more.click()
+    told += [row.advice.words for row in shown.advice.rows]
+
+    assert "3 Zeilen fehlen." in told
+    assert "Zu wenige Durchgänge." not in told
 
 
 def test_a_recogniser_without_a_report_shows_no_table(view: ResultsView, desk: TrainerDesk) -> None:

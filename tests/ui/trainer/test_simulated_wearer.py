@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QObject
 
-from nep_core.wire.messages import Imu, NodeState
+from faults import Fault, fault_of
+from nep_core.wire.messages import Imu, NodeState, described
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
 from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
 from nep_studio.ui.plugins.gestures.page import TrainerPage
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
 from nodes.perceptual.recognition.segments import Movement
+from nodes.sensory.arm.gestures import MAKES_GESTURE
 
 
 class AskedRunner(Runner):
@@ -28,11 +30,9 @@ class AskedRunner(Runner):
         self.asked.append(message.gesture)
         return True
 
-    def tell(self, description: str) -> None:
+    def tell(self, told: Fault) -> None:
         """What the virtual watch would tell."""
-        state = NodeState(
-            node="watch", type="sensory", event="running", description=description, pid=7
-        )
+        state = NodeState(node="watch", type="sensory", event="running", pid=7, **described(told))
         self.board.update(state)
 
 
@@ -42,7 +42,7 @@ def asked(page: TrainerPage, desk: TrainerDesk, tmp_path: Path) -> AskedRunner:
     made = AskedRunner(desk.parent(), tmp_path / "logs")
     desk.runner.close()
     desk.runner = made
-    made.tell("goes on with everyday movement")
+    made.tell(fault_of("goes on with everyday movement"))
     t = np.arange(100) / 50.0
     message = Imu(
         source="simulated person 100",
@@ -91,7 +91,7 @@ def test_what_it_does_between_the_gestures_is_no_take(
 
     assert not page.session.counts(during)
 
-    asked.tell("makes the gesture karate (simulated person 100)")
+    asked.tell(fault_of("macht die Geste {gesture}", code=MAKES_GESTURE, gesture="karate"))
     page.simulated._look()
     assert page.session.counts(during)
     assert not page.session.counts(Movement(now_s + 2.0, now_s + 3.0, 1.0))

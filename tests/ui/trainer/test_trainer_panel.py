@@ -9,18 +9,18 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 from nep_core.wire.messages import Imu
+from nep_studio.ui.plugins.gestures import TrainerPanel
 from nep_studio.ui.plugins.gestures.page import next_step
-from nep_studio.ui.plugins.gestures.panel import TrainerPanel, add_trainer_panel
 from nep_studio.ui.plugins.gestures.results.training import Training
 from nep_studio.ui.running.tap import Heard
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 
 
 @pytest.fixture
 def panel(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> Iterator[TrainerPanel]:
     monkeypatch.setattr(Training, "warm", lambda _self: None)
-    made = window.workbench.findChild(TrainerPanel) or add_trainer_panel(window)
+    made = window.workbench.findChild(TrainerPanel)
     yield made
     if isValid(made) and made.page is not None:
         made.page.training.close()

@@ -12,7 +12,6 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.wire.messages import NodeState
 from nep_studio.blocks.deployment import node_entries
-from nep_studio.ui.plugins.watches import open_watches
 from nep_studio.ui.plugins.watches.dialog import WatchDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.watches.watch_stage import (
@@ -176,7 +175,7 @@ def test_a_simulated_person_makes_the_gestures_of_the_project(
     qtbot.mouseClick(card, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
     window.workbench.canvas.show_page("behaviour")
-    open_watches(window)
+    window.host.ask("watches.open")
     dialog = window.findChild(WatchDialog)
     choose(dialog, "virtual_watch", qtbot)
     assert "circle" in dialog.page.gestures.gestures.text()

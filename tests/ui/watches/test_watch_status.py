@@ -14,12 +14,12 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.wire.messages import Imu, NodeState
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.plugins.watches.indicators import figures
-from nep_studio.ui.plugins.watches.receiving import Flow, Receiving
-from nep_studio.ui.plugins.watches.status import WatchStatus
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.watch_view.indicators import figures
+from nep_studio.ui.watch_view.receiving import Flow, Receiving
+from nep_studio.ui.watch_view.status import WatchStatus
 
 STILL = (0.0, 0.0, 9.81)
 

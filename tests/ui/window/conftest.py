@@ -15,7 +15,7 @@ from nep_studio import paths
 from nep_studio.blocks.language import Language
 from nep_studio.run.installation import studio_language
 from nep_studio.settings import FOLDER_VARIABLE, Settings
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import use_language
 from tests.ui.window.putting_away import put_away

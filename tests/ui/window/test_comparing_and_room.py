@@ -83,17 +83,6 @@ def test_when_no_block_differs_a_sentence_says_so(saved):
     assert "The blocks say the same" in dialog.words.text()
 
 
-def test_file_fields_know_the_folder_after_each_save(saved, chooser, tmp_path: Path):
-    first = saved.workbench.canvas.fields.project_folder
-    chooser.path = tmp_path / "two" / "mine.nep"
-    chooser.path.parent.mkdir()
-
-    saved.files.save_as()
-
-    assert first == tmp_path / "one"
-    assert saved.workbench.canvas.fields.project_folder == tmp_path / "two"
-
-
 def started(studio, chooser, width: int, qtbot: QtBot) -> MainWindow:
     window = MainWindow(studio, chooser)
     qtbot.addWidget(window)

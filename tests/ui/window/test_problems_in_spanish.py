@@ -63,7 +63,7 @@ def test_the_bubble_of_a_badge_is_spanish(spanish: MainWindow, qtbot: QtBot) -> 
     missing = next(p for p in spanish.workbench.checks.problems if p.kind == "robot_missing")
 
     badge = badge_rect(canvas.page_layout.placed(missing.block), canvas)
-    at = canvas.camera.to_view(badge.center().x() + 4, badge.center().y())
+    at = canvas.sight.camera.to_view(badge.center().x() + 4, badge.center().y())
     qtbot.mouseClick(canvas.viewport(), LEFT, pos=at.toPoint())
 
     bubble = spanish.workbench.bubble

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.blocks.slices import Sliced
+from nep_studio.run.installation import problem_steps
+from nep_studio.ui.edits import edits_of
 from nep_studio.ui.shell.main_window import MainWindow
-from nep_studio.ui.workbench.live_checks import Cancelled, RestingMapping, SlicedCall, _sliced_check
 
 
 @pytest.fixture
@@ -72,7 +72,7 @@ def test_the_fix_button_puts_it_right_and_undo_takes_it_back(
 
 def test_the_badge_opens_a_bubble_with_the_fix(robotless: MainWindow, qtbot: QtBot) -> None:
     [problem] = robotless.workbench.checks.problems
-    robotless.workbench.canvas.problem_opened.emit(problem.block)
+    robotless.workbench.canvas.news.problem_opened.emit(problem.block)
     bubble = robotless.workbench.bubble
 
     qtbot.mouseClick(bubble.buttons[0], Qt.MouseButton.LeftButton)
@@ -89,68 +89,13 @@ def test_a_program_without_problems_says_so(karate: MainWindow, qtbot: QtBot) ->
 
 def test_typing_does_not_wait_for_a_check(karate: MainWindow, qtbot: QtBot) -> None:
     checks = karate.workbench.checks
-    qtbot.waitUntil(lambda: not checks._pause.isActive() and checks._check is None)
+    edits = edits_of(karate.files.document.editor)
+    qtbot.waitUntil(lambda: edits.is_settled and checks._check is None)
 
     karate.files.document.editor.apply(RenameProject("Typed"))
 
     assert checks._check is None
-    assert checks._pause.isActive()
-
-
-def test_a_long_work_rests_when_its_slice_is_over() -> None:
-    def work(rest):
-        known = RestingMapping({"a": 1}, rest)
-        until = time.perf_counter() + 0.05
-        looked = 0
-        while time.perf_counter() < until:
-            looked += known["a"]
-        return looked
-
-    call = SlicedCall(work)
-    slices = 0
-    while not call.run(0.005):
-        slices += 1
-
-    assert slices >= 3
-    assert call.result() > 0
-
-
-def test_a_cancelled_work_ends_where_it_rests() -> None:
-    ended = []
-
-    def work(rest):
-        try:
-            while True:
-                rest()
-        except Cancelled:
-            ended.append(True)
-            raise
-
-    call = SlicedCall(work)
-    call.run(0.001)
-
-    call.cancel()
-
-    assert ended == [True]
-
-
-def test_a_work_that_was_never_run_can_be_cancelled() -> None:
-    call = SlicedCall(lambda rest: 1)
-
-    call.cancel()
-
-    assert call.is_over
-
-
-def test_what_a_work_raises_comes_out_of_its_result() -> None:
-    def work(rest):
-        raise ValueError("no")
-
-    call = SlicedCall(work)
-    call.run(0.01)
-
-    with pytest.raises(ValueError, match="no"):
-        call.result()
+    assert not edits.is_settled
 
 
 def test_a_huge_program_is_checked_in_many_slices(karate: MainWindow) -> None:
@@ -159,10 +104,11 @@ def test_a_huge_program_is_checked_in_many_slices(karate: MainWindow) -> None:
         for number in range(400):
             editor.create("control.wait", editor.new_stack("behaviour", 900, 60 * number))
 
-    check = _sliced_check(editor.project, editor.language, karate.files.document.folder)
+    folder = karate.files.document.folder
+    check = Sliced(problem_steps(editor.project, editor.language, folder))
     slices = 1
     while not check.run(0.0):
         slices += 1
 
     assert slices > 400
-    assert len(check.result()) >= 1
+    assert len(check.result) >= 1

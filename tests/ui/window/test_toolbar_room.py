@@ -9,10 +9,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QToolButton
 
+from nep_studio.ui.actions import sequences, shortcuts_of
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.messages import Answer, Message
-from nep_studio.ui.shell.help_dialogs import shortcuts_of
-from nep_studio.ui.shell.menus import sequences
 
 WITH_WORDS = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
 
@@ -87,17 +86,17 @@ def test_keys_that_no_keyboard_has_are_not_listed(karate) -> None:
 
 
 def test_another_language_shows_the_same_place_and_another_direction_the_beginning(karate) -> None:
-    karate.workbench.canvas.zoom(0.8)
-    karate.workbench.canvas.pan(60, 90)
-    before = replace(karate.workbench.canvas.camera)
+    karate.workbench.canvas.sight.zoom(0.8)
+    karate.workbench.canvas.sight.pan(60, 90)
+    before = replace(karate.workbench.canvas.sight.camera)
 
     karate.studio.choose_language("de")
 
-    after = karate.workbench.canvas.camera
+    after = karate.workbench.canvas.sight.camera
     assert (after.x, after.y, after.scale) == pytest.approx((before.x, before.y, 0.8), abs=0.5)
 
     karate.studio.choose_language("qps-rtl")
 
     canvas = karate.workbench.canvas
-    seen, blocks = canvas.visible_page_rect(), canvas.page_layout.index.bounds()
+    seen, blocks = canvas.sight.visible_page_rect(), canvas.page_layout.index.bounds()
     assert seen.x < blocks.right < seen.right

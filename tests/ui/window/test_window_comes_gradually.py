@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.plugins.tour.tour import Tour
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MODULES, MainWindow
 
 
@@ -22,7 +22,7 @@ def gradual(studio: Studio, qtbot: QtBot) -> Iterator[MainWindow]:
     qtbot.addWidget(made)
     yield made
     made.later.stop()
-    if made.later.made_running is not None:
+    if made.services.made_running is not None:
         made.running.close()
     if made.later.made_workbench is not None:
         made.workbench.retire()
@@ -36,7 +36,7 @@ def test_the_first_page_needs_no_workbench(gradual: MainWindow) -> None:
 
     assert shown is gradual.start_page
     assert gradual.later.made_workbench is None
-    assert gradual.later.made_running is None
+    assert gradual.services.made_running is None
 
 
 def test_the_rest_comes_by_itself_once_the_window_is_painted(

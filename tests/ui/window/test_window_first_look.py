@@ -83,7 +83,7 @@ def test_blocks_that_leave_the_view_can_be_scrolled_to(fresh: MainWindow, qtbot)
     bar = canvas.verticalScrollBar()
     bounds = canvas.page_layout.bounds()
     assert bounds is not None
-    assert (bar.maximum() + canvas.viewport().height()) / canvas.camera.scale >= bounds.bottom
+    assert (bar.maximum() + canvas.viewport().height()) / canvas.sight.camera.scale >= bounds.bottom
 
 
 def test_an_empty_project_has_no_problems_to_tell_of(fresh: MainWindow, qtbot) -> None:
@@ -173,7 +173,7 @@ def test_a_block_without_a_place_lands_beside_the_others(fresh: MainWindow) -> N
         insert(fresh, words)
 
     rects = [
-        canvas.view_rect_of(stack.body[0])
+        canvas.sight.view_rect_of(stack.body[0])
         for stack in fresh.files.document.project.pages[canvas.page]
     ]
     apart = [not one.intersects(other) for n, one in enumerate(rects) for other in rects[n + 1 :]]

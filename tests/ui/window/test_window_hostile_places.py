@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QApplication, QLabel
 
 from nep_studio import paths
 from nep_studio.settings import FOLDER_VARIABLE, Settings
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 
 resource = pytest.importorskip("resource")

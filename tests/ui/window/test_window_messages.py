@@ -23,7 +23,7 @@ def cards(window: MainWindow):
 
 
 def test_a_refusal_is_told_and_goes_with_the_next_edit(karate: MainWindow) -> None:
-    karate.workbench.canvas.refused.emit("Nothing goes below this block.")
+    karate.workbench.canvas.news.refused.emit("Nothing goes below this block.")
     told = [card.message.sentence for card in cards(karate)]
 
     karate.files.document.editor.apply(RenameProject("Next"))

@@ -8,20 +8,18 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.networks.master import Master
 from nep_studio import paths
-from nep_studio.ui.plugins.log.panel import LogPanel, add_log_panel
-from nep_studio.ui.plugins.robots.panel import RobotsPanel, add_robots_panel
+from nep_studio.ui.plugins.log.panel import LogPanel
+from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.shell.main_window import MainWindow
 
 RUN_MS = 30_000
 
 
 def shown(window: MainWindow, kind: type[QWidget]) -> QWidget:
-    found = [panel.widget for panel in window.workbench.panels.all if type(panel.widget) is kind]
-    if not found:
-        add = {LogPanel: add_log_panel, RobotsPanel: add_robots_panel}[kind]
-        found = [add(window).widget]
-    window.workbench.panels.show(found[0])
-    return found[0]
+    panels = window.workbench.panels
+    [found] = [panel.widget for panel in panels.all if type(panel.widget) is kind]
+    panels.show(found)
+    return found
 
 
 @pytest.fixture

@@ -30,19 +30,19 @@ def choose(window: MainWindow, menu: str, words: str) -> None:
 def test_a_theme_is_in_force_at_once(karate: MainWindow, words: str, name: str) -> None:
     choose(karate, "Theme", words)
 
-    assert karate.workbench.canvas.theme.name == name
+    assert karate.workbench.canvas.look.theme.name == name
     assert karate.settings.theme == name
 
 
 def test_larger_text_makes_blocks_larger_but_moves_none(karate: MainWindow) -> None:
     canvas = karate.workbench.canvas
     block = karate.files.document.project.pages["behaviour"][1].body[0]
-    before, seen = canvas.page_layout.placed(block).rect, canvas.view_rect_of(block)
+    before, seen = canvas.page_layout.placed(block).rect, canvas.sight.view_rect_of(block)
 
     choose(karate, "Size of the text", "200%")
 
     assert canvas.page_layout.placed(block).rect == before
-    assert canvas.view_rect_of(block).height() == pytest.approx(2 * seen.height(), rel=0.1)
+    assert canvas.sight.view_rect_of(block).height() == pytest.approx(2 * seen.height(), rel=0.1)
 
 
 def test_another_language_leaves_the_panel_on_top_that_alone_is_shown(karate: MainWindow) -> None:
@@ -70,7 +70,7 @@ def test_another_language_keeps_project_history_and_selection(
 
     assert karate.files.document is document
     assert karate.workbench.canvas.selection.ids == (block,)
-    assert karate.workbench.canvas.measures.is_mirrored
+    assert karate.workbench.canvas.look.measures.is_mirrored
     assert karate.isRightToLeft()
     assert karate.menus["file"].title() != "&File"
     karate.actions_by_name["undo"].trigger()

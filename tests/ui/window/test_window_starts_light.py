@@ -11,6 +11,8 @@ HEAVY = {"numpy", "pyqtgraph", "sklearn", "scipy", "unittest", "pydoc", "multipr
 LATER = {"zmq", "psutil", "nep_studio.blocks.program", "nep_studio.ui.canvas.canvas"}
 """What the first page does not need: it is loaded after that has been painted."""
 
+PLUGINS = "nep_studio.ui.plugins."
+
 START = """
 import sys
 from pathlib import Path
@@ -44,5 +46,6 @@ def test_a_window_that_shows_the_first_page_has_loaded_nothing_heavy(tmp_path: P
     assert child.returncode == 0, child.stderr
     first, complete = (set(line.split()) for line in child.stdout.splitlines())
     assert sorted(first & LATER) == []
+    assert [name for name in first if name.startswith(PLUGINS)] == []
     assert complete >= LATER
     assert sorted(complete & HEAVY) == []

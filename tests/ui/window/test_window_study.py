@@ -14,12 +14,12 @@ from pytestqt.qtbot import QtBot
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.help.page_names import block_page
 from nep_studio.problems import Problem
+from nep_studio.run.controller import Ended
 from nep_studio.run.session import Ending
 from nep_studio.study.records import Reply, Sitting, StudyFolder
 from nep_studio.study.sus import BROOKE
-from nep_studio.ui.plugins.help import add_help
 from nep_studio.ui.plugins.help.help_controller import HelpDesk
-from nep_studio.ui.plugins.study import StudySign, add_study
+from nep_studio.ui.plugins.study import StudySign
 from nep_studio.ui.plugins.study.form import QuestionnaireDialog
 from nep_studio.ui.plugins.study.recorder import StudyRecorder
 from nep_studio.ui.plugins.study.results import ResultsDialog
@@ -31,9 +31,7 @@ Click = Callable[[QWidget, str], None]
 
 @pytest.fixture
 def recorder(window: MainWindow) -> StudyRecorder:
-    if not window.findChildren(HelpDesk):
-        add_help(window)
-    return window.findChild(StudyRecorder) or add_study(window)
+    return window.findChild(StudyRecorder)
 
 
 def dialog(window: MainWindow, kind: type[QDialog], action: str) -> QDialog:
@@ -125,7 +123,10 @@ def test_what_happens_in_a_session_is_kept(
     window.running.runner.run_asked.emit()
     for state in ("starting", "running", "paused", "running", "stopping", "idle"):
         window.running.runner.state_changed.emit(state)
-    window.running.runner.ended.emit(Ending(Problem("NAO does not answer")))
+    ending = Ending(Problem("NAO does not answer"))
+    end = Ended(ending, was_stopped=False, had_begun=True, runs_again=False)
+    window.running.runner.told.emit(end)
+    window.running.runner.ended.emit(ending)
     window.actions_by_name["shortcuts"].trigger()
 
     events = {event.what: event for event in recorder.folder.events()}
@@ -279,8 +280,6 @@ def test_a_study_goes_on_in_another_language_and_after_a_new_start(
     recorder.start(Sitting("P01"))
 
     window.studio.choose_language("es")
-    if window.findChild(StudySign) is None or not window.actions_by_name.by_name.get("study_stop"):
-        add_study(window)
 
     assert window.findChildren(StudyRecorder) == [recorder]
     assert sign(window).isVisible()

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.ui.shell.app import Studio
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import PSEUDO, use_language
 

@@ -12,12 +12,13 @@ from nep_studio.ui.canvas.layout.layout import Gap
 from nep_studio.ui.canvas.painting.layers import make_sprite
 from nep_studio.ui.words import tr
 
-from .cargo import Cargo, DropOverlay
+from .cargo import Cargo
 from .gesture import Pointer
+from .marks import DropOverlay
 from .snapping import Target, seams, slots
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 FREE_STEP = 32.0
 """How far an arrow key with Ctrl moves blocks that lie by themselves, in canvas units."""
@@ -28,24 +29,24 @@ EVERYWHERE = Rect(-2e6, -2e6, 4e6, 4e6)
 class KeyboardCarry:
     """Blocks in the hand of the keyboard."""
 
-    def __init__(self, canvas: Canvas, cargo: Cargo, first: str = "") -> None:
+    def __init__(self, canvas: CanvasHost, cargo: Cargo, first: str = "") -> None:
         self._cargo = cargo
         self._target: Target | None = None
         self._dx = self._dy = 0.0
         self._overlay = DropOverlay()
-        canvas.overlays.append(self._overlay)
+        canvas.layers.show_overlay(self._overlay)
         origin = place_of(canvas.editor.project, first, 1) if first else None
-        canvas.set_preview(cargo.hidden, None)
+        canvas.layers.set_preview(cargo.hidden, None)
         sprite = make_sprite(canvas, cargo.chains, cargo.bounds)
-        canvas.set_sprite(sprite)
+        canvas.layers.set_sprite(sprite)
         self._inset = sprite.x - cargo.bounds.x, sprite.y - cargo.bounds.y
         self._targets = self._reading_order(canvas)
         self._index = self._index_of(origin)
-        canvas.announced.emit(
+        canvas.news.announced.emit(
             tr("Picked up. Arrow keys choose a place, Enter puts down, Escape puts back.")
         )
 
-    def step(self, canvas: Canvas, by: int) -> None:
+    def step(self, canvas: CanvasHost, by: int) -> None:
         """Go to the next place that takes the blocks, or to the one before."""
         index = self._index + by
         while 0 <= index < len(self._targets):
@@ -55,20 +56,20 @@ class KeyboardCarry:
                 self._show(canvas, target)
                 return
             index += by
-        canvas.announced.emit(tr("There is no further place."))
+        canvas.news.announced.emit(tr("There is no further place."))
 
-    def shift(self, canvas: Canvas, dx: float, dy: float) -> None:
+    def shift(self, canvas: CanvasHost, dx: float, dy: float) -> None:
         """Let the blocks lie by themselves, and move them on the page."""
         self._target = None
         self._dx += dx * FREE_STEP
         self._dy += dy * FREE_STEP
-        canvas.set_preview(self._cargo.hidden, None)
+        canvas.layers.set_preview(self._cargo.hidden, None)
         self._overlay.show(canvas, None)
         bounds = self._cargo.bounds
         self._move_sprite(canvas, bounds.x + self._dx, bounds.y + self._dy)
-        canvas.announced.emit(tr("by itself on the page"))
+        canvas.news.announced.emit(tr("by itself on the page"))
 
-    def drop(self, canvas: Canvas) -> None:
+    def drop(self, canvas: CanvasHost) -> None:
         """Put the blocks down where they are shown."""
         self._end(canvas)
         bounds, target = self._cargo.bounds, self._target
@@ -84,27 +85,27 @@ class KeyboardCarry:
         if canvas.attempt(change):
             canvas.selection.set(made)
             canvas.show_block(made[0])
-            canvas.announced.emit(tr("Put down {place}.", place=self._told(canvas, target)))
+            canvas.news.announced.emit(tr("Put down {place}.", place=self._told(canvas, target)))
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """The mouse does not move what the keyboard carries."""
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Nor does it put it down."""
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """Put the blocks back."""
         self._end(canvas)
-        canvas.announced.emit(tr("Put back."))
+        canvas.news.announced.emit(tr("Put back."))
 
-    def _end(self, canvas: Canvas) -> None:
-        canvas.gesture = None
-        canvas.set_preview(frozenset(), None)
-        canvas.set_sprite(None)
+    def _end(self, canvas: CanvasHost) -> None:
+        canvas.pointing.gesture = None
+        canvas.layers.set_preview(frozenset(), None)
+        canvas.layers.set_sprite(None)
         self._overlay.show(canvas, None)
-        canvas.overlays.remove(self._overlay)
+        canvas.layers.show_overlay(self._overlay, is_shown=False)
 
-    def _reading_order(self, canvas: Canvas) -> list[Target]:
+    def _reading_order(self, canvas: CanvasHost) -> list[Target]:
         """Every seam or slot of the page, fitting or not, in the order of reading."""
         ends, layout = self._cargo.ends, canvas.page_layout
         found: list[Target] = []
@@ -120,19 +121,19 @@ class KeyboardCarry:
                 elif not seam.is_head and ends.top is not None:
                     found.append(Target(seam.place, "below", seam.x, seam.y))
         order = {stack: n for n, stack in enumerate(reading_order(canvas))}
-        project, side = canvas.editor.project, -1 if canvas.measures.is_mirrored else 1
+        project, side = canvas.editor.project, -1 if canvas.look.measures.is_mirrored else 1
         found.sort(key=lambda t: (order[_stack_of(project, t.place)], t.y, side * t.x))
         return found
 
-    def _move_sprite(self, canvas: Canvas, x: float, y: float) -> None:
+    def _move_sprite(self, canvas: CanvasHost, x: float, y: float) -> None:
         """Show the corner of the blocks there; their picture has a margin."""
-        canvas.move_sprite(x + self._inset[0], y + self._inset[1])
+        canvas.layers.move_sprite(x + self._inset[0], y + self._inset[1])
 
     def _index_of(self, origin: Place | None) -> int:
         places = [target.place for target in self._targets]
         return places.index(origin) if origin in places else -1
 
-    def _show(self, canvas: Canvas, target: Target) -> None:
+    def _show(self, canvas: CanvasHost, target: Target) -> None:
         self._target = target
         rect = self._cargo.bounds
         gap = None
@@ -141,16 +142,16 @@ class KeyboardCarry:
             slot = "" if isinstance(target.place, InStack) else target.place.slot
             chain = self._cargo.chains[0]
             gap = Gap(owner, slot, target.place.index, chain.boxes[0].width, chain.height)
-        canvas.set_preview(self._cargo.hidden, gap)
+        canvas.layers.set_preview(self._cargo.hidden, gap)
         self._overlay.show(canvas, target if gap is None else None)
-        canvas.show_rect(Rect(target.x, target.y, min(rect.width, 300.0), 80.0))
-        unit = canvas.measures.unit
-        left = target.x - rect.width if canvas.measures.is_mirrored else target.x
-        side = -1 if canvas.measures.is_mirrored else 1
+        canvas.sight.show_rect(Rect(target.x, target.y, min(rect.width, 300.0), 80.0))
+        unit = canvas.look.measures.unit
+        left = target.x - rect.width if canvas.look.measures.is_mirrored else target.x
+        side = -1 if canvas.look.measures.is_mirrored else 1
         self._move_sprite(canvas, left + side * 12 * unit, target.y + 4 * unit)
-        canvas.announced.emit(self._told(canvas, target))
+        canvas.news.announced.emit(self._told(canvas, target))
 
-    def _told(self, canvas: Canvas, target: Target | None) -> str:
+    def _told(self, canvas: CanvasHost, target: Target | None) -> str:
         """A place in words: after which block, inside which one, in which slot."""
         if target is None:
             return tr("by itself on the page")
@@ -170,10 +171,10 @@ class KeyboardCarry:
         return tr("after {block}", block=said(chain[index - 1]))
 
 
-def reading_order(canvas: Canvas) -> list[str]:
+def reading_order(canvas: CanvasHost) -> list[str]:
     """The stacks of the page from top to bottom; beside each other, as the language is read."""
-    side = -1 if canvas.measures.is_mirrored else 1
-    stacks = canvas.editor.project.pages.get(canvas.page, [])
+    side = -1 if canvas.look.measures.is_mirrored else 1
+    stacks = canvas.editor.project.pages.get(canvas.page_layout.page, [])
     return [stack.id for stack in sorted(stacks, key=lambda stack: (stack.y, side * stack.x))]
 
 
@@ -184,7 +185,7 @@ def _stack_of(project: Project, place: Place) -> str:
     return project.stack_of(place.block).id
 
 
-def _chain_at(canvas: Canvas, place: Place, hidden: frozenset[str]) -> list[str]:
+def _chain_at(canvas: CanvasHost, place: Place, hidden: frozenset[str]) -> list[str]:
     """The blocks at a place, without those that are carried."""
     project = canvas.editor.project
     if isinstance(place, InStack):

@@ -6,7 +6,7 @@ import atexit
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Literal
 
-from PySide6.QtCore import QMimeData, QObject, QPointF, Signal
+from PySide6.QtCore import QMimeData, QPointF
 from PySide6.QtGui import QGuiApplication
 
 from nep_studio.blocks.editor import Editor
@@ -27,7 +27,7 @@ from nep_studio.blocks.operations.wrapping import Flag, toggle
 from nep_studio.ui.words import count_words, tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 # Blocks on the clipboard: as a project for NEP Studio, as Python for everybody else.
@@ -92,7 +92,7 @@ PASTE_STEP = 32.0
 class Commands:
     """The commands of one canvas; each is one step of undo, and each is announced."""
 
-    def __init__(self, canvas: Canvas) -> None:
+    def __init__(self, canvas: CanvasHost) -> None:
         self._canvas = canvas
 
     def copy(self) -> bool:
@@ -101,7 +101,7 @@ class Commands:
         if not ids:
             return False
         put_on_clipboard(canvas.editor, ids)
-        canvas.announced.emit(count_words(len(ids), "1 block copied", "{n} blocks copied"))
+        canvas.news.announced.emit(count_words(len(ids), "1 block copied", "{n} blocks copied"))
         return True
 
     def cut(self) -> bool:
@@ -115,7 +115,7 @@ class Commands:
 
         def change() -> Iterable[str]:
             clip = clip_from_clipboard(canvas.editor)
-            return paste(canvas.editor, clip, canvas.page, where.x(), where.y())
+            return paste(canvas.editor, clip, canvas.page_layout.page, where.x(), where.y())
 
         return self._make(change, tr("pasted"))
 
@@ -124,7 +124,9 @@ class Commands:
         canvas, ids = self._canvas, self._canvas.selection.ids
         if not ids:
             return False
-        return self._make(lambda: duplicate(canvas.editor, ids, canvas.corners(ids)), tr("copied"))
+        return self._make(
+            lambda: duplicate(canvas.editor, ids, canvas.page_layout.corners(ids)), tr("copied")
+        )
 
     def delete(self) -> bool:
         """Take the selected blocks away; those below move up."""
@@ -134,12 +136,12 @@ class Commands:
         following = _neighbour(canvas, ids)
 
         def change() -> None:
-            canvas.blocks_deleted.emit(delete(canvas.editor, ids))
+            canvas.news.blocks_deleted.emit(delete(canvas.editor, ids))
 
         if not canvas.attempt(change):
             return False
         canvas.selection.set([following] if following else ())
-        canvas.announced.emit(count_words(len(ids), "1 block deleted", "{n} blocks deleted"))
+        canvas.news.announced.emit(count_words(len(ids), "1 block deleted", "{n} blocks deleted"))
         return True
 
     def toggle(self, flag: Flag) -> bool:
@@ -151,7 +153,7 @@ class Commands:
 
     def select_all(self) -> None:
         """Select every stack of the page."""
-        project, page = self._canvas.editor.project, self._canvas.page
+        project, page = self._canvas.editor.project, self._canvas.page_layout.page
         chains = (stack.body for stack in project.pages.get(page, []))
         self._canvas.selection.set([block for chain in chains for block in chain])
 
@@ -166,13 +168,13 @@ class Commands:
         """Take the last step back; blocks that come back by it are selected."""
         history, label = self._canvas.editor.history, self._canvas.editor.history.undo_label
         if self._step(history.undo):
-            self._canvas.announced.emit(tr("undone: {step}", step=tr(label)))
+            self._canvas.news.announced.emit(tr("undone: {step}", step=tr(label)))
 
     def redo(self) -> None:
         """Do the step again that was taken back last; blocks that come back are selected."""
         history, label = self._canvas.editor.history, self._canvas.editor.history.redo_label
         if self._step(history.redo):
-            self._canvas.announced.emit(tr("done again: {step}", step=tr(label)))
+            self._canvas.news.announced.emit(tr("done again: {step}", step=tr(label)))
 
     def tidy(self, *, columns: bool = False) -> bool:
         """Push stacks apart that overlap, or put all into columns; their order stays."""
@@ -182,9 +184,11 @@ class Commands:
             for stack, chain in canvas.page_layout.chains.items()
         }
         align: Literal["", "columns"] = "columns" if columns else ""
-        is_mirrored = canvas.measures.is_mirrored
+        is_mirrored = canvas.look.measures.is_mirrored
         return canvas.attempt(
-            lambda: tidy(canvas.editor, canvas.page, sizes, align=align, is_mirrored=is_mirrored)
+            lambda: tidy(
+                canvas.editor, canvas.page_layout.page, sizes, align=align, is_mirrored=is_mirrored
+            )
         )
 
     def _step(self, step: Callable[[], bool]) -> bool:
@@ -196,7 +200,7 @@ class Commands:
         back = [block for block in project.blocks if block not in before]
         came = set(back)
         outer = [block for block in back if project.parents[block].owner not in came]
-        here = {stack.id for stack in project.pages.get(self._canvas.page, [])}
+        here = {stack.id for stack in project.pages.get(self._canvas.page_layout.page, [])}
         if outer and all(project.stack_of(block).id in here for block in outer):
             self._canvas.selection.set(outer)
         return True
@@ -208,22 +212,22 @@ class Commands:
             return False
         self._canvas.selection.set(made)
         self._canvas.show_block(made[0])
-        self._canvas.announced.emit(told)
+        self._canvas.news.announced.emit(told)
         return True
 
     def _free_place(self) -> QPointF:
         """Near the upper corner of the view, where no stack is."""
         canvas = self._canvas
-        seen, layout = canvas.visible_page_rect(), canvas.page_layout
-        side = -PASTE_STEP if canvas.measures.is_mirrored else PASTE_STEP
-        x = (seen.right if canvas.measures.is_mirrored else seen.x) + side
+        seen, layout = canvas.sight.visible_page_rect(), canvas.page_layout
+        side = -PASTE_STEP if canvas.look.measures.is_mirrored else PASTE_STEP
+        x = (seen.right if canvas.look.measures.is_mirrored else seen.x) + side
         y = seen.y + PASTE_STEP
         while layout.hit(x + side / 4, y + PASTE_STEP / 2) is not None and y < seen.bottom:
             x, y = x + side, y + PASTE_STEP
         return QPointF(x, y)
 
 
-def _neighbour(canvas: Canvas, ids: Iterable[str]) -> str:
+def _neighbour(canvas: CanvasHost, ids: Iterable[str]) -> str:
     """The block that the keyboard goes to when these go: the next, the one above, the owner."""
     gone, project = set(ids), canvas.editor.project
     first = next(iter(gone), "")
@@ -236,60 +240,3 @@ def _neighbour(canvas: Canvas, ids: Iterable[str]) -> str:
     before = [block for block in chain[:index] if block not in gone]
     near = after[:1] or before[-1:] or [parent.owner]
     return near[0] if near[0] in project.blocks else ""
-
-
-# Which blocks are selected, and which one the keyboard is at.
-
-
-class Selection(QObject):
-    """Blocks in the order in which they were selected; ``cursor`` is the keyboard's block.
-
-    Selecting a block means the block itself with what is inside it.
-    """
-
-    changed = Signal()
-
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._ids: dict[str, None] = {}
-        self._cursor = ""
-
-    def __contains__(self, block_id: str) -> bool:
-        return block_id in self._ids
-
-    def __len__(self) -> int:
-        return len(self._ids)
-
-    @property
-    def ids(self) -> tuple[str, ...]:
-        """The selected blocks."""
-        return tuple(self._ids)
-
-    @property
-    def cursor(self) -> str:
-        """The block that the keyboard is at; empty when there is none."""
-        return self._cursor
-
-    def set(self, ids: Iterable[str], cursor: str | None = None) -> None:
-        """Select these blocks and no others; the cursor goes to the last, or where it is said."""
-        new = dict.fromkeys(ids)
-        at = cursor if cursor is not None else next(reversed(new), "")
-        if list(new) == list(self._ids) and at == self._cursor:
-            return
-        self._ids, self._cursor = new, at
-        self.changed.emit()
-
-    def toggle(self, block_id: str) -> None:
-        """Add a block to the selection, or take it out."""
-        ids = [i for i in self._ids if i != block_id]
-        self.set(ids if block_id in self._ids else [*ids, block_id], block_id)
-
-    def clear(self) -> None:
-        """Select nothing."""
-        self.set((), "")
-
-    def keep(self, known: Iterable[str]) -> None:
-        """Drop the blocks that are not there any more."""
-        here = set(known)
-        cursor = self._cursor if self._cursor in here else ""
-        self.set([i for i in self._ids if i in here], cursor)

@@ -30,7 +30,7 @@ from .gesture import TOUCH_DRAG_PX, AutoScroll, Pointer
 from .snapping import Ground, Point, Snap, Target, search
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 # Drop carried blocks: into the place that is shown, or where they lie on the page.
@@ -42,7 +42,7 @@ BESIDE = 30.0
 """How far below and beside the dropped blocks those are put that were pushed out."""
 
 
-def land(canvas: Canvas, cargo: Cargo, snap: Snap, dx: float, dy: float) -> None:
+def land(canvas: CanvasHost, cargo: Cargo, snap: Snap, dx: float, dy: float) -> None:
     """Drop the blocks, as one step, and select them; the canvas says it when that is refused."""
     if (target := snap.target) is not None:
         beside, at = _beside(cargo, dx, dy), _new_top(cargo, target)
@@ -54,10 +54,10 @@ def land(canvas: Canvas, cargo: Cargo, snap: Snap, dx: float, dy: float) -> None
     if dx or dy or not cargo.hidden:
         _do(canvas, lambda: cargo.put(canvas, dx, dy))
     if snap.reason:
-        canvas.refused.emit(snap.reason)
+        canvas.news.refused.emit(snap.reason)
 
 
-def _do(canvas: Canvas, drop: Callable[[], list[str]]) -> None:
+def _do(canvas: CanvasHost, drop: Callable[[], list[str]]) -> None:
     """Drop, and select what was dropped."""
     dropped: list[str] = []
     if canvas.attempt(lambda: dropped.extend(drop())):
@@ -86,12 +86,12 @@ def _new_top(cargo: Cargo, target: Target) -> Point | None:
     return _within(x), _within(y)
 
 
-def _into_view(canvas: Canvas, bounds: Rect, dx: float, dy: float) -> Point:
+def _into_view(canvas: CanvasHost, bounds: Rect, dx: float, dy: float) -> Point:
     """The way, changed so that the beginning of the blocks is in the view, and on the page."""
-    seen = canvas.visible_page_rect()
-    least = LEAST_SEEN_PX / canvas.camera.scale
+    seen = canvas.sight.visible_page_rect()
+    least = LEAST_SEEN_PX / canvas.sight.camera.scale
     x, y = bounds.x + dx, bounds.y + dy
-    if canvas.measures.is_mirrored:
+    if canvas.look.measures.is_mirrored:
         right = min(max(bounds.right + dx, seen.x + least), seen.right)
         x = right - bounds.width
     else:
@@ -100,7 +100,7 @@ def _into_view(canvas: Canvas, bounds: Rect, dx: float, dy: float) -> Point:
     return _within(x) - bounds.x, _within(y) - bounds.y
 
 
-def _lies_on_blocks(canvas: Canvas, chain: Chain, dx: float, dy: float) -> bool:
+def _lies_on_blocks(canvas: CanvasHost, chain: Chain, dx: float, dy: float) -> bool:
     """Whether the first dropped block would cover others."""
     box = chain.boxes[0]
     x = chain.x - box.width if chain.is_mirrored else chain.x
@@ -110,7 +110,7 @@ def _lies_on_blocks(canvas: Canvas, chain: Chain, dx: float, dy: float) -> bool:
     )
 
 
-def _bumped(canvas: Canvas, bounds: Rect, dx: float, dy: float) -> Point:
+def _bumped(canvas: CanvasHost, bounds: Rect, dx: float, dy: float) -> Point:
     """The way, changed so that the blocks lie clear of all stacks."""
     layout = canvas.page_layout
     box = PageBox(bounds.x + dx, bounds.y + dy, bounds.width, bounds.height)
@@ -133,101 +133,101 @@ LARGEST_GAP = 0.35
 class DragBlocks:
     """Blocks in the hand. Nothing changes in the program until they are dropped."""
 
-    def __init__(self, canvas: Canvas, cargo: Cargo, grabbed: QPointF) -> None:
+    def __init__(self, canvas: CanvasHost, cargo: Cargo, grabbed: QPointF) -> None:
         self.cargo = cargo
         self.snap = Snap()
         self.is_over_delete_area = False
         self._grabbed = grabbed
         self._reasons: dict[tuple[object, str], Text | None] = {}
         self._run = _selected_run(canvas, cargo)
-        self._last = Pointer(canvas.camera.to_view(grabbed.x(), grabbed.y()), grabbed)
-        canvas.set_sprite(make_sprite(canvas, cargo.chains, cargo.bounds, grabbed))
-        assert canvas.sprite is not None
-        self._corner = canvas.sprite.x, canvas.sprite.y
-        canvas.set_preview(cargo.hidden, None)
+        self._last = Pointer(canvas.sight.camera.to_view(grabbed.x(), grabbed.y()), grabbed)
+        canvas.layers.set_sprite(make_sprite(canvas, cargo.chains, cargo.bounds, grabbed))
+        assert canvas.layers.sprite is not None
+        self._corner = canvas.layers.sprite.x, canvas.layers.sprite.y
+        canvas.layers.set_preview(cargo.hidden, None)
         self._ends = cargo.ends
         self._ground = Ground(canvas.page_layout)
         self._page_reason = cargo.why_not_on_page(canvas)
         self._scroll = AutoScroll(canvas, canvas.pointing.repeat)
-        canvas.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
+        canvas.area.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Bring the blocks along, and show where they would go."""
         self._last = pointer
         dx, dy = self._way(pointer)
-        canvas.move_sprite(self._corner[0] + dx, self._corner[1] + dy)
-        place = canvas.viewport().mapToGlobal(pointer.view.toPoint())
-        self._show_delete_area(canvas, canvas.delete_area(place))
+        canvas.layers.move_sprite(self._corner[0] + dx, self._corner[1] + dy)
+        place = canvas.area.viewport().mapToGlobal(pointer.view.toPoint())
+        self._show_delete_area(canvas, canvas.marks.delete_area(place))
         snap = Snap() if self.is_over_delete_area else self._search(canvas, dx, dy)
         if snap != self.snap:
             self._show(canvas, snap)
-        canvas.bubble.say(self._words(), pointer.view.toPoint())
-        canvas.floating.follow(canvas, pointer.view)
+        canvas.marks.bubble.say(self._words(), pointer.view.toPoint())
+        canvas.marks.floating.follow(canvas, pointer.view)
         self._scroll.follow(pointer.view, is_resting=self.is_over_delete_area)
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Drop the blocks where they are shown."""
         if pointer.view != self._last.view:
             self.move(canvas, pointer)
         dx, dy = self._way(pointer)
         self._end(canvas)
-        is_inside = canvas.viewport().rect().contains(pointer.view.toPoint())
+        is_inside = canvas.area.viewport().rect().contains(pointer.view.toPoint())
         if self.is_over_delete_area or not (is_inside or self.cargo.hidden):
-            canvas.throw_away(self.cargo)  # new blocks that never came in are let go too
+            _throw_away(canvas, self.cargo)  # new blocks that never came in are let go too
         elif self._page_reason and self.snap.target is None:
-            canvas.refused.emit(self._page_reason)
+            canvas.news.refused.emit(self._page_reason)
         else:
             land(canvas, self.cargo, self.snap, dx, dy)
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """Show the page as it was: nothing has changed."""
         self._end(canvas)
 
-    def _search(self, canvas: Canvas, dx: float, dy: float) -> Snap:
+    def _search(self, canvas: CanvasHost, dx: float, dy: float) -> Snap:
         return search(
             self._ground,
             self._ends.moved(dx, dy),
             lambda target: self._why_not(canvas, target),
-            scale=canvas.camera.scale,
+            scale=canvas.sight.camera.scale,
             current=self.snap.target,
             run=self._run,
         )
 
-    def _why_not(self, canvas: Canvas, target: Target) -> Text | None:
+    def _why_not(self, canvas: CanvasHost, target: Target) -> Text | None:
         """Why the blocks do not fit; asked once for each place."""
         key = (target.place, target.join)
         if key not in self._reasons:
             self._reasons[key] = self.cargo.why_not(canvas, target)
         return self._reasons[key]
 
-    def _show(self, canvas: Canvas, snap: Snap) -> None:
+    def _show(self, canvas: CanvasHost, snap: Snap) -> None:
         self.snap = snap
         gap = self._gap(canvas, snap.target) if snap.target is not None else None
         if gap is not None:
             self._ground.remember(_stack_of(canvas, gap.owner))
-        canvas.set_preview(self.cargo.hidden, gap)
-        canvas.drop_overlay.show(canvas, snap.target)
+        canvas.layers.set_preview(self.cargo.hidden, gap)
+        canvas.marks.drop_overlay.show(canvas, snap.target)
 
-    def _gap(self, canvas: Canvas, target: Target) -> Gap | None:
+    def _gap(self, canvas: CanvasHost, target: Target) -> Gap | None:
         """Room in the chain, for blocks that go between others."""
         place = target.place
         if target.join != "below" or isinstance(place, InInput):
             return None
         rect = bounds_of(self.cargo.chains[0])
-        highest = canvas.visible_page_rect().height * LARGEST_GAP
-        size = min(rect.width, canvas.measures.widest), min(rect.height, highest)
+        highest = canvas.sight.visible_page_rect().height * LARGEST_GAP
+        size = min(rect.width, canvas.look.measures.widest), min(rect.height, highest)
         if isinstance(place, InStack):
             return Gap(place.stack, "", place.index, *size)
         assert isinstance(place, InBody)
         return Gap(place.block, place.slot, place.index, *size)
 
-    def _show_delete_area(self, canvas: Canvas, is_over: bool) -> None:
+    def _show_delete_area(self, canvas: CanvasHost, is_over: bool) -> None:
         if is_over == self.is_over_delete_area:
             return
         self.is_over_delete_area = is_over
         shape = Qt.CursorShape.ForbiddenCursor if is_over else Qt.CursorShape.ClosedHandCursor
-        canvas.viewport().setCursor(shape)
-        canvas.delete_area_entered.emit(is_over)
+        canvas.area.viewport().setCursor(shape)
+        canvas.news.delete_area_entered.emit(is_over)
 
     def _words(self) -> str:
         """What the bubble says."""
@@ -244,19 +244,24 @@ class DragBlocks:
     def _way(self, pointer: Pointer) -> tuple[float, float]:
         return pointer.page.x() - self._grabbed.x(), pointer.page.y() - self._grabbed.y()
 
-    def _end(self, canvas: Canvas) -> None:
+    def _end(self, canvas: CanvasHost) -> None:
         self._scroll.end()
-        canvas.bubble.hide()
-        canvas.floating.hide()
-        canvas.drop_overlay.show(canvas, None)
-        canvas.set_sprite(None)
-        canvas.set_preview(frozenset(), None)
-        canvas.viewport().unsetCursor()
+        canvas.marks.hide(canvas)
+        canvas.layers.set_sprite(None)
+        canvas.layers.set_preview(frozenset(), None)
+        canvas.area.viewport().unsetCursor()
         if self.is_over_delete_area:
-            canvas.delete_area_entered.emit(False)
+            canvas.news.delete_area_entered.emit(False)
 
 
-def _selected_run(canvas: Canvas, cargo: Cargo) -> Run | None:
+def _throw_away(canvas: CanvasHost, cargo: Cargo) -> None:
+    """Delete carried blocks that were dropped where blocks are deleted."""
+    thrown: list[Clip | None] = []
+    if canvas.attempt(lambda: thrown.append(cargo.throw_away(canvas))) and thrown[0] is not None:
+        canvas.news.blocks_deleted.emit(thrown[0])
+
+
+def _selected_run(canvas: CanvasHost, cargo: Cargo) -> Run | None:
     """Selected blocks that a carried C block can go around: one run, and not carried itself."""
     selected = canvas.selection.ids
     if cargo.ends.mouth is None or not selected or not cargo.hidden.isdisjoint(selected):
@@ -265,7 +270,7 @@ def _selected_run(canvas: Canvas, cargo: Cargo) -> Run | None:
     return without_hat(canvas.editor, chosen[0]) if len(chosen) == 1 else None
 
 
-def _stack_of(canvas: Canvas, owner: str) -> str:
+def _stack_of(canvas: CanvasHost, owner: str) -> str:
     project = canvas.editor.project
     return owner if owner in project.stacks else project.stack_of(owner).id
 
@@ -281,8 +286,8 @@ class ExternalDrag(QObject):
     Before the mouse has moved far enough the widget has its press for itself, as for a click.
     """
 
-    def __init__(self, canvas: Canvas, clip: Clip, pressed: QPoint, source: QWidget) -> None:
-        super().__init__(canvas)
+    def __init__(self, canvas: CanvasHost, clip: Clip, pressed: QPoint, source: QWidget) -> None:
+        super().__init__(canvas.area)
         self._canvas = canvas
         self._clip = clip
         self._pressed = pressed
@@ -306,29 +311,29 @@ class ExternalDrag(QObject):
             if way.manhattanLength() < TOUCH_DRAG_PX:
                 return False
             self._gesture = carry_in(self._canvas, self._clip, self._pressed)
-        if self._canvas.gesture is self._gesture:
+        if self._canvas.pointing.gesture is self._gesture:
             self._canvas.pointing.move_to(_in_view(self._canvas, place))
         return True
 
     def _release(self, place: QPoint) -> bool:
-        if self._gesture is not None and self._canvas.gesture is self._gesture:
+        if self._gesture is not None and self._canvas.pointing.gesture is self._gesture:
             self._canvas.pointing.release_at(_in_view(self._canvas, place))
         return self._gesture is not None
 
 
-def carry_in(canvas: Canvas, clip: Clip, place: QPoint) -> DragBlocks:
+def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint) -> DragBlocks:
     """Begin to carry new blocks, held by their first row at a place of the screen."""
     view = _in_view(canvas, place)
-    page, grip = canvas.to_page(view), canvas.measures.row_height / 2
+    page, grip = canvas.sight.to_page(view), canvas.look.measures.row_height / 2
     cargo = NewBlocks(canvas, clip, (page.x(), page.y()), hold=(2 * grip, grip))
     gesture = DragBlocks(canvas, cargo, page)
-    canvas.setFocus()
-    canvas.begin(gesture)
+    canvas.area.setFocus()
+    canvas.pointing.begin(gesture)
     canvas.pointing.take_over(view)
     return gesture
 
 
-def clip_in(canvas: Canvas, data: QMimeData) -> Clip | None:
+def clip_in(canvas: CanvasHost, data: QMimeData) -> Clip | None:
     """The blocks in what is dragged over the canvas, or None when there are none."""
     text = data.text() if data.hasText() and not data.hasUrls() else ""
     if not text.lstrip().startswith("{"):
@@ -346,8 +351,8 @@ def project_files(data: QMimeData) -> list[str]:
     return [path for path in paths if path.lower().endswith(PROJECT_SUFFIX)]
 
 
-def _in_view(canvas: Canvas, place: QPoint) -> QPointF:
-    return QPointF(canvas.viewport().mapFromGlobal(place))
+def _in_view(canvas: CanvasHost, place: QPoint) -> QPointF:
+    return QPointF(canvas.area.viewport().mapFromGlobal(place))
 
 
 # New blocks that are pulled out of others: a variable out of a header, or a copy.
@@ -356,7 +361,7 @@ HEADERS = ("hat", "c")
 """The shapes of blocks that give a name to what runs inside them."""
 
 
-def pulled_out(canvas: Canvas, hit: Hit) -> NewBlocks | None:
+def pulled_out(canvas: CanvasHost, hit: Hit) -> NewBlocks | None:
     """The reporter that is pulled out of a parameter, or of the variable of a header; or None."""
     editor, piece = canvas.editor, hit.piece
     if piece is None or piece.kind not in ("parameter", "variable"):
@@ -367,13 +372,13 @@ def pulled_out(canvas: Canvas, hit: Hit) -> NewBlocks | None:
     clip = reporter_of(editor.project, editor.language, hit.block, piece.key)
     if clip is None:
         return None
-    right = piece.x + (piece.width if canvas.measures.is_mirrored else 0.0)
+    right = piece.x + (piece.width if canvas.look.measures.is_mirrored else 0.0)
     return NewBlocks(canvas, clip, (hit.placed.x + right, hit.placed.y + piece.y))
 
 
-def copy_of(canvas: Canvas, hit: Hit) -> NewBlocks:
+def copy_of(canvas: CanvasHost, hit: Hit) -> NewBlocks:
     """A copy of a block, or of the selection that it is one of, lying on the original."""
     editor, selection = canvas.editor, canvas.selection
     ids = selection.ids if hit.block in selection else (hit.block,)
-    clip = copy(editor.project, editor.language, ids, canvas.corners(ids))
+    clip = copy(editor.project, editor.language, ids, canvas.page_layout.corners(ids))
     return NewBlocks(canvas, clip, clip.corner)

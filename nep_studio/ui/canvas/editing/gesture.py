@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 from PySide6.QtCore import QPointF, Qt, QTimer
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 DRAG_PX, TOUCH_DRAG_PX = 5.0, 10.0
@@ -35,13 +35,13 @@ class Pointer:
 class Gesture(Protocol):
     """One gesture under way; the canvas tells it what happens until it ends."""
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """The pointer moved."""
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """The button was released: do what was meant."""
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """Esc was pressed, or the press was taken away: everything is as it was before."""
 
 
@@ -59,17 +59,17 @@ TICK_MS = 16
 class AutoScroll:
     """Scrolls once the pointer has been well inside the view: blocks come from the side too."""
 
-    def __init__(self, canvas: Canvas, scrolled: Callable[[], None]) -> None:
+    def __init__(self, canvas: CanvasHost, scrolled: Callable[[], None]) -> None:
         self._canvas = canvas
         self._scrolled = scrolled
         self._was_inside = False
         self._step = QPointF()
-        self._timer = QTimer(canvas, interval=TICK_MS)
+        self._timer = QTimer(canvas.area, interval=TICK_MS)
         self._timer.timeout.connect(self._on_tick)
 
     def follow(self, at: QPointF, *, is_resting: bool = False) -> None:
         """Take the pointer's place in the view."""
-        view = self._canvas.viewport().rect()
+        view = self._canvas.area.viewport().rect()
         dx, dy = _depth(at.x(), view.width()), _depth(at.y(), view.height())
         self._was_inside = self._was_inside or (dx == dy == 0)
         if is_resting or not self._was_inside or (dx == dy == 0):
@@ -85,7 +85,7 @@ class AutoScroll:
         self._timer.deleteLater()
 
     def _on_tick(self) -> None:
-        self._canvas.pan(self._step.x(), self._step.y())
+        self._canvas.sight.pan(self._step.x(), self._step.y())
         self._scrolled()
 
 

@@ -16,7 +16,7 @@ from .cargo import lift
 from .carrying import KeyboardCarry, reading_order
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 # Walk from block to block with the keyboard; what is arrived at is selected, shown and told.
@@ -28,7 +28,7 @@ Way = Callable[[Project, Sequence[str], str], str]
 class Walk:
     """The cursor of one canvas."""
 
-    def __init__(self, canvas: Canvas) -> None:
+    def __init__(self, canvas: CanvasHost) -> None:
         self._canvas = canvas
         self._anchor = ""
 
@@ -54,7 +54,7 @@ class Walk:
 
     def sideways(self, step: int) -> None:
         """Go into the block (1, to the right) or out of it; the other way round when mirrored."""
-        is_inward = (step > 0) != self._canvas.measures.is_mirrored
+        is_inward = (step > 0) != self._canvas.look.measures.is_mirrored
         way = navigation.inward if is_inward else navigation.outward
         cursor = self.cursor()
         self._arrive(way(self._canvas.editor.project, cursor) if cursor else self._first())
@@ -91,7 +91,7 @@ class Walk:
         canvas.selection.set([block_id])
         canvas.show_block(block_id)
         told = described(canvas.editor, block_id)
-        canvas.announced.emit(f"{told}. {position(canvas.editor.project, block_id)}")
+        canvas.news.announced.emit(f"{told}. {position(canvas.editor.project, block_id)}")
 
 
 Key, Modifier = Qt.Key, Qt.KeyboardModifier
@@ -108,7 +108,7 @@ class Keyboard:
     the same keys go from place to place.
     """
 
-    def __init__(self, canvas: Canvas) -> None:
+    def __init__(self, canvas: CanvasHost) -> None:
         self._canvas = canvas
         self.walk = Walk(canvas)
         self.is_space_pressed = False
@@ -128,7 +128,7 @@ class Keyboard:
             bool(held & Modifier.ControlModifier),
             bool(held & Modifier.AltModifier),
         )
-        if isinstance(self._canvas.gesture, KeyboardCarry):
+        if isinstance(self._canvas.pointing.gesture, KeyboardCarry):
             rule = self._carrying_rules.get(press)
             if rule is not None:
                 rule()
@@ -143,8 +143,10 @@ class Keyboard:
         """Take the block at the cursor, or the selection, into the hand."""
         canvas = self._canvas
         cursor = canvas.selection.cursor
-        if cursor in canvas.editor.project.blocks and canvas.gesture is None:
-            canvas.gesture = KeyboardCarry(canvas, lift(canvas, cursor, alone=alone), cursor)
+        if cursor in canvas.editor.project.blocks and canvas.pointing.gesture is None:
+            canvas.pointing.gesture = KeyboardCarry(
+                canvas, lift(canvas, cursor, alone=alone), cursor
+            )
 
     def release_space(self) -> None:
         """Pick up, unless something else was done while the space bar was down."""
@@ -228,14 +230,14 @@ class Keyboard:
         if field is not None:
             canvas.fields.open(cursor, field.key)
         else:
-            canvas.block_opened.emit(cursor)
+            canvas.news.block_opened.emit(cursor)
 
     def _help(self) -> None:
         """Ask for help about the block that the keyboard is at, when it is selected."""
         editor, cursor = self._canvas.editor, self._canvas.selection.cursor
         if cursor in self._canvas.selection and cursor in editor.project.blocks:
             definition = editor.language.definitions.get(editor.project.blocks[cursor].type)
-            self._canvas.help_requested.emit(definition.help if definition else "")
+            self._canvas.news.help_requested.emit(definition.help if definition else "")
 
     def _toggle(self) -> None:
         if cursor := self.walk.cursor():
@@ -243,14 +245,14 @@ class Keyboard:
 
     def _menu(self) -> None:
         cursor = self.walk.cursor()
-        rect = self._canvas.view_rect_of(cursor) if cursor else None
+        rect = self._canvas.sight.view_rect_of(cursor) if cursor else None
         at = rect.topLeft().toPoint() + QPoint(12, 12) if rect is not None else QPoint(24, 24)
-        self._canvas.menu_requested.emit(at)
+        self._canvas.news.menu_requested.emit(at)
 
     def _escape(self) -> None:
-        if self._canvas.gesture is not None:
-            self._canvas.gesture.cancel(self._canvas)
-            self._canvas.gesture = None
+        if self._canvas.pointing.gesture is not None:
+            self._canvas.pointing.gesture.cancel(self._canvas)
+            self._canvas.pointing.gesture = None
         else:
             self._canvas.selection.clear()
 
@@ -264,7 +266,7 @@ class Keyboard:
         return True
 
     def _carried(self) -> KeyboardCarry:
-        gesture = self._canvas.gesture
+        gesture = self._canvas.pointing.gesture
         assert isinstance(gesture, KeyboardCarry)
         return gesture
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
@@ -24,7 +24,7 @@ from nep_studio.ui.words import count_words, tr
 from .notes import edit_note
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 # The lines of a menu, and what a menu is about.
@@ -56,7 +56,7 @@ class MenuPlace:
     note: str = ""
 
 
-Section = Callable[["Canvas", MenuPlace], list[MenuEntry]]
+Section = Callable[["CanvasHost", MenuPlace], list[MenuEntry]]
 """Gives some entries of a menu; a line separates them from the others. No entries, no section."""
 
 
@@ -66,7 +66,7 @@ BESIDE = 40.0
 """How far beside its stack a block is put that is taken out of it."""
 
 
-def clipboard(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def clipboard(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Copies of the selected blocks."""
     commands = canvas.commands
     return [
@@ -76,7 +76,7 @@ def clipboard(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
     ]
 
 
-def structure(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def structure(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Take the block out, put a block around it, or take one away from around others."""
     block = _block(canvas, place)
     definition = canvas.editor.language.definitions.get(block.type)
@@ -93,7 +93,7 @@ def structure(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
     return entries
 
 
-def flags(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def flags(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Switch off, fold, and comment."""
     block, commands = _block(canvas, place), canvas.commands
     off = tr("Switch on") if block.disabled else tr("Switch off")
@@ -106,12 +106,12 @@ def flags(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
             "collapse", fold, lambda: commands.toggle("collapsed"), fold_icon, True, "Ctrl+M"
         ),
         MenuEntry(
-            "comment", comment, lambda: canvas.fields.comments.open(block.id), "message-square"
+            "comment", comment, lambda: canvas.fields.open_comment(block.id), "message-square"
         ),
     ]
 
 
-def finding(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def finding(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Where what the block names is used and defined, and the page of help."""
     block = _block(canvas, place)
     project, language = canvas.editor.project, canvas.editor.language
@@ -121,7 +121,9 @@ def finding(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
     if subjects:
         where = definition_of(project, language, subjects[0])
         entries.append(
-            MenuEntry("uses", tr("Find all uses"), lambda: canvas.uses_requested.emit(subjects[0]))
+            MenuEntry(
+                "uses", tr("Find all uses"), lambda: canvas.news.uses_requested.emit(subjects[0])
+            )
         )
         if where is not None and where != block.id:
             entries.append(
@@ -133,14 +135,14 @@ def finding(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
             MenuEntry(
                 "help",
                 tr("Help"),
-                lambda: canvas.help_requested.emit(help_page),
+                lambda: canvas.news.help_requested.emit(help_page),
                 "circle-question-mark",
             )
         )
     return entries
 
 
-def deleting(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def deleting(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Delete the selected blocks, or the block with all below it."""
     block, project = _block(canvas, place), canvas.editor.project
     count = len(canvas.selection)
@@ -159,7 +161,7 @@ def deleting(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
     return entries
 
 
-def history(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def history(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Undo and redo."""
     steps, commands = canvas.editor.history, canvas.commands
     undo = tr("Undo: {step}", step=tr(steps.undo_label)) if steps.undo_label else tr("Undo")
@@ -170,7 +172,7 @@ def history(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
     ]
 
 
-def adding(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def adding(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Paste or write here."""
     at, commands = place.at, canvas.commands
     return [
@@ -181,7 +183,7 @@ def adding(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
     ]
 
 
-def note(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def note(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Write in a note, or delete it."""
     notes, note_id = canvas.notes, place.note
     return [
@@ -197,7 +199,7 @@ def note(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
     ]
 
 
-def arranging(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+def arranging(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """The whole page: select, tidy, look at all of it, make a picture of it."""
     commands, has_blocks = canvas.commands, bool(canvas.page_layout.chains)
     everything = tr("Select everything")
@@ -207,11 +209,11 @@ def arranging(canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
         MenuEntry(
             "columns", tr("Put into columns"), lambda: commands.tidy(columns=True), "", has_blocks
         ),
-        MenuEntry("fit", tr("Show everything"), canvas.fit, "maximize", has_blocks),
+        MenuEntry("fit", tr("Show everything"), canvas.sight.fit, "maximize", has_blocks),
         MenuEntry(
             "picture",
             tr("Save as picture"),
-            lambda: canvas.picture_requested.emit(),
+            lambda: canvas.news.picture_requested.emit(),
             "image",
             has_blocks,
         ),
@@ -223,20 +225,20 @@ NOTE_SECTIONS: tuple[Section, ...] = (note,)
 PAGE_SECTIONS: tuple[Section, ...] = (history, adding, arranging)
 
 
-def _block(canvas: Canvas, place: MenuPlace) -> Block:
+def _block(canvas: CanvasHost, place: MenuPlace) -> Block:
     assert place.hit is not None
     return canvas.editor.project.blocks[place.hit.block]
 
 
-def _can_wrap(canvas: Canvas) -> bool:
+def _can_wrap(canvas: CanvasHost) -> bool:
     return bool(len(canvas.selection)) and why_not_wrap(canvas.editor, canvas.selection.ids) is None
 
 
-def _wraps(canvas: Canvas) -> tuple[MenuEntry, ...]:
+def _wraps(canvas: CanvasHost) -> tuple[MenuEntry, ...]:
     """The C blocks of the page; those that nothing may follow only where nothing does."""
     editor, ids = canvas.editor, canvas.selection.ids
     chosen = runs(editor.project, ids)
-    kind = editor.project.kind_of_page(canvas.page)
+    kind = editor.project.kind_of_page(canvas.page_layout.page)
     return tuple(
         MenuEntry(
             f"wrap.{each.id}",
@@ -262,54 +264,56 @@ def _said(parts: tuple[object, ...]) -> str:
     return " ".join(words) or "…"
 
 
-def _wrap(canvas: Canvas, block_type: str) -> None:
+def _wrap(canvas: CanvasHost, block_type: str) -> None:
     made: list[str] = []
     ids = canvas.selection.ids
     if canvas.attempt(lambda: made.append(wrap(canvas.editor, ids, block_type))):
         canvas.selection.set(made)
 
 
-def _unwrap(canvas: Canvas, block: str) -> None:
+def _unwrap(canvas: CanvasHost, block: str) -> None:
     left: list[str] = []
     if canvas.attempt(lambda: left.extend(unwrap(canvas.editor, block))):
         canvas.selection.set(left)
 
 
-def _extract(canvas: Canvas, block: str) -> None:
+def _extract(canvas: CanvasHost, block: str) -> None:
     """Put a block alone beside its stack; what is below it moves up."""
     index, stack = canvas.page_layout.index, canvas.editor.project.stack_of(block).id
-    x, y = canvas.corners([block]).get(block, (0.0, 0.0))
+    x, y = canvas.page_layout.corners([block]).get(block, (0.0, 0.0))
     if stack in index:
         rect = index.rect(stack)
-        x = rect.x - BESIDE if canvas.measures.is_mirrored else rect.right + BESIDE
+        x = rect.x - BESIDE if canvas.look.measures.is_mirrored else rect.right + BESIDE
     if canvas.attempt(lambda: set_aside(canvas.editor, Run(block, 1), (x, y))):
         canvas.selection.set([block])
         canvas.show_block(block)
 
 
-def _add_note(canvas: Canvas, at: QPointF) -> None:
+def _add_note(canvas: CanvasHost, at: QPointF) -> None:
     made: list[str] = []
     if canvas.attempt(lambda: made.append(canvas.notes.add(at.x(), at.y()))):
         edit_note(canvas, made[0])
 
 
-def _delete_run(canvas: Canvas, run: Run) -> None:
+def _delete_run(canvas: CanvasHost, run: Run) -> None:
     ids = members(canvas.editor.project, run)
-    canvas.attempt(lambda: canvas.blocks_deleted.emit(delete(canvas.editor, ids)))
+    canvas.attempt(lambda: canvas.news.blocks_deleted.emit(delete(canvas.editor, ids)))
 
 
-def _go(canvas: Canvas, block: str) -> None:
+def _go(canvas: CanvasHost, block: str) -> None:
     canvas.show_block(block)
     canvas.selection.set([block])
 
 
-def menu_for(canvas: Canvas, hit: Hit | None, at: QPointF) -> QMenu:
-    """The menu of what was hit; the sections of ``canvas.menu_sections`` come last."""
+def menu_for(
+    canvas: CanvasHost, hit: Hit | None, at: QPointF, sections: Iterable[Section]
+) -> QMenu:
+    """The menu of what was hit; the ``sections`` of others come last."""
     note = canvas.notes.hit(at) if hit is None else None
     place = MenuPlace(hit, at, note.id if note is not None else "")
     own = BLOCK_SECTIONS if hit is not None else NOTE_SECTIONS if note else PAGE_SECTIONS
-    menu = QMenu(canvas)
-    for section in (*own, *canvas.menu_sections):
+    menu = QMenu(canvas.area)
+    for section in (*own, *sections):
         entries = section(canvas, place)
         if entries and not menu.isEmpty():
             menu.addSeparator()
@@ -318,7 +322,7 @@ def menu_for(canvas: Canvas, hit: Hit | None, at: QPointF) -> QMenu:
     return menu
 
 
-def add(menu: QMenu, entry: MenuEntry, canvas: Canvas) -> None:
+def add(menu: QMenu, entry: MenuEntry, canvas: CanvasHost) -> None:
     """Put an entry into a menu; the action's object name is the entry's id."""
     if entry.entries:
         inner = menu.addMenu(entry.label)
@@ -331,4 +335,4 @@ def add(menu: QMenu, entry: MenuEntry, canvas: Canvas) -> None:
     action.setObjectName(entry.id)
     action.setEnabled(entry.is_enabled)
     if entry.icon:
-        action.setIcon(icon(entry.icon, canvas.theme))
+        action.setIcon(icon(entry.icon, canvas.look.theme))

@@ -18,7 +18,7 @@ from nep_studio.ui.words import tr
 from .gesture import Gesture, Pointer
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 _STEP = 10.0
 _ARROWS = {
@@ -29,7 +29,7 @@ _ARROWS = {
 }
 
 
-def note_gesture(canvas: Canvas, pointer: Pointer) -> Gesture | None:
+def note_gesture(canvas: CanvasHost, pointer: Pointer) -> Gesture | None:
     """The gesture that a press on a note begins, or None where there is no note."""
     note = canvas.notes.hit(pointer.page)
     if note is None:
@@ -37,7 +37,7 @@ def note_gesture(canvas: Canvas, pointer: Pointer) -> Gesture | None:
     return NotePress(note, pointer, is_corner=canvas.notes.is_corner(note, pointer.page))
 
 
-def press_key(canvas: Canvas, event: QKeyEvent) -> bool:
+def press_key(canvas: CanvasHost, event: QKeyEvent) -> bool:
     """Do what a key means for the selected note; False when it means nothing there."""
     notes, note_id = canvas.notes, canvas.notes.selected
     note = canvas.editor.project.notes.get(note_id)
@@ -46,7 +46,7 @@ def press_key(canvas: Canvas, event: QKeyEvent) -> bool:
     key = Qt.Key(event.key())
     if key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
         canvas.attempt(lambda: notes.delete(note_id))
-        canvas.announced.emit(tr("Note deleted"))
+        canvas.news.announced.emit(tr("Note deleted"))
     elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2):
         edit_note(canvas, note_id)
     elif key == Qt.Key.Key_Escape:
@@ -60,13 +60,13 @@ def press_key(canvas: Canvas, event: QKeyEvent) -> bool:
     return True
 
 
-def edit_note(canvas: Canvas, note_id: str) -> NoteEditor | None:
+def edit_note(canvas: CanvasHost, note_id: str) -> NoteEditor | None:
     """Write in a note."""
     if note_id not in canvas.editor.project.notes:
         return None
     canvas.notes.select(note_id)
-    canvas.note_editor = NoteEditor(canvas, note_id)
-    return canvas.note_editor
+    canvas.notes.writing = NoteEditor(canvas, note_id)
+    return canvas.notes.writing
 
 
 class NotePress:
@@ -76,22 +76,22 @@ class NotePress:
         self.is_double = False
         self._note, self._start, self._is_corner = note, pointer, is_corner
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Become a drag when the pointer has moved far enough."""
         if pointer.is_far(self._start.view):
             canvas.notes.select(self._note.id)
             kind = NoteResize if self._is_corner else NoteDrag
             drag = kind(self._note, self._start.page)
-            canvas.begin(drag)
+            canvas.pointing.begin(drag)
             drag.move(canvas, pointer)
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """It was a click."""
         canvas.notes.select(self._note.id)
         if self.is_double:
             edit_note(canvas, self._note.id)
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """Nothing has happened yet."""
 
 
@@ -101,22 +101,22 @@ class NoteDrag:
     def __init__(self, note: Note, start: QPointF) -> None:
         self._note, self._start = note, start
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Show the note where it would be."""
         canvas.notes.carry(self._changed(canvas, pointer.page - self._start))
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Leave it there."""
         changed = self._changed(canvas, pointer.page - self._start)
         canvas.notes.carry(None)
         canvas.editor.history.seal()
         canvas.attempt(lambda: canvas.notes.set(changed))
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """Leave it where it was."""
         canvas.notes.carry(None)
 
-    def _changed(self, canvas: Canvas, by: QPointF) -> Note:
+    def _changed(self, canvas: CanvasHost, by: QPointF) -> Note:
         note = self._note
         return msgspec.structs.replace(note, x=note.x + by.x(), y=note.y + by.y())
 
@@ -124,8 +124,8 @@ class NoteDrag:
 class NoteResize(NoteDrag):
     """Makes a note larger or smaller by its corner."""
 
-    def _changed(self, canvas: Canvas, by: QPointF) -> Note:
-        note, sign = self._note, -1 if canvas.measures.is_mirrored else 1
+    def _changed(self, canvas: CanvasHost, by: QPointF) -> Note:
+        note, sign = self._note, -1 if canvas.look.measures.is_mirrored else 1
         return msgspec.structs.replace(
             note,
             width=max(SMALLEST_WIDTH, note.width + sign * by.x()),
@@ -136,11 +136,11 @@ class NoteResize(NoteDrag):
 class NoteEditor(NoteText):
     """The text of a note, over the note; what is written is in the project at once."""
 
-    def __init__(self, canvas: Canvas, note_id: str) -> None:
-        super().__init__(canvas.viewport(), self.finish)
+    def __init__(self, canvas: CanvasHost, note_id: str) -> None:
+        super().__init__(canvas.area.viewport(), self.finish)
         self._canvas, self._note = canvas, note_id
         self._is_over = False
-        theme = canvas.theme
+        theme = canvas.look.theme
         self.setStyleSheet(
             f"QPlainTextEdit {{ background: {theme.colour('note').name()};"
             f" color: {theme.colour('note_text').name()}; border-radius: 3px; padding: 2px;"
@@ -150,7 +150,7 @@ class NoteEditor(NoteText):
         self.setPlainText(canvas.editor.project.notes[note_id].text)
         self.textChanged.connect(self._on_written)
         canvas.editor.history.seal()
-        for signal in (canvas.view_changed, canvas.layout_changed):
+        for signal in (canvas.news.view_changed, canvas.news.layout_changed):
             signal.connect(self._follow)
         canvas.notes.edited = note_id
         self._repaint()
@@ -163,13 +163,13 @@ class NoteEditor(NoteText):
         if self._is_over:
             return
         self._is_over = True
-        self._canvas.note_editor = None
-        for signal in (self._canvas.view_changed, self._canvas.layout_changed):
+        self._canvas.notes.writing = None
+        for signal in (self._canvas.news.view_changed, self._canvas.news.layout_changed):
             signal.disconnect(self._follow)
         self._canvas.notes.edited = ""
         self._canvas.editor.history.seal()
         self._repaint()
-        give_back_focus(self._canvas, self)
+        give_back_focus(self._canvas.area, self)
         self.hide()
         self.deleteLater()
 
@@ -184,10 +184,10 @@ class NoteEditor(NoteText):
 
     def _follow(self) -> None:
         note = self._canvas.editor.project.notes.get(self._note)
-        if note is None or note.page != self._canvas.page:
+        if note is None or note.page != self._canvas.page_layout.page:
             self.finish()
             return
-        rect: QRectF = self._canvas.camera.view_rect(self._canvas.notes.rect_of(note))
+        rect: QRectF = self._canvas.sight.camera.view_rect(self._canvas.notes.rect_of(note))
         self.setFont(editor_font(self._canvas))
         self.setGeometry(rect.toAlignedRect())
 
@@ -198,4 +198,4 @@ class NoteEditor(NoteText):
     def _repaint(self) -> None:
         note = self._canvas.editor.project.notes.get(self._note)
         if note is not None:
-            self._canvas.repaint_page([self._canvas.notes.rect_of(note)])
+            self._canvas.layers.repaint_page([self._canvas.notes.rect_of(note)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QPointF, Qt, QTimer
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QTouchEvent
 
 from nep_studio.ui.canvas.layout.index import Rect
@@ -20,7 +20,7 @@ from .reorder_parts import ReorderParts, can_reorder
 from .view_gestures import Pan, PinchZoom, RubberBand
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 # A finger that rests opens the menu of what is under it.
@@ -32,16 +32,16 @@ LONG_PRESS_MS = 500
 class LongPress:
     """The menu is open; lifting the finger means nothing more."""
 
-    def __init__(self, canvas: Canvas, pointer: Pointer) -> None:
-        canvas.request_menu(pointer.view.toPoint())
+    def __init__(self, canvas: CanvasHost, pointer: Pointer) -> None:
+        canvas.pointing.request_menu(pointer.view.toPoint())
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """The menu stays where it is."""
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """The menu stays open."""
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """The menu closes by itself."""
 
 
@@ -55,31 +55,31 @@ class Press:
     """A click selects, opens a field or presses a button; a drag carries, selects or scrolls."""
 
     def __init__(
-        self, canvas: Canvas, pointer: Pointer, hit: Hit | None, *, problem: str = ""
+        self, canvas: CanvasHost, pointer: Pointer, hit: Hit | None, *, problem: str = ""
     ) -> None:
         self.is_double = False
         self._start = pointer
         self._hit = hit
         self._problem = problem
-        self._timer = QTimer(canvas, singleShot=True, interval=LONG_PRESS_MS)
+        self._timer = QTimer(canvas.area, singleShot=True, interval=LONG_PRESS_MS)
         if pointer.is_touch:
-            self._timer.timeout.connect(lambda: canvas.begin(LongPress(canvas, pointer)))
+            self._timer.timeout.connect(lambda: canvas.pointing.begin(LongPress(canvas, pointer)))
             self._timer.start()
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Become a drag when the pointer has moved far enough."""
         if pointer.is_far(self._start.view):
             self.cancel(canvas)
             drag = self._drag(canvas)
-            canvas.begin(drag)
+            canvas.pointing.begin(drag)
             drag.move(canvas, pointer)
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """It was a click."""
         self.cancel(canvas)
         is_adding = bool(self._start.modifiers & ADDS)
         if self._problem:
-            canvas.problem_opened.emit(self._problem)
+            canvas.news.problem_opened.emit(self._problem)
         elif self._hit is None:
             if not is_adding:
                 canvas.selection.clear()
@@ -88,12 +88,12 @@ class Press:
         else:
             self._click(canvas, self._hit)
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """Nothing has happened yet."""
         self._timer.stop()
         self._timer.deleteLater()
 
-    def _click(self, canvas: Canvas, hit: Hit) -> None:
+    def _click(self, canvas: CanvasHost, hit: Hit) -> None:
         canvas.selection.set([hit.block])
         piece = hit.piece
         if piece is not None and piece.piece == "button":
@@ -101,9 +101,9 @@ class Press:
         elif piece is not None and canvas.fields.open(hit.block, piece.key):
             return
         elif self.is_double:
-            canvas.block_opened.emit(hit.block)
+            canvas.news.block_opened.emit(hit.block)
 
-    def _drag(self, canvas: Canvas) -> Gesture:
+    def _drag(self, canvas: CanvasHost) -> Gesture:
         start = self._start
         if self._hit is None:
             return Pan(canvas, start) if start.is_touch else RubberBand(canvas, start)
@@ -118,7 +118,7 @@ class Press:
 # Which gesture a press begins, by the button, the keys held, and what is under the pointer.
 
 
-def choose(canvas: Canvas, pointer: Pointer, hit: Hit | None) -> Gesture | None:
+def choose(canvas: CanvasHost, pointer: Pointer, hit: Hit | None) -> Gesture | None:
     """The gesture that begins with a press; None when the button begins none."""
     is_left = pointer.button == Qt.MouseButton.LeftButton
     if pointer.button == Qt.MouseButton.MiddleButton or (is_left and canvas.pointing.is_space_down):
@@ -130,11 +130,11 @@ def choose(canvas: Canvas, pointer: Pointer, hit: Hit | None) -> Gesture | None:
     return Press(canvas, pointer, hit, problem=problem_at(canvas, pointer.page))
 
 
-def problem_at(canvas: Canvas, at: QPointF) -> str:
+def problem_at(canvas: CanvasHost, at: QPointF) -> str:
     """The block whose problem badge is at a point of the page; empty when there is none."""
     if not canvas.problems.problems:
         return ""
-    margin = 20 * canvas.measures.unit
+    margin = 20 * canvas.look.measures.unit
     around = Rect(at.x() - margin, at.y() - margin, 2 * margin, 2 * margin)
     for placed in canvas.page_layout.boxes(around):
         block = placed.box.block
@@ -146,39 +146,60 @@ def problem_at(canvas: Canvas, at: QPointF) -> str:
 class Pointing:
     """The pointer over one canvas."""
 
-    def __init__(self, canvas: Canvas) -> None:
+    def __init__(self, canvas: CanvasHost) -> None:
+        self.gesture: Gesture | None = None
         self._canvas = canvas
         self._last: Pointer | None = None
         self.is_space_down = False
         self.was_cancelled_by_right = False
         """Whether the right button ended a gesture: then it opens no menu."""
 
+    def begin(self, gesture: Gesture) -> None:
+        """Let a gesture have the pointer from now on."""
+        self.gesture = gesture
+
+    def cancel(self) -> None:
+        """End what is under way as if it had not begun."""
+        gesture, self.gesture = self.gesture, None
+        if gesture is not None:
+            gesture.cancel(self._canvas)
+
+    def request_menu(self, place: QPoint) -> None:
+        """Ask for the menu of what is at a place of the view; that becomes the selection."""
+        canvas = self._canvas
+        hit = canvas.sight.hit(place)
+        if hit is None:
+            note = canvas.notes.hit(canvas.sight.to_page(place))
+            canvas.notes.select(note.id if note is not None else "")
+        elif hit.block not in canvas.selection:
+            canvas.selection.set([hit.block])
+        canvas.news.menu_requested.emit(place)
+
     def press(self, event: QMouseEvent) -> None:
         """A mouse button went down."""
-        canvas = self._canvas
-        self.was_cancelled_by_right = canvas.keyboard.is_space_pressed = False
-        if isinstance(canvas.gesture, KeyboardCarry):  # the mouse begins something of its own
-            canvas.cancel_gesture()
-        if canvas.gesture is not None:
+        self.was_cancelled_by_right = False
+        if isinstance(self.gesture, KeyboardCarry):  # the mouse begins something of its own
+            self.cancel()
+        if self.gesture is not None:
             if event.button() == Qt.MouseButton.RightButton:
                 self.was_cancelled_by_right = True
-                canvas.cancel_gesture()
+                self.cancel()
             return
         self._begin(self._pointer(event.position(), event.button(), event.modifiers()))
 
     def double_click(self, event: QMouseEvent) -> None:
         """A second press soon after the first: a click of it opens the block."""
         self.press(event)
-        if isinstance(self._canvas.gesture, Press | NotePress):
-            self._canvas.gesture.is_double = True
+        if isinstance(self.gesture, Press | NotePress):
+            self.gesture.is_double = True
 
     def move(self, event: QMouseEvent) -> None:
         """The mouse moved: with a gesture, or over the page."""
-        canvas, last = self._canvas, self._last
-        if canvas.gesture is None or last is None or isinstance(canvas.gesture, KeyboardCarry):
+        last = self._last
+        if self.gesture is None or last is None or isinstance(self.gesture, KeyboardCarry):
             self._hover(event.position())
         elif not event.buttons() & last.button:  # the release went elsewhere
-            canvas.cancel_gesture()
+            self.cancel()
         else:
             self.move_to(event.position())
 
@@ -189,13 +210,13 @@ class Pointing:
 
     def move_to(self, view: QPointF) -> None:
         """Bring the gesture to a point of the view."""
-        if self._canvas.gesture is not None:
+        if self.gesture is not None:
             self._last = self._moved(view)
-            self._canvas.gesture.move(self._canvas, self._last)
+            self.gesture.move(self._canvas, self._last)
 
     def release_at(self, view: QPointF) -> None:
         """End the gesture at a point of the view."""
-        gesture, self._canvas.gesture = self._canvas.gesture, None
+        gesture, self.gesture = self.gesture, None
         if gesture is not None:
             self._last = self._moved(view)
             gesture.release(self._canvas, self._last)
@@ -211,10 +232,10 @@ class Pointing:
 
     def touch(self, event: QTouchEvent) -> bool:
         """Fingers went down, moved or came up; gives whether the canvas takes them."""
-        canvas, kind = self._canvas, event.type()
+        kind = event.type()
         points = [point.position() for point in event.points()]
         if kind == QEvent.Type.TouchCancel:
-            canvas.cancel_gesture()
+            self.cancel()
         elif kind == QEvent.Type.TouchBegin and len(points) == 1:
             self._begin(self._pointer(points[0], is_touch=True))
         elif kind == QEvent.Type.TouchEnd:
@@ -227,38 +248,38 @@ class Pointing:
 
     def leave(self) -> None:
         """The pointer left the view."""
-        if self._canvas.gesture is None:
-            self._canvas.viewport().unsetCursor()
+        if self.gesture is None:
+            self._canvas.area.viewport().unsetCursor()
 
     def _begin(self, pointer: Pointer) -> None:
         canvas = self._canvas
         self._last = pointer
         canvas.fields.close()
-        gesture = choose(canvas, pointer, canvas.hit(pointer.view))
+        gesture = choose(canvas, pointer, canvas.sight.hit(pointer.view))
         if gesture is not None:
-            canvas.begin(gesture)
+            self.begin(gesture)
 
     def _pinch(self, first: QPointF, second: QPointF) -> None:
         canvas = self._canvas
-        if not isinstance(canvas.gesture, PinchZoom):
-            canvas.cancel_gesture()
-            canvas.begin(PinchZoom(canvas, first, second))
-        elif isinstance(canvas.gesture, PinchZoom):
-            canvas.gesture.pinch(canvas, first, second)
+        if not isinstance(self.gesture, PinchZoom):
+            self.cancel()
+            self.begin(PinchZoom(canvas, first, second))
+        elif isinstance(self.gesture, PinchZoom):
+            self.gesture.pinch(canvas, first, second)
 
     def _hover(self, view: QPointF) -> None:
         """Show by the cursor what a press would do."""
         shape = self._cursor(view)
-        if self._canvas.viewport().cursor().shape() != shape:
-            self._canvas.viewport().setCursor(shape)
+        if self._canvas.area.viewport().cursor().shape() != shape:
+            self._canvas.area.viewport().setCursor(shape)
 
     def _cursor(self, view: QPointF) -> Qt.CursorShape:
         canvas = self._canvas
         if self.is_space_down:
             return Qt.CursorShape.OpenHandCursor
-        if problem_at(canvas, canvas.to_page(view)):
+        if problem_at(canvas, canvas.sight.to_page(view)):
             return Qt.CursorShape.PointingHandCursor
-        hit = canvas.hit(view)
+        hit = canvas.sight.hit(view)
         if hit is None:
             return Qt.CursorShape.ArrowCursor
         is_pressed = hit.piece is not None and hit.piece.piece in ("field", "button")
@@ -276,5 +297,5 @@ class Pointing:
         *,
         is_touch: bool = False,
     ) -> Pointer:
-        page = self._canvas.to_page(view)
+        page = self._canvas.sight.to_page(view)
         return Pointer(QPointF(view), page, button, modifiers, is_touch)

@@ -16,8 +16,7 @@ from nep_studio.ui.words import tr
 from .gesture import Pointer
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
-    from nep_studio.ui.canvas.view import PageView
+    from nep_studio.ui.canvas.host import CanvasHost
 
 Bar = Rect
 """A thin rectangle between two parts, before the first or after the last."""
@@ -29,13 +28,13 @@ class ReorderParts:
     Nothing changes in the program until it is dropped.
     """
 
-    def __init__(self, canvas: Canvas, hit: Hit) -> None:
+    def __init__(self, canvas: CanvasHost, hit: Hit) -> None:
         assert hit.piece is not None
         self._block, self._group, self._number = hit.block, hit.piece.key, hit.piece.number
         self._bars = _bars(canvas, hit.placed, hit.piece.key)
         self._shown: Bar | None = None
-        canvas.overlays.append(self)
-        canvas.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
+        canvas.layers.show_overlay(self)
+        canvas.area.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
 
     @property
     def place(self) -> int:
@@ -45,7 +44,7 @@ class ReorderParts:
         before = self._bars.index(self._shown)
         return before if before >= self._number else before + 1
 
-    def move(self, canvas: Canvas, pointer: Pointer) -> None:
+    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Show the bar that is nearest."""
         x, y = pointer.page.x(), pointer.page.y()
         nearest = min(self._bars, key=lambda bar: bar.distance(x, y), default=None)
@@ -54,7 +53,7 @@ class ReorderParts:
             self._shown = nearest
             self._update(canvas)
 
-    def release(self, canvas: Canvas, pointer: Pointer) -> None:
+    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Put the part where the bar is."""
         self.move(canvas, pointer)
         to = self.place
@@ -62,30 +61,30 @@ class ReorderParts:
         if to != self._number and canvas.attempt(
             lambda: move_part(canvas.editor, self._block, self._group, self._number, to)
         ):
-            canvas.announced.emit(tr("Moved to place {n}", n=to))
+            canvas.news.announced.emit(tr("Moved to place {n}", n=to))
 
-    def cancel(self, canvas: Canvas) -> None:
+    def cancel(self, canvas: CanvasHost) -> None:
         """Show the block as it was: nothing has changed."""
-        canvas.overlays.remove(self)
+        canvas.layers.show_overlay(self, is_shown=False)
         self._update(canvas)
-        canvas.viewport().unsetCursor()
+        canvas.area.viewport().unsetCursor()
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the bar."""
         bar = self._shown
         if bar is None:
             return
-        pen = QPen(view.theme.colour("snap"), 4 * view.measures.unit)
+        pen = QPen(view.look.theme.colour("snap"), 4 * view.look.measures.unit)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         painter.setPen(pen)
         painter.drawLine(QPointF(bar.x, bar.y), QPointF(bar.right, bar.bottom))
 
-    def _update(self, canvas: Canvas) -> None:
+    def _update(self, canvas: CanvasHost) -> None:
         if self._shown is not None:
-            canvas.update_page(self._shown.grown(4 * canvas.measures.unit))
+            canvas.layers.update_page(self._shown.grown(4 * canvas.look.measures.unit))
 
 
-def can_reorder(canvas: Canvas, hit: Hit) -> bool:
+def can_reorder(canvas: CanvasHost, hit: Hit) -> bool:
     """Whether a press holds a part, by its minus, that has others beside it."""
     piece = hit.piece
     if piece is None or (piece.piece, piece.kind) != ("button", "remove"):
@@ -93,7 +92,7 @@ def can_reorder(canvas: Canvas, hit: Hit) -> bool:
     return canvas.editor.project.blocks[hit.block].groups.get(piece.key, 0) > 1
 
 
-def _bars(canvas: Canvas, placed: Placed, group: str) -> list[Bar]:
+def _bars(canvas: CanvasHost, placed: Placed, group: str) -> list[Bar]:
     """Where the parts of a group can be put: before each of them, and after the last."""
     parts = _parts(canvas, placed, group)
     if any(
@@ -101,7 +100,7 @@ def _bars(canvas: Canvas, placed: Placed, group: str) -> list[Bar]:
     ):
         lines = [Rect(placed.x, part.y, placed.box.width, 0.0) for part in parts]
         return [*lines, Rect(placed.x, parts[-1].bottom, placed.box.width, 0.0)]
-    half = canvas.measures.gap / 2
+    half = canvas.look.measures.gap / 2
     is_mirrored = placed.box.is_mirrored
     starts = [part.right + half if is_mirrored else part.x - half for part in parts]
     end = parts[-1].x - half if is_mirrored else parts[-1].right + half
@@ -109,7 +108,7 @@ def _bars(canvas: Canvas, placed: Placed, group: str) -> list[Bar]:
     return [*lines, Rect(end, parts[-1].y, 0.0, parts[-1].height)]
 
 
-def _parts(canvas: Canvas, placed: Placed, group: str) -> list[Rect]:
+def _parts(canvas: CanvasHost, placed: Placed, group: str) -> list[Rect]:
     """What each part of a group covers of its block, on the page."""
     names, found = _names(canvas, placed, group), dict[int, Rect]()
     for key, rect in _rects(placed):
@@ -131,5 +130,5 @@ def _rects(placed: Placed) -> list[tuple[str, Rect]]:
     return rects
 
 
-def _names(canvas: Canvas, placed: Placed, group: str) -> tuple[str, ...]:
+def _names(canvas: CanvasHost, placed: Placed, group: str) -> tuple[str, ...]:
     return canvas.editor.language.definitions[placed.box.type].group_slots(group)

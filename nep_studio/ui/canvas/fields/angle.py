@@ -104,7 +104,7 @@ class AnglePopup(NumberPopup):
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
         super().__init__(editors, edit, title)
-        self.dial = Dial(editors.canvas.theme, 8 * self.line, self.point)
+        self.dial = Dial(editors.canvas.look.theme, 8 * self.line, self.point)
         self.column.addWidget(self.dial, 0, Qt.AlignmentFlag.AlignHCenter)
         self.show_number()
 

@@ -11,10 +11,11 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
-from nep_studio.blocks.deployment import GESTURE_STATE, robot_entries
+from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Project
 from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.slots import GESTURE_STATE
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 
@@ -220,7 +221,7 @@ class ChoicePopup(FieldPopup):
         is_now = not option.action and option.value == self.edit.value
         name = "check" if is_now else option.icon
         if name:
-            item.setIcon(icon(name, self._editors.canvas.theme))
+            item.setIcon(icon(name, self._editors.canvas.look.theme))
         spoken = tr("{label}, chosen now", label=option.label) if is_now else option.label
         item.setData(Qt.ItemDataRole.AccessibleTextRole, spoken)
         self.list.addItem(item)
@@ -292,7 +293,9 @@ class ChoicePopup(FieldPopup):
 
     def _on_row(self, item: QListWidgetItem | None) -> None:
         if item is not None and self.isVisible():
-            self._editors.canvas.announced.emit(item.data(Qt.ItemDataRole.AccessibleTextRole) or "")
+            self._editors.canvas.news.announced.emit(
+                item.data(Qt.ItemDataRole.AccessibleTextRole) or ""
+            )
 
 
 class StatePopup(ChoicePopup):

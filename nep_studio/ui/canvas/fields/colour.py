@@ -146,7 +146,7 @@ class ColourPopup(FieldPopup):
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
         super().__init__(editors, edit, title)
-        theme, side = editors.canvas.theme, round(1.7 * self.line)
+        theme, side = editors.canvas.look.theme, round(1.7 * self.line)
         self.palette_grid = Swatches(theme, [c for _, c in COLOURS], side, self._on_chosen)
         self.column.addWidget(self.palette_grid)
         self.recent: Swatches | None = None
@@ -186,7 +186,7 @@ class ColourPopup(FieldPopup):
         if self.try_set(code):
             self.code.setText(code)
             self._show()
-            self._editors.canvas.announced.emit(name_of_colour(code))
+            self._editors.canvas.news.announced.emit(name_of_colour(code))
             if is_last:
                 self._editors.close()
 

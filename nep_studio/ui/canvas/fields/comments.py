@@ -16,8 +16,7 @@ from nep_studio.ui.words import tr
 from .field_edit import editor_font, editor_scale
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
-    from nep_studio.ui.canvas.view import PageView
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 WIDTH, HEIGHT = 220.0, 110.0
@@ -91,10 +90,10 @@ class Corner(QWidget):
 class CommentBubble(QFrame):
     """The comment of one block; what is written is in the block at once."""
 
-    def __init__(self, canvas: Canvas, block: str, ended: Callable[[], None]) -> None:
-        super().__init__(canvas.viewport())
+    def __init__(self, canvas: CanvasHost, block: str, ended: Callable[[], None]) -> None:
+        super().__init__(canvas.area.viewport())
         self._canvas, self.block = canvas, block
-        theme = canvas.theme
+        theme = canvas.look.theme
         self.setObjectName("note")
         ink = theme.colour("note_text").name()
         self.setStyleSheet(
@@ -103,7 +102,7 @@ class CommentBubble(QFrame):
             f"#note QPlainTextEdit {{ background: transparent; border: none; color: {ink}; }}"
         )
         direction = Qt.LayoutDirection
-        is_mirrored = canvas.measures.is_mirrored
+        is_mirrored = canvas.look.measures.is_mirrored
         self.setLayoutDirection(direction.RightToLeft if is_mirrored else direction.LeftToRight)
         self.text = NoteText(self, ended)
         said = sentence(canvas.editor.project, canvas.editor.language, block)
@@ -131,13 +130,13 @@ class CommentBubble(QFrame):
             return
         canvas, scale = self._canvas, editor_scale(self._canvas)
         size = QSize(round(self._size[0] * scale), round(self._size[1] * scale))
-        gap = _GAP * canvas.camera.scale
-        rect = canvas.camera.view_rect(placed.rect)
-        is_mirrored = canvas.measures.is_mirrored
+        gap = _GAP * canvas.sight.camera.scale
+        rect = canvas.sight.camera.view_rect(placed.rect)
+        is_mirrored = canvas.look.measures.is_mirrored
         x = rect.left() - gap - size.width() if is_mirrored else rect.right() + gap
         self.text.setFont(editor_font(canvas))
         self.setGeometry(round(x), round(rect.top()), size.width(), size.height())
-        side = round(14 * canvas.measures.unit)
+        side = round(14 * canvas.look.measures.unit)
         corner = 2 if is_mirrored else size.width() - side - 2
         self.corner.setGeometry(corner, size.height() - side - 2, side, side)
         self.corner.raise_()
@@ -154,13 +153,13 @@ class CommentBubble(QFrame):
 
     def _on_pulled(self, by: QPoint) -> None:
         scale = editor_scale(self._canvas)
-        sign = -1 if self._canvas.measures.is_mirrored else 1
+        sign = -1 if self._canvas.look.measures.is_mirrored else 1
         self._size = (
             max(SMALLEST_WIDTH, self._size[0] + sign * by.x() / scale),
             max(SMALLEST_HEIGHT, self._size[1] + by.y() / scale),
         )
         self.follow()
-        self._canvas.viewport().update()
+        self._canvas.area.viewport().update()
 
     def _on_sized(self) -> None:
         editor, (width, height) = self._canvas.editor, self._size
@@ -175,14 +174,11 @@ class CommentBubble(QFrame):
 class Comments(QObject):
     """Opens and closes the bubble, and draws the line from it to its block."""
 
-    def __init__(self, canvas: Canvas) -> None:
-        super().__init__(canvas)
+    def __init__(self, canvas: CanvasHost) -> None:
+        super().__init__(canvas.area)
         self._canvas = canvas
         self.bubble: CommentBubble | None = None
-        canvas.overlays.append(self)
-        canvas.view_changed.connect(self._follow)
-        canvas.layout_changed.connect(self._follow)
-        canvas.page_changed.connect(self.close)
+        canvas.news.page_changed.connect(self.close)
 
     def open(self, block: str) -> None:
         """Show the comment of a block, to read and to write."""
@@ -190,35 +186,41 @@ class Comments(QObject):
         if self._canvas.page_layout.placed(block) is None:
             return
         self.bubble = CommentBubble(self._canvas, block, self.close)
+        self._canvas.layers.show_overlay(self)
+        for signal in (self._canvas.news.view_changed, self._canvas.news.layout_changed):
+            signal.connect(self._follow)
         self.bubble.show_bubble()
-        self._canvas.viewport().update()
+        self._canvas.area.viewport().update()
 
     def close(self) -> None:
         """Keep what was written, and take the bubble away."""
         closing, self.bubble = self.bubble, None
         if closing is not None:
             closing.dispose()
+            self._canvas.layers.show_overlay(self, is_shown=False)
+            for signal in (self._canvas.news.view_changed, self._canvas.news.layout_changed):
+                signal.disconnect(self._follow)
             self._canvas.editor.history.seal()
-            self._canvas.viewport().update()
-            self._canvas.setFocus(Qt.FocusReason.OtherFocusReason)
+            self._canvas.area.viewport().update()
+            self._canvas.area.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the line from the bubble to its block."""
         if self.bubble is None:
             return
         placed = view.page_layout.placed(self.bubble.block)
         if placed is None:
             return
-        is_mirrored = view.measures.is_mirrored
+        is_mirrored = view.look.measures.is_mirrored
         geometry = self.bubble.geometry()
-        row = min(placed.box.height, view.measures.row_height) / 2
+        row = min(placed.box.height, view.look.measures.row_height) / 2
         start = QPointF(placed.x + (0 if is_mirrored else placed.box.width), placed.y + row)
         side = geometry.right() if is_mirrored else geometry.left()
-        end = view.to_page(QPointF(side, geometry.top() + view.measures.line))
-        pixel = 1 / view.camera.scale
-        painter.setPen(QPen(view.theme.colour("note_text"), 2 * pixel, Qt.PenStyle.DotLine))
+        end = view.sight.to_page(QPointF(side, geometry.top() + view.look.measures.line))
+        pixel = 1 / view.sight.camera.scale
+        painter.setPen(QPen(view.look.theme.colour("note_text"), 2 * pixel, Qt.PenStyle.DotLine))
         painter.drawLine(start, end)
-        painter.setBrush(view.theme.colour("note_text"))
+        painter.setBrush(view.look.theme.colour("note_text"))
         painter.drawEllipse(start, 3 * pixel, 3 * pixel)
 
     def _follow(self) -> None:

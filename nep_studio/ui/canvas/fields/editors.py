@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, cast
 
 from PySide6.QtCore import QEvent, QObject
@@ -20,9 +19,7 @@ from .angle import AnglePopup
 from .choice import ChoicePopup, StatePopup
 from .colour import ColourPopup
 from .comments import Comments
-from .date import DatePopup
 from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
-from .file import FilePopup
 from .line_editor import LineEditor, LinesEditor
 from .naming import RobotPopup, VariablePopup
 from .number import DurationPopup, SliderPopup
@@ -30,7 +27,7 @@ from .popup import FieldRing, give_back_focus
 from .settings import SettingsPopup
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 # What the buttons inside blocks do: add and remove parts, unfold.
@@ -39,12 +36,12 @@ _BESIDE = 40.0
 """How far to the side of its block a part's blocks are put when the part goes."""
 
 
-def add(canvas: Canvas, block: str, group: str) -> str:
+def add(canvas: CanvasHost, block: str, group: str) -> str:
     """Add a part at the end; gives the key of its first field, where there is one."""
     made: list[int] = []
     if not canvas.attempt(lambda: made.append(add_part(canvas.editor, block, group))):
         return ""
-    canvas.announced.emit(tr("Added"))
+    canvas.news.announced.emit(tr("Added"))
     definition = canvas.editor.language.definitions[canvas.editor.project.blocks[block].type]
     keys = (
         f"{name}.{made[0]}"
@@ -54,24 +51,24 @@ def add(canvas: Canvas, block: str, group: str) -> str:
     return next(keys, "")
 
 
-def remove(canvas: Canvas, block: str, group: str, number: int) -> None:
+def remove(canvas: CanvasHost, block: str, group: str, number: int) -> None:
     """Remove a part; blocks in it are put beside the block."""
     placed = canvas.page_layout.placed(block)
-    side = _BESIDE * (-1 if canvas.measures.is_mirrored else 1)
+    side = _BESIDE * (-1 if canvas.look.measures.is_mirrored else 1)
     beside = None
     if placed is not None:
-        edge = placed.x if canvas.measures.is_mirrored else placed.x + placed.box.width
+        edge = placed.x if canvas.look.measures.is_mirrored else placed.x + placed.box.width
         beside = (edge + side, placed.y)
     if canvas.attempt(lambda: remove_part(canvas.editor, block, group, number, beside)):
-        canvas.announced.emit(tr("Removed"))
+        canvas.news.announced.emit(tr("Removed"))
 
 
-def expand(canvas: Canvas, block: str) -> None:
+def expand(canvas: CanvasHost, block: str) -> None:
     """Show a collapsed block again."""
     canvas.attempt(lambda: set_collapsed(canvas.editor, [block], False))
 
 
-def move_part_of(canvas: Canvas, block: str, key: str, *, down: bool) -> str:
+def move_part_of(canvas: CanvasHost, block: str, key: str, *, down: bool) -> str:
     """Move the part that a slot is in; gives the slot's key in its new place, or nothing."""
     name, number = split_slot(key)
     there = canvas.editor.project.blocks[block]
@@ -82,7 +79,7 @@ def move_part_of(canvas: Canvas, block: str, key: str, *, down: bool) -> str:
         return ""
     if not canvas.attempt(lambda: move_part(canvas.editor, block, group, number, to)):
         return ""
-    canvas.announced.emit(tr("Moved to place {n}", n=to))
+    canvas.news.announced.emit(tr("Moved to place {n}", n=to))
     return f"{name}.{to}"
 
 
@@ -113,9 +110,6 @@ def hint_of(slot: Slot) -> str:
 
 # The order in which the fields of a stack follow each other: as they are read.
 
-_SKIPPED = frozenset({"checkbox"})
-"""Kinds without an editor: pressing them changes them."""
-
 Place = tuple[str, str]
 """A block and the key of one of its fields."""
 
@@ -138,7 +132,7 @@ def fields_within(project: Project, language: Language, root: str) -> Iterator[P
                 found.append((block.inputs[slot_key], ""))
             elif slot.kind.name == "body":
                 found += [(child, "") for child in block.bodies.get(slot_key, ())]
-            elif slot.kind.typed and slot.kind.name not in _SKIPPED:
+            elif slot.kind.typed and not slot.kind.is_pressed:
                 found.append((block_id, slot_key))
         waiting += reversed(found)
 
@@ -179,7 +173,7 @@ class OpenEditor(Protocol):
         """Go away; the value is kept or restored by others."""
 
 
-_EDITORS: dict[str, type] = {
+EDITORS: dict[str, type] = {
     "lines": LinesEditor,
     "choice": ChoicePopup,
     "gesture": ChoicePopup,
@@ -190,8 +184,6 @@ _EDITORS: dict[str, type] = {
     "angle": AnglePopup,
     "slider": SliderPopup,
     "duration": DurationPopup,
-    "date": DatePopup,
-    "file": FilePopup,
     "settings": SettingsPopup,
 }
 """The editors of the kinds of slot; the others are typed in a line."""
@@ -200,25 +192,21 @@ MOST_RECENT_COLOURS = 6
 
 
 class FieldEditors(QObject):
-    """The editors of one canvas; one at most is open.
+    """The editors of one canvas; one at most is open."""
 
-    ``project_folder`` is where the project's file is: paths inside it are kept short.
-    """
-
-    def __init__(self, canvas: Canvas) -> None:
-        super().__init__(canvas)
+    def __init__(self, canvas: CanvasHost) -> None:
+        super().__init__(canvas.area)
         self.canvas = canvas
-        self.project_folder: Path | None = None
         self.recent_colours: list[str] = []
         self.comments = Comments(canvas)
         self._open: OpenEditor | None = None
         self._left_comment = ""
         """The block whose comment the press has closed: its button does not open it again."""
-        canvas.overlays.append(FieldRing(canvas))
-        canvas.view_changed.connect(self._follow)
-        canvas.layout_changed.connect(self._follow)
-        canvas.page_changed.connect(self.close)
-        canvas.viewport().installEventFilter(self)
+        self._ring = FieldRing(canvas)
+        canvas.news.view_changed.connect(self._follow)
+        canvas.news.layout_changed.connect(self._follow)
+        canvas.news.page_changed.connect(self.close)
+        canvas.area.viewport().installEventFilter(self)
 
     @property
     def place(self) -> Place | None:
@@ -236,15 +224,16 @@ class FieldEditors(QObject):
         edit = self.edit_of(block, key)
         if edit is None:
             return False
-        if edit.slot.kind.name == "checkbox":
+        if edit.slot.kind.is_pressed:
             return self._toggle(edit)
         rect = page_rect_of(self.canvas, block, key)
         if rect is None:
             return False
-        self.canvas.show_rect(rect)
+        self.canvas.sight.show_rect(rect)
         self._open = self._new(edit)
         self._open.show_editor()
-        self.canvas.update_page(rect.grown(4.0))
+        self.canvas.layers.show_overlay(self._ring)
+        self.canvas.layers.update_page(rect.grown(4.0))
         return True
 
     def edit_of(self, block: str, key: str) -> Editing | None:
@@ -260,6 +249,10 @@ class FieldEditors(QObject):
         if slot.kind.name == "parameter":
             return ParameterEdit(editor, block, key, slot)
         return FieldEdit(editor, block, key, slot) if slot.kind.typed else None
+
+    def open_comment(self, block: str) -> None:
+        """Show the comment of a block, to read and to write."""
+        self.comments.open(block)
 
     def press_button(self, block: str, action: str, group: str, number: int) -> None:
         """Do what a button inside a block says: add, remove, expand, comment."""
@@ -328,7 +321,7 @@ class FieldEditors(QObject):
 
     def _new(self, edit: Editing) -> OpenEditor:
         kind, title = edit.slot.kind.name, title_of(edit.slot)
-        made = _EDITORS.get(kind, LineEditor)
+        made = EDITORS.get(kind, LineEditor)
         language, block = self.canvas.editor.language, self.canvas.editor.project.blocks[edit.block]
         is_open_choice = kind in ("choice", "gesture")
         if is_open_choice and not language.choices_of(edit.slot, block, edit.key):
@@ -338,22 +331,23 @@ class FieldEditors(QObject):
     def _toggle(self, edit: Editing) -> bool:
         edit.set(not edit.value)
         edit.end()
-        self.canvas.announced.emit(tr("on") if edit.value else tr("off"))
+        self.canvas.news.announced.emit(tr("on") if edit.value else tr("off"))
         return True
 
     def _end(self, *, restore: bool) -> None:
         closing, self._open = self._open, None
         assert closing is not None
+        self.canvas.layers.show_overlay(self._ring, is_shown=False)
         if restore:
             closing.edit.restore()
         self.canvas.attempt(closing.edit.end)
         if not restore and closing.edit.slot.kind.name == "colour":
             self._remember(str(closing.edit.value))
-        give_back_focus(self.canvas, cast(QWidget, closing))
+        give_back_focus(self.canvas.area, cast(QWidget, closing))
         closing.dispose()
         rect = page_rect_of(self.canvas, closing.edit.block, closing.edit.key)
         if rect is not None:
-            self.canvas.update_page(rect.grown(4.0))
+            self.canvas.layers.update_page(rect.grown(4.0))
 
     def _remember(self, colour: str) -> None:
         recent = [c for c in self.recent_colours if c != colour]
@@ -369,7 +363,7 @@ class FieldEditors(QObject):
             self._open.follow()
 
     def _tell_tip(self, event: QHelpEvent) -> bool:
-        hit = self.canvas.hit(event.pos())
+        hit = self.canvas.sight.hit(event.pos())
         editor = self.canvas.editor
         block = editor.project.blocks.get(hit.block) if hit is not None else None
         definition = editor.language.definitions.get(block.type) if block is not None else None
@@ -378,7 +372,9 @@ class FieldEditors(QObject):
             return False
         slot = definition.slot(hit.piece.key, block.groups)
         words = hint_of(slot) if slot is not None else _BUTTON_TIPS.get(hit.piece.kind, "")
-        QToolTip.showText(event.globalPos(), tr(words) if words else "", self.canvas.viewport())
+        QToolTip.showText(
+            event.globalPos(), tr(words) if words else "", self.canvas.area.viewport()
+        )
         return True
 
 

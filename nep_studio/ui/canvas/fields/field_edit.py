@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 from faults import Text, Words
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import ChangeProcedure, SetField
+from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Parameter, Procedure
 from nep_studio.blocks.sentence import Slot
@@ -23,7 +24,7 @@ from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 class Editing(Protocol):
@@ -64,10 +65,6 @@ class FieldEdit:
             return None
         return self._editor.language.definitions[block.type].value(block, self.key)
 
-    def why_not(self, value: FieldValue) -> Text | None:
-        """Why the field cannot hold a value, or nothing."""
-        return self._editor.why_not(SetField(self.block, self.key, value))
-
     def set(self, value: FieldValue) -> Text | None:
         """Hold another value; gives why it does not fit, and then nothing is changed."""
         if self.block not in self._editor.project.blocks:
@@ -75,10 +72,11 @@ class FieldEdit:
         now = self.value
         if now == value and type(now) is type(value):
             return None
-        reason = self.why_not(value)
-        if not reason:
+        try:
             self._editor.apply(SetField(self.block, self.key, value))
-        return reason
+        except EditRefused as refused:
+            return refused.sentence
+        return None
 
     def restore(self) -> None:
         """Take back what this editing changed, as if it had never been."""
@@ -187,7 +185,7 @@ SMALLEST_EDITOR_SCALE = 0.75
 """Zoomed out further, an editor is larger than its field: what is typed must be readable."""
 
 
-def piece_of(canvas: Canvas, block: str, key: str) -> tuple[Placed, Piece] | None:
+def piece_of(canvas: CanvasHost, block: str, key: str) -> tuple[Placed, Piece] | None:
     """A block on the page and the piece that shows one of its fields, or None."""
     placed = canvas.page_layout.placed(block)
     if placed is None:
@@ -197,7 +195,7 @@ def piece_of(canvas: Canvas, block: str, key: str) -> tuple[Placed, Piece] | Non
     return (placed, piece) if piece is not None else None
 
 
-def page_rect_of(canvas: Canvas, block: str, key: str) -> Rect | None:
+def page_rect_of(canvas: CanvasHost, block: str, key: str) -> Rect | None:
     """Where a field is on the page, or None when it cannot be seen there."""
     found = piece_of(canvas, block, key)
     if found is None:
@@ -206,20 +204,20 @@ def page_rect_of(canvas: Canvas, block: str, key: str) -> Rect | None:
     return Rect(placed.x + piece.x, placed.y + piece.y, piece.width, piece.height)
 
 
-def view_rect_of(canvas: Canvas, block: str, key: str) -> QRectF | None:
+def view_rect_of(canvas: CanvasHost, block: str, key: str) -> QRectF | None:
     """Where a field is in the viewport, or None."""
     rect = page_rect_of(canvas, block, key)
-    return canvas.camera.view_rect(rect) if rect is not None else None
+    return canvas.sight.camera.view_rect(rect) if rect is not None else None
 
 
-def editor_scale(canvas: Canvas) -> float:
+def editor_scale(canvas: CanvasHost) -> float:
     """How large an editor is drawn."""
-    return max(canvas.camera.scale, SMALLEST_EDITOR_SCALE)
+    return max(canvas.sight.camera.scale, SMALLEST_EDITOR_SCALE)
 
 
-def editor_font(canvas: Canvas) -> QFont:
+def editor_font(canvas: CanvasHost) -> QFont:
     """The font of the fields at the size in which an editor shows it."""
-    font = QFont(canvas.block_font)
+    font = QFont(canvas.look.block_font)
     font.setPointSizeF(font.pointSizeF() * editor_scale(canvas))
     return font
 
@@ -240,10 +238,10 @@ def beside(field: QRect, size: QSize, room: QRect, *, is_mirrored: bool, gap: in
 _RADII = {"round": 11.0, "square": 4.0, "bracket": 4.0}
 
 
-def line_style(canvas: Canvas, shape: str, *, is_wrong: bool) -> str:
+def line_style(canvas: CanvasHost, shape: str, *, is_wrong: bool) -> str:
     """The style of a line or a text that lies over a field."""
-    theme = canvas.theme
-    scale = canvas.measures.unit * editor_scale(canvas)
+    theme = canvas.look.theme
+    scale = canvas.look.measures.unit * editor_scale(canvas)
     width = max(2, round(2.4 * scale))
     border = theme.colour("error" if is_wrong else "focus").name()
     return (
@@ -257,9 +255,9 @@ def line_style(canvas: Canvas, shape: str, *, is_wrong: bool) -> str:
     )
 
 
-def note_style(canvas: Canvas) -> str:
+def note_style(canvas: CanvasHost) -> str:
     """The style of the small text beside a number: what it comes to."""
-    theme = canvas.theme
+    theme = canvas.look.theme
     return (
         f"QLabel {{ background: {theme.colour('tooltip').name()};"
         f" color: {theme.colour('tooltip_text').name()};"

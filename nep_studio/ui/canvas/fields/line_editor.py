@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Callable
-from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
@@ -13,8 +9,13 @@ from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
 from PySide6.QtWidgets import QLabel, QLineEdit, QPlainTextEdit
 
-from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate, number_of
-from nep_studio.blocks.slots import FieldValue
+from nep_studio.blocks.arithmetic import (
+    ArithmeticRefused,
+    calculate,
+    is_number_text,
+    number_of,
+    number_text,
+)
 from nep_studio.ui.words import tr
 
 from .field_edit import (
@@ -32,41 +33,12 @@ if TYPE_CHECKING:
     from .editors import FieldEditors
 
 
-# Numbers as people type them into a field, and one step up or down from them.
-
-_PLAIN = re.compile(r"[+-]?(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)")
-
-
-def is_number(text: str) -> bool:
-    """Whether a text is one number, not arithmetic."""
-    return _PLAIN.fullmatch(text.strip()) is not None
-
-
-def typed_number(text: str) -> int | float | str:
-    """The number that a text is; what is arithmetic (or nothing) stays a text.
-
-    Both a point and a comma are taken for the decimal sign.
-    """
-    plain = text.strip().replace("−", "-")  # noqa: RUF001 the minus sign that some keyboards give
-    if not is_number(plain):
-        return text.strip()
-    plain = plain.replace(",", ".")
-    number = float(plain)
-    if "." in plain and not number.is_integer():
-        return number
-    return int(Decimal(plain)) if math.isfinite(number) else number
-
-
-def number_text(value: object) -> str:
-    """A number as a person would write it."""
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        return str(int(value))
-    return "" if value is None else str(value)
+# What arithmetic comes to, and one step up or down from a number.
 
 
 def result_text(text: str) -> str:
     """What arithmetic comes to, as "= 2.094"; empty for a plain number, or for no arithmetic."""
-    if is_number(text) or not text.strip():
+    if is_number_text(text) or not text.strip():
         return ""
     try:
         value = calculate(text).value
@@ -85,7 +57,6 @@ def stepped(value: object, steps: int) -> int | float:
     return int(moved) if moved == moved.to_integral_value() else float(moved)
 
 
-NUMBERS = frozenset({"number", "angle", "slider", "duration"})
 _KEPT_FOCUS = (
     Qt.FocusReason.PopupFocusReason,
     Qt.FocusReason.ActiveWindowFocusReason,
@@ -93,42 +64,20 @@ _KEPT_FOCUS = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """How what is typed becomes a value, and a value text."""
-
-    read: Callable[[str], FieldValue]
-    write: Callable[[object], str]
-    is_number: bool = False
-
-
-def reading_of(kind: str) -> Reading:
-    """How fields of a kind are read and written."""
-    if kind in NUMBERS:
-        return Reading(typed_number, number_text, is_number=True)
-    if kind == "any":
-        return Reading(_number_or_text, number_text)
-    return Reading(str, lambda value: "" if value is None else str(value))
-
-
-def _number_or_text(text: str) -> FieldValue:
-    return typed_number(text) if is_number(text) else text
-
-
 class LineEditor(QLineEdit):
     """A line over a field; sets the field at each key."""
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
-        super().__init__(editors.canvas.viewport())
+        super().__init__(editors.canvas.area.viewport())
         self.edit, self._editors = edit, editors
         self._look: tuple[float, bool] | None = None
-        self._reading = reading_of(edit.slot.kind.name)
-        self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
-        self.result = QLabel(editors.canvas.viewport())
+        self._kind = edit.slot.kind
+        self.reason = ReasonBubble(editors.canvas.look.theme, editors.canvas.area.viewport())
+        self.result = QLabel(editors.canvas.area.viewport())
         self.result.setStyleSheet(note_style(editors.canvas))
         self.result.hide()
         self.setAccessibleName(title)
-        self.setText(self._reading.write(edit.value))
+        self.setText(self._kind.write(edit.value))
         self.selectAll()
         self.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.textEdited.connect(self._on_edited)
@@ -141,12 +90,12 @@ class LineEditor(QLineEdit):
             return
         canvas = self._editors.canvas
         self._dress()
-        unit = canvas.measures.unit * editor_scale(canvas)
+        unit = canvas.look.measures.unit * editor_scale(canvas)
         text = self.fontMetrics().horizontalAdvance(self.text()) + 17 * unit
-        room = canvas.viewport().rect()
+        room = canvas.area.viewport().rect()
         width = round(min(max(rect.width(), text, 40 * unit), room.width()))
-        height = round(canvas.measures.field_height * editor_scale(canvas))
-        left = rect.right() - width if canvas.measures.is_mirrored else rect.left()
+        height = round(canvas.look.measures.field_height * editor_scale(canvas))
+        left = rect.right() - width if canvas.look.measures.is_mirrored else rect.left()
         left = max(0.0, min(left, room.width() - width))
         self.setGeometry(round(left), round(rect.center().y() - height / 2), width, height)
         self._place_notes()
@@ -158,7 +107,7 @@ class LineEditor(QLineEdit):
         if look != self._look:
             self._look = look
             self.setFont(editor_font(canvas))
-            self.setStyleSheet(line_style(canvas, self.edit.slot.kind.shape, is_wrong=look[1]))
+            self.setStyleSheet(line_style(canvas, self._kind.shape, is_wrong=look[1]))
 
     def show_editor(self) -> None:
         """Begin to edit."""
@@ -200,24 +149,24 @@ class LineEditor(QLineEdit):
         if modifiers & Qt.KeyboardModifier.AltModifier:
             self._editors.move_item(sign < 0)
             return
-        if not (self._reading.is_number or isinstance(self.edit.value, int | float)):
+        if not (self._kind.is_number or isinstance(self.edit.value, int | float)):
             return
         step = 10 if modifiers & Qt.KeyboardModifier.ShiftModifier else 1
         self.setText(number_text(stepped(self.edit.value, sign * step)))
         self._on_edited(self.text())
 
     def _on_edited(self, text: str) -> None:
-        reason = self.edit.set(self._reading.read(text))
+        reason = self.edit.set(self._kind.read(text))
         if (words := tr(reason or "")) != self.reason.text:
             self.reason.tell(reason)
             self.setAccessibleDescription(words)
             if words:
-                self._editors.canvas.announced.emit(words)
+                self._editors.canvas.news.announced.emit(words)
         self._tell_result()
         self.follow()
 
     def _tell_result(self) -> None:
-        shown = result_text(self.text()) if self._reading.is_number else ""
+        shown = result_text(self.text()) if self._kind.is_number else ""
         self.result.setText(shown)
         self.result.setVisible(bool(shown))
         if shown:
@@ -225,7 +174,7 @@ class LineEditor(QLineEdit):
 
     def _place_notes(self) -> None:
         canvas, field = self._editors.canvas, self.geometry()
-        is_mirrored = canvas.measures.is_mirrored
+        is_mirrored = canvas.look.measures.is_mirrored
         if not self.result.isHidden():
             self.result.adjustSize()
             size = self.result.size()
@@ -234,7 +183,7 @@ class LineEditor(QLineEdit):
             self.result.move(left, top)
             self.result.raise_()
         if self.reason.text:
-            room = QRect(canvas.viewport().rect())
+            room = QRect(canvas.area.viewport().rect())
             corner = beside(field, self.reason.sizeHint(), room, is_mirrored=is_mirrored)
             self.reason.resize(self.reason.sizeHint())
             self.reason.move(corner)
@@ -250,10 +199,10 @@ class LinesEditor(QPlainTextEdit):
     """Enter begins a new line; Ctrl+Enter, Tab or a press elsewhere ends."""
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
-        super().__init__(editors.canvas.viewport())
+        super().__init__(editors.canvas.area.viewport())
         self.edit, self._editors = edit, editors
         self._look: tuple[float, bool] | None = None
-        self.reason = ReasonBubble(editors.canvas.theme, editors.canvas.viewport())
+        self.reason = ReasonBubble(editors.canvas.look.theme, editors.canvas.area.viewport())
         self.setAccessibleName(title)
         self.setPlainText(str(edit.value or ""))
         self.selectAll()
@@ -273,18 +222,18 @@ class LinesEditor(QPlainTextEdit):
             self.setFont(editor_font(canvas))
             self.setStyleSheet(line_style(canvas, "square", is_wrong=look[1]))
         line = self.fontMetrics().lineSpacing()
-        unit = canvas.measures.unit * editor_scale(canvas)
-        room = canvas.viewport().rect()
+        unit = canvas.look.measures.unit * editor_scale(canvas)
+        room = canvas.area.viewport().rect()
         width = round(min(max(rect.width(), 240 * unit), room.width()))
         rows = min(max(round(self.document().size().height()), _FEWEST_LINES), _MOST_LINES)
         height = round(rows * line + 16 * unit)
-        left = rect.right() - width if canvas.measures.is_mirrored else rect.left()
+        left = rect.right() - width if canvas.look.measures.is_mirrored else rect.left()
         top = max(0.0, min(rect.top(), room.height() - height))
         left = max(0.0, min(left, room.width() - width))
         self.setGeometry(round(left), round(top), width, height)
         if self.reason.text:
             self.reason.resize(self.reason.sizeHint())
-            mirrored = canvas.measures.is_mirrored
+            mirrored = canvas.look.measures.is_mirrored
             corner = beside(self.geometry(), self.reason.size(), QRect(room), is_mirrored=mirrored)
             self.reason.move(corner)
             self.reason.raise_()
@@ -328,5 +277,5 @@ class LinesEditor(QPlainTextEdit):
             self.reason.tell(reason)
             self.setAccessibleDescription(words)
             if words:
-                self._editors.canvas.announced.emit(words)
+                self._editors.canvas.news.announced.emit(words)
         self.follow()

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from nep_studio.blocks.deployment import ROBOT_BLOCK
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.project import RemoveVariable, RenameVariable
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.finding import why_not_rename_robot
 from nep_studio.blocks.places import InStack, variable_uses
+from nep_studio.blocks.program import ROBOT_BLOCK
 from nep_studio.ui.words import count_words, tr
 
 from .choice import ChoicePopup, Option

@@ -9,11 +9,16 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton, QSlider
 from PySide6.QtWidgets import QWidget as Widget
 
-from nep_studio.blocks.arithmetic import ArithmeticRefused, number_of
+from nep_studio.blocks.arithmetic import (
+    ArithmeticRefused,
+    number_of,
+    number_text,
+    typed_number,
+)
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing
-from .line_editor import number_text, result_text, stepped, typed_number
+from .line_editor import result_text, stepped
 from .popup import FieldPopup
 
 if TYPE_CHECKING:
@@ -80,7 +85,7 @@ class NumberPopup(FieldPopup):
         slot = self.edit.slot
         if slot.low is not None and slot.high is not None:
             return min(max(value, slot.low), slot.high)
-        return max(value, 0.0) if slot.kind.name == "duration" else value
+        return max(value, slot.kind.lowest)
 
     def _on_typed(self, text: str) -> None:
         self.result.setText(result_text(text))

@@ -25,8 +25,7 @@ from nep_studio.ui.words import tr
 from .field_edit import Editing, ReasonBubble, beside, piece_of, view_rect_of
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
-    from nep_studio.ui.canvas.view import PageView
+    from nep_studio.ui.canvas.host import CanvasHost
 
     from .editors import FieldEditors
 
@@ -35,16 +34,16 @@ class FieldPopup(QFrame):
     """A popup: a press elsewhere, Enter or Tab keep the value, Esc restores it."""
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
-        super().__init__(editors.canvas, Qt.WindowType.Popup)
+        super().__init__(editors.canvas.area, Qt.WindowType.Popup)
         self.edit, self._editors = edit, editors
         canvas = editors.canvas
-        is_mirrored = canvas.measures.is_mirrored
+        is_mirrored = canvas.look.measures.is_mirrored
         direction = Qt.LayoutDirection
         self.setLayoutDirection(direction.RightToLeft if is_mirrored else direction.LeftToRight)
         self.setAccessibleName(title)
         self.setObjectName("field_popup")
         self.line = self.fontMetrics().height()
-        theme = canvas.theme
+        theme = canvas.look.theme
         self.setStyleSheet(
             f"#field_popup {{ background: {theme.colour('menu').name()};"
             f" color: {theme.colour('text').name()};"
@@ -75,12 +74,12 @@ class FieldPopup(QFrame):
         if rect is None:
             return
         field = QRect(rect.toAlignedRect())
-        field.moveTopLeft(canvas.viewport().mapToGlobal(field.topLeft()))
+        field.moveTopLeft(canvas.area.viewport().mapToGlobal(field.topLeft()))
         self.ensurePolished()
         self.column.activate()
         self.adjustSize()
-        mirrored = canvas.measures.is_mirrored
-        self.move(beside(field, self.size(), room_around(canvas), is_mirrored=mirrored))
+        mirrored = canvas.look.measures.is_mirrored
+        self.move(beside(field, self.size(), room_around(canvas.area), is_mirrored=mirrored))
 
     def dispose(self) -> None:
         """Go away."""
@@ -117,7 +116,7 @@ class FieldPopup(QFrame):
             self.reason.tell(reason)
             self.adjustSize()
             if words:
-                self._editors.canvas.announced.emit(words)
+                self._editors.canvas.news.announced.emit(words)
         return not reason
 
 
@@ -206,19 +205,21 @@ def give_back_focus(canvas: QWidget, closing: QWidget) -> None:
 class FieldRing:
     """Shows which field is being edited."""
 
-    def __init__(self, canvas: Canvas) -> None:
+    def __init__(self, canvas: CanvasHost) -> None:
         self._canvas = canvas
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the line around the field that is edited, in its shape."""
         place = self._canvas.fields.place
         found = piece_of(self._canvas, *place) if place is not None else None
         if found is None:
             return
         placed, piece = found
-        painter.setPen(QPen(view.theme.colour("focus"), 3 * view.measures.unit))
+        painter.setPen(QPen(view.look.theme.colour("focus"), 3 * view.look.measures.unit))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         x, y = placed.x + piece.x, placed.y + piece.y
         painter.translate(x, y)
-        painter.drawPath(view.block_painter.outlines.slot(piece.shape, piece.width, piece.height))
+        painter.drawPath(
+            view.look.block_painter.outlines.slot(piece.shape, piece.width, piece.height)
+        )
         painter.translate(-x, -y)

@@ -21,18 +21,17 @@ from PySide6.QtWidgets import (
 from nep_core.errors import ManifestError, NodeNotFound, ParameterError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import NodeCatalog, Parameter
-from nep_studio.blocks.slots import Setting
+from nep_studio.blocks.slots import Setting, kind_of
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing
-from .line_editor import reading_of
 from .popup import FieldPopup
 
 if TYPE_CHECKING:
     from .editors import FieldEditors
 
-_ANY = reading_of("any")
+_ANY = kind_of("any")
 
 
 def parameters_of(node: str) -> dict[str, Parameter]:
@@ -58,7 +57,7 @@ class SettingsPopup(FieldPopup):
         self.new_name = QLineEdit(self)
         self.new_name.setPlaceholderText(tr("another setting"))
         self.new_name.setAccessibleName(tr("Name of another setting"))
-        self.add = QPushButton(icon("plus", editors.canvas.theme), tr("Add"), self)
+        self.add = QPushButton(icon("plus", editors.canvas.look.theme), tr("Add"), self)
         self.add.clicked.connect(self._on_add)
         row = QHBoxLayout()
         row.addWidget(self.new_name, 1)

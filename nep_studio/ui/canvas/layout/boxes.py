@@ -14,6 +14,8 @@ from typing import Literal
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QStaticText
 
+from nep_studio.blocks.slots import Mark
+
 PieceKind = Literal["words", "field", "socket", "button"]
 Outline = Literal["statement", "hat", "cap", "round", "square", "hexagon", "bracket", "pill", "gap"]
 
@@ -25,7 +27,8 @@ class Piece:
     ``key`` is the slot of a field or socket, and the group of a button; ``shape`` how a field or
     socket is drawn; ``kind`` of slot or action of button ("add", "remove", "expand", "comment");
     ``hint`` says faintly what goes into an empty place; ``amount`` is how full a slider is (0 to
-    1), the degrees of an angle, 1 for a tick.
+    1), the degrees of an angle, 1 for a tick; ``mark`` is what is drawn in a field, and one that
+    ``opens`` has an arrow.
     """
 
     piece: PieceKind
@@ -40,6 +43,8 @@ class Piece:
     number: int = 0
     hint: str = ""
     amount: float = 0.0
+    mark: Mark = ""
+    opens: bool = False
 
     def holds(self, x: float, y: float) -> bool:
         """Whether a point of the block is on this piece."""

@@ -73,10 +73,13 @@ class Stacks(Mapping[str, Chain]):
 
     def near(self, rect: Rect) -> list[str]:
         """The stacks that touch a rectangle, all of them laid out."""
+        near = list(self.index.near(rect))
+        waiting = [stack_id for stack_id in near if stack_id in self._waiting]
+        if not waiting:
+            return near
         with paused_garbage_collection():
-            for stack_id in list(self.index.near(rect)):
-                if stack_id in self._waiting:
-                    self.lay_out(stack_id)
+            for stack_id in waiting:
+                self.lay_out(stack_id)
         return list(self.index.near(rect))
 
     def drop(self, stack_id: str) -> Chain | None:
@@ -308,6 +311,16 @@ class PageLayout:
         """The stacks of the page, each with its number: later ones lie over earlier ones."""
         stacks = self.project.pages.get(self.page, [])
         return {stack.id: number for number, stack in enumerate(stacks)}
+
+    def corners(self, ids: Iterable[str]) -> dict[str, tuple[float, float]]:
+        """Where chains that begin with these blocks lie on the page."""
+        corners = {}
+        for block in ids:
+            placed = self.placed(block)
+            if placed is not None:
+                right = placed.box.width if placed.box.is_mirrored else 0.0
+                corners[block] = placed.x + right, placed.y
+        return corners
 
     def near(self, rect: Rect) -> list[str]:
         """The stacks that touch a rectangle, the one on top last."""

@@ -8,17 +8,15 @@ from dataclasses import dataclass, field
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.sentence import Slot
+from nep_studio.blocks.slots import Kind
 
 from .boxes import Measures, Piece, Plug
 from .slot_style import (
-    LEADS,
     MOST_LINES,
-    OPENS,
     amount_of,
     hint_word,
     pill_shape,
     shown_text,
-    slot_shape,
 )
 
 # Flow the parts of a sentence into rows, as words flow into lines.
@@ -164,27 +162,29 @@ class Pieces:
 
     def slot(self, block: Block, slot: Slot, key: str) -> Piece:
         """The field of a slot, or the socket of one that takes blocks only."""
-        measures, kind = self._measures, slot.kind.name
-        if kind == "parameter":
+        measures, kind = self._measures, slot.kind
+        if kind.name == "parameter":
             return self._pill(slot, key)
-        shape = slot_shape(kind)
-        if not slot.kind.typed:
-            return self._socket(key, kind, shape)
+        if not kind.typed:
+            return self._socket(key, kind)
         text = shown_text(self._project, self._language, block, key, slot)
         value = self._language.definitions[block.type].value(block, key)
-        hint = "" if text or kind in ("colour", "checkbox") else hint_word(kind)
+        is_drawn = kind.mark in ("tick", "swatch")
+        hint = "" if text or is_drawn else hint_word(kind)
         text, width, rows = self._fitted(text, kind)
         width = max(width, measures.text_width(hint) * HINT_SIZE) + 2 * measures.field_pad
-        width += measures.line * (_ARROW * (kind in OPENS) + _LEAD * (kind in LEADS))
+        width += measures.line * (_ARROW * kind.opens + _LEAD * (kind.mark == "dial"))
         narrowest = measures.narrowest_field
-        if kind == "checkbox":
+        if kind.mark == "tick":
             width = narrowest = measures.field_height
-        elif kind == "slider":
+        elif kind.mark == "bar":
             narrowest = 2 * narrowest
         height = measures.field_height + (rows - 1) * measures.line
-        piece = Piece("field", 0, 0, max(width, narrowest), height, text, key, kind, shape)
+        width = max(width, narrowest)
+        piece = Piece("field", 0, 0, width, height, text, key, kind.name, kind.shape)
+        piece.opens, piece.mark = kind.opens, kind.mark
         piece.hint, piece.amount = hint, amount_of(slot, value)
-        if kind == "colour":
+        if kind.mark == "swatch":
             piece.text = str(value or "")
         return piece
 
@@ -210,10 +210,10 @@ class Pieces:
                 break
         return text, width
 
-    def _fitted(self, text: str, kind: str) -> tuple[str, float, int]:
+    def _fitted(self, text: str, kind: Kind) -> tuple[str, float, int]:
         """A text as its field can show it, how wide it is, and of how many lines."""
         widest = self._measures.widest_field
-        if kind != "lines" or "\n" not in text:
+        if not kind.has_lines or "\n" not in text:
             text, width = self.cut(text.replace("\n", " ⏎ "), widest)
             return text, width, 1
         lines = text.split("\n")
@@ -223,11 +223,11 @@ class Pieces:
         cut = [self.cut(line, widest) for line in shown]
         return "\n".join(line for line, _ in cut), max(width for _, width in cut), len(cut)
 
-    def _socket(self, key: str, kind: str, shape: str) -> Piece:
+    def _socket(self, key: str, kind: Kind) -> Piece:
         measures, hint = self._measures, hint_word(kind)
-        side = measures.line * _POINTED.get(shape, 0.4)
+        side = measures.line * _POINTED.get(kind.shape, 0.4)
         width = max(measures.socket, measures.text_width(hint) * HINT_SIZE + 2 * side)
-        piece = Piece("socket", 0, 0, width, measures.field_height, "", key, kind, shape)
+        piece = Piece("socket", 0, 0, width, measures.field_height, "", key, kind.name, kind.shape)
         piece.hint = hint
         return piece
 

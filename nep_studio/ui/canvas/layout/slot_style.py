@@ -11,45 +11,13 @@ from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.sentence import Group, Part, Slot
-from nep_studio.blocks.slots import KINDS, RESULT_SHAPES, FieldValue
+from nep_studio.blocks.slots import RESULT_SHAPES, FieldValue, Kind
 from nep_studio.ui.words import tr
 
 from .boxes import Outline
 
-OPENS = frozenset({"choice", "gesture", "robot", "variable", "state", "date", "colour", "settings"})
-"""The kinds of field that open something to choose from, and show an arrow."""
-
-LEADS = frozenset({"angle", "file"})
-"""The kinds of field with a small drawing before their text."""
-
-HINTS = {
-    "text": "text",
-    "lines": "text",
-    "line": "text",
-    "number": "number",
-    "angle": "angle",
-    "duration": "time",
-    "any": "value",
-    "state": "state",
-    "gesture": "gesture",
-    "robot": "robot",
-    "variable": "variable",
-    "choice": "choose",
-    "file": "file",
-    "date": "date",
-    "settings": "no settings",
-    "boolean": "yes or no?",
-    "list": "list",
-}
-"""What an empty place says of itself."""
-
 MOST_LINES = 3
 """So many lines of a long text are shown in its field."""
-
-
-def slot_shape(kind: str) -> Outline:
-    """The shape in which a slot of this kind is drawn."""
-    return cast(Outline, KINDS[kind].shape)
 
 
 def pill_shape(language: Language, slot: Slot) -> Outline:
@@ -83,11 +51,9 @@ def _said_units(parts: tuple[Part, ...]) -> frozenset[tuple[str, str]]:
     )
 
 
-def unit_of(kind: str) -> str:
+def unit_of(kind: Kind) -> str:
     """What a number means, shown where the sentence does not say it behind the field."""
-    if kind == "duration":
-        return " " + tr("s")  # seconds
-    return "°" if kind == "angle" else ""
+    return f" {tr(kind.unit)}" if kind.unit.isalpha() else kind.unit
 
 
 def says_unit(definition: Definition, slot_name: str, unit: str) -> bool:
@@ -96,27 +62,25 @@ def says_unit(definition: Definition, slot_name: str, unit: str) -> bool:
     return any(word.casefold().startswith(unit.strip()) for word in said)
 
 
-def hint_word(kind: str) -> str:
+def hint_word(kind: Kind) -> str:
     """What an empty place of this kind says of itself."""
-    word = HINTS.get(kind, "")
-    return tr(word) if word else ""
+    return tr(kind.hint) if kind.hint else ""
 
 
 def shown_text(project: Project, language: Language, block: Block, key: str, slot: Slot) -> str:
     """What a field shows, nothing when it is empty; a text of several lines keeps them."""
     value = language.definitions[block.type].value(block, key)
     text = _text(project, language, block, key, slot, value)
-    if slot.kind.name == "lines":
+    if slot.kind.has_lines:
         return text
     return text.replace("\n", " ⏎ ")
 
 
 def amount_of(slot: Slot, value: FieldValue | None) -> float:
     """How full a slider is, how far an angle is turned, 1 for a tick."""
-    kind = slot.kind.name
-    if kind == "checkbox":
+    if slot.kind.mark == "tick":
         return float(bool(value))
-    if kind not in ("slider", "angle"):
+    if slot.kind.mark not in ("dial", "bar"):
         return 0.0
     try:
         number = float(number_of(value))
@@ -136,7 +100,7 @@ def _text(
     value: FieldValue | None,
 ) -> str:
     kind = slot.kind.name
-    if kind in ("checkbox", "colour") or value is None or value == "":
+    if slot.kind.mark in ("tick", "swatch") or value is None or value == "":
         return ""
     if isinstance(value, dict):
         return ", ".join(f"{name} = {setting}" for name, setting in value.items())
@@ -145,9 +109,7 @@ def _text(
         return variable.name if variable is not None else ""
     if kind == "robot" and value == ALL_ROBOTS:
         return tr("all robots")
-    if unit := unit_of(kind):
+    if unit := unit_of(slot.kind):
         is_said = says_unit(language.definitions[block.type], slot.name, unit)
         return f"{value}" if is_said else f"{value}{unit}"
-    if kind == "file":
-        return str(value).replace("\\", "/").rpartition("/")[2]
-    return language.choices_of(slot, block, key).get(str(value), str(value))
+    return language.label_of(slot, value, block, key)

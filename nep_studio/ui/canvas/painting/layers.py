@@ -1,22 +1,27 @@
-"""The static layer: a picture of all that rests, repaired only where something has changed."""
+"""The layers of a canvas: a picture of all that rests, repaired only where something has changed,
+the overlays drawn over it, and the sprite of what is carried.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from math import ceil, floor
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt
+from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QRegion
 
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Camera, Rect
+from nep_studio.ui.canvas.layout.layout import Gap
 from nep_studio.ui.canvas.layout.page import boxes_of
 from nep_studio.ui.theme.colours import Theme
 
+from .overlay import Overlay
+
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.view import PageView
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 PaintPage = Callable[[QPainter, Rect, Camera], None]
@@ -201,20 +206,20 @@ class Sprite:
 
 
 def make_sprite(
-    view: PageView, chains: list[Chain], bounds: Rect, held: QPointF | None = None
+    view: CanvasHost, chains: list[Chain], bounds: Rect, held: QPointF | None = None
 ) -> Sprite:
     """Paint chains, whose places are on the page, into a picture with a soft shadow.
 
     ``held`` is the point of the page where a pointer holds them.
     """
-    scale, ratio = view.camera.scale, view.devicePixelRatioF()
+    scale, ratio = view.sight.camera.scale, view.area.devicePixelRatioF()
     if held is not None:
         bounds = _reachable(view, bounds, held)
-    margin = 6.0 * view.measures.unit
+    margin = 6.0 * view.look.measures.unit
     longest = LARGEST_PIXELS / (scale * ratio)
     width = min(bounds.width + 2 * margin, longest)
     height = min(bounds.height + 2 * margin, longest)
-    left = bounds.right + margin - width if view.measures.is_mirrored else bounds.x - margin
+    left = bounds.right + margin - width if view.look.measures.is_mirrored else bounds.x - margin
     left, top = _on_pixel(view, left, bounds.y - margin)
     pixmap = QPixmap(max(1, ceil(width * scale * ratio)), max(1, ceil(height * scale * ratio)))
     pixmap.fill(Qt.GlobalColor.transparent)
@@ -224,32 +229,32 @@ def make_sprite(
         painter.translate(-left, -top)
         _paint_shadow(painter, view, chains, shown)
         for chain in chains:
-            view.block_painter.paint(painter, boxes_of(chain, shown), scale)
+            view.look.block_painter.paint(painter, boxes_of(chain, shown), scale)
     pixmap.setDevicePixelRatio(ratio)
     return Sprite(pixmap, width, height, scale, left, top)
 
 
-def _on_pixel(view: PageView, x: float, y: float) -> tuple[float, float]:
+def _on_pixel(view: CanvasHost, x: float, y: float) -> tuple[float, float]:
     """The place of a whole pixel of the screen: the picture is then exactly that of the page."""
-    camera, step = view.camera, view.camera.scale * view.devicePixelRatioF()
+    camera, step = view.sight.camera, view.sight.camera.scale * view.area.devicePixelRatioF()
     return (
         camera.x + floor((x - camera.x) * step) / step,
         camera.y + floor((y - camera.y) * step) / step,
     )
 
 
-def _reachable(view: PageView, bounds: Rect, held: QPointF) -> Rect:
+def _reachable(view: CanvasHost, bounds: Rect, held: QPointF) -> Rect:
     """What can come into view while the pointer, which is in it, holds this point."""
-    seen = view.visible_page_rect()
+    seen = view.sight.visible_page_rect()
     x, y = held.x() - seen.width, held.y() - seen.height
     near = Rect(x, y, 2 * seen.width, 2 * seen.height)
     return bounds.intersected(near) if bounds.touches(near) else bounds
 
 
-def _paint_shadow(painter: QPainter, view: PageView, chains: list[Chain], shown: Rect) -> None:
+def _paint_shadow(painter: QPainter, view: CanvasHost, chains: list[Chain], shown: Rect) -> None:
     """Paint the outlines of the blocks darkly, a little lower."""
-    colour = view.theme.colour("sprite_shadow")
-    down = 3.0 * view.measures.unit
+    colour = view.look.theme.colour("sprite_shadow")
+    down = 3.0 * view.look.measures.unit
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     for chain in chains:
         left = QPointF(chain.x, chain.y)
@@ -258,5 +263,103 @@ def _paint_shadow(painter: QPainter, view: PageView, chains: list[Chain], shown:
             if left.y() + y > shown.bottom:
                 break
             painter.translate(x + down / 2, left.y() + y + down)
-            painter.fillPath(view.block_painter.outlines.of(box), colour)
+            painter.fillPath(view.look.block_painter.outlines.of(box), colour)
             painter.translate(-x - down / 2, -left.y() - y - down)
+
+
+# All layers of a canvas, one over the other.
+
+SHARPEN_MS = 80
+"""How long zooming must rest before the blocks are painted anew at their new size."""
+
+
+class Layers:
+    """What rests, the overlays over it, and what is carried."""
+
+    def __init__(self, host: CanvasHost, overlays: list[Overlay]) -> None:
+        self.overlays = overlays
+        self.sprite: Sprite | None = None
+        self.sharpen = QTimer(host.area, singleShot=True, interval=SHARPEN_MS)
+        self._host = host
+        self._viewport = host.area.viewport()
+        self._rest = StaticLayer(self._paint_page)
+        self.sharpen.timeout.connect(self._viewport.update)
+
+    def show_overlay(self, overlay: Overlay, *, is_shown: bool = True) -> None:
+        """Draw an overlay over the page from now on, or no more."""
+        if is_shown and overlay not in self.overlays:
+            self.overlays.append(overlay)
+        elif not is_shown and overlay in self.overlays:
+            self.overlays.remove(overlay)
+
+    def resize(self) -> None:
+        """Take the size of the view and the resolution of its screen."""
+        self._rest.resize(self._viewport.size(), self._host.area.devicePixelRatioF())
+
+    def repaint_all(self) -> None:
+        """Paint everything anew."""
+        self._rest.invalidate_all()
+        self._viewport.update()
+
+    def repaint_page(self, rects: Iterable[Rect]) -> None:
+        """Paint these parts of the page anew."""
+        camera, margin = self._host.sight.camera, 4 * self._host.look.measures.unit
+        for rect in rects:
+            view = camera.view_rect(rect.grown(margin))
+            self._rest.invalidate(view)
+            self._viewport.update(view.toAlignedRect().adjusted(-2, -2, 2, 2))
+
+    def update_page(self, rect: Rect) -> None:
+        """Draw the overlays of a part of the page again; the blocks rest."""
+        view = self._host.sight.camera.view_rect(rect)
+        self._viewport.update(view.toAlignedRect().adjusted(-4, -4, 4, 4))
+
+    def set_preview(self, hidden: frozenset[str], gap: Gap | None) -> None:
+        """Show the page without some blocks, and with a gap where they would go."""
+        page_layout = self._host.page_layout
+        if (hidden, gap) != (page_layout.layout.hidden, page_layout.layout.gap):
+            self.repaint_page(page_layout.preview(hidden, gap))
+
+    def set_sprite(self, sprite: Sprite | None) -> None:
+        """Show carried blocks over everything, or none."""
+        camera = self._host.sight.camera
+        for shown in (self.sprite, sprite):
+            if shown is not None:
+                self._viewport.update(shown.view_rect(camera))
+        self.sprite = sprite
+
+    def move_sprite(self, x: float, y: float) -> None:
+        """Carry the blocks to another place of the page."""
+        if self.sprite is not None:
+            camera = self._host.sight.camera
+            before = self.sprite.view_rect(camera)
+            self.sprite.x, self.sprite.y = x, y
+            # One rectangle: a region of two is clipped piece by piece, which costs more.
+            self._viewport.update(before.united(self.sprite.view_rect(camera)))
+
+    def paint(self, region: QRegion) -> None:
+        """Draw the layers: what rests, what is over it, what is carried."""
+        camera, is_zooming = self._host.sight.camera, self.sharpen.isActive()
+        if not is_zooming or self._rest.is_outdated or self._rest.is_sharp(camera):
+            self._rest.repair(camera)
+        with QPainter(self._viewport) as painter:  # ended also when a drawing fails
+            self._paint(painter, region, camera)
+
+    def _paint(self, painter: QPainter, region: QRegion, camera: Camera) -> None:
+        host = self._host
+        for rect in rects_of(region):
+            self._rest.draw(painter, camera, rect, host.look.theme.colour("canvas"))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.scale(camera.scale, camera.scale)
+        painter.translate(-camera.x, -camera.y)
+        for overlay in self.overlays:
+            overlay.paint(painter, host)
+        if self.sprite is not None:
+            self.sprite.paint(painter, camera, host.area.devicePixelRatioF())
+
+    def _paint_page(self, painter: QPainter, rect: Rect, camera: Camera) -> None:
+        host, look = self._host, self._host.look
+        paint_background(painter, rect, camera, look.theme)
+        host.notes.paint_resting(painter, rect, camera.scale)
+        boxes = host.page_layout.boxes(rect.grown(8 * look.measures.unit))
+        look.block_painter.paint(painter, boxes, camera.scale)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -15,7 +15,7 @@ from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.view import PageView
+    from nep_studio.ui.canvas.host import CanvasHost
 
 NEW_WIDTH, NEW_HEIGHT = 200.0, 120.0
 SMALLEST_WIDTH, SMALLEST_HEIGHT = 80.0, 48.0
@@ -25,17 +25,25 @@ CORNER = 18.0
 _SMALLEST_TEXT_SCALE = 0.3
 
 
+class Writing(Protocol):
+    """An editor in which a note is written."""
+
+    def finish(self) -> None:
+        """Keep what was written, and go away."""
+
+
 class Notes:
     """Draws the notes of the page that is shown, and says what is where.
 
     One note at most is selected; ``carried`` is how a note looks while it is dragged or resized.
     """
 
-    def __init__(self, view: PageView) -> None:
+    def __init__(self, view: CanvasHost) -> None:
         self._view = view
         self.selected = ""
         self.edited = ""
         self.carried: Note | None = None
+        self.writing: Writing | None = None
         self._rects: dict[str, Rect] = {}
         view.selection.changed.connect(self._on_blocks_selected)
 
@@ -59,7 +67,7 @@ class Notes:
 
     def rect_of(self, note: Note) -> Rect:
         """Where a note is: its place is the corner where lines of text begin."""
-        is_mirrored = self._view.measures.is_mirrored
+        is_mirrored = self._view.look.measures.is_mirrored
         return Rect(note.x - note.width if is_mirrored else note.x, note.y, note.width, note.height)
 
     def hit(self, point: QPointF) -> Note | None:
@@ -70,7 +78,7 @@ class Notes:
 
     def is_corner(self, note: Note, point: QPointF) -> bool:
         """Whether a point of the page is on the corner by which a note is resized."""
-        rect, is_mirrored = self.rect_of(note), self._view.measures.is_mirrored
+        rect, is_mirrored = self.rect_of(note), self._view.look.measures.is_mirrored
         side = point.x() - rect.x if is_mirrored else rect.right - point.x()
         return 0 <= side <= CORNER and 0 <= rect.bottom - point.y() <= CORNER
 
@@ -80,7 +88,9 @@ class Notes:
         """Put a new note on the page; gives its id."""
         editor = self._view.editor
         note_id = editor.project.new_id("n")
-        editor.apply(AddNote(Note(note_id, self._view.page, x, y, NEW_WIDTH, NEW_HEIGHT, text)))
+        editor.apply(
+            AddNote(Note(note_id, self._view.page_layout.page, x, y, NEW_WIDTH, NEW_HEIGHT, text))
+        )
         self.select(note_id)
         return note_id
 
@@ -114,9 +124,9 @@ class Notes:
         rects = [self.rect_of(each).grown(CORNER) for each in (old, note) if each is not None]
         carried = note or old
         if starts and carried is not None and carried.id in self._rects:
-            self._view.repaint_page([self._rects[carried.id].grown(CORNER)])
+            self._view.layers.repaint_page([self._rects[carried.id].grown(CORNER)])
         for rect in rects:
-            self._view.update_page(rect)
+            self._view.layers.update_page(rect)
 
     # Painting
 
@@ -128,22 +138,22 @@ class Notes:
             if note_id != carried and place.grown(CORNER).touches(rect):
                 self._paint(painter, notes[note_id], scale)
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw what changes often: the note that is carried, and the line of the selected one."""
         if self.carried is not None:
-            self._paint(painter, self.carried, view.camera.scale)
+            self._paint(painter, self.carried, view.sight.camera.scale)
         note = self.carried or view.editor.project.notes.get(self.selected)
         if note is None or not self.selected:
             return
-        pixel = 1 / view.camera.scale
+        pixel = 1 / view.sight.camera.scale
         rect = self.rect_of(note)
-        painter.setPen(QPen(view.theme.colour("focus"), 2.5 * pixel))
+        painter.setPen(QPen(view.look.theme.colour("focus"), 2.5 * pixel))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRoundedRect(QRectF(*rect), 4, 4)
         self._paint_corner(painter, rect)
 
     def _paint(self, painter: QPainter, note: Note, scale: float) -> None:
-        theme, unit = self._view.theme, self._view.measures.unit
+        theme, unit = self._view.look.theme, self._view.look.measures.unit
         rect = QRectF(*self.rect_of(note))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(Qt.PenStyle.NoPen)
@@ -158,10 +168,10 @@ class Notes:
         if not note.text:
             colour.setAlphaF(0.7)
         painter.setPen(colour)
-        painter.setFont(self._view.block_font)
+        painter.setFont(self._view.look.block_font)
         option = QTextOption()
         option.setWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
-        if self._view.measures.is_mirrored:
+        if self._view.look.measures.is_mirrored:
             option.setTextDirection(Qt.LayoutDirection.RightToLeft)
         pad = 8 * unit
         painter.save()
@@ -171,8 +181,8 @@ class Notes:
         painter.restore()
 
     def _paint_corner(self, painter: QPainter, rect: Rect) -> None:
-        is_mirrored = self._view.measures.is_mirrored
-        painter.setPen(QPen(self._view.theme.colour("note_text"), 1.5))
+        is_mirrored = self._view.look.measures.is_mirrored
+        painter.setPen(QPen(self._view.look.theme.colour("note_text"), 1.5))
         for inset in (5.0, 10.0):
             bottom = rect.bottom - 4
             if is_mirrored:
@@ -187,12 +197,12 @@ class Notes:
 
     def _on_page(self) -> Iterator[Note]:
         notes = self._view.editor.project.notes.values()
-        return (note for note in notes if note.page == self._view.page)
+        return (note for note in notes if note.page == self._view.page_layout.page)
 
     def _update(self, ids: Iterable[str]) -> None:
         for note_id in ids:
             if note_id in self._rects:
-                self._view.update_page(self._rects[note_id].grown(CORNER))
+                self._view.layers.update_page(self._rects[note_id].grown(CORNER))
 
     def _on_blocks_selected(self) -> None:
         if self.selected and self._view.selection.ids:

@@ -12,7 +12,7 @@ from nep_studio.blocks.checks.problem import Problem
 from nep_studio.ui.canvas.layout.page import Placed
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.view import PageView
+    from nep_studio.ui.canvas.host import CanvasHost
 
 
 FEW = 4
@@ -25,25 +25,25 @@ MANY = 300
 class Overlay(Protocol):
     """Something drawn over the page each time the view is painted, in canvas units."""
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw it."""
 
 
 class SelectionOverlay:
     """A line around every selected block, and a second one around the keyboard's."""
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the lines, for the blocks in view."""
-        pixel = 1.0 / view.camera.scale
-        _rings(painter, view, _selected_in_view(view), view.theme.colour("focus"), 2.5 * pixel)
+        pixel = 1.0 / view.sight.camera.scale
+        _rings(painter, view, _selected_in_view(view), view.look.theme.colour("focus"), 2.5 * pixel)
         cursor = view.selection.cursor
-        if cursor and view.hasFocus():
+        if cursor and view.area.hasFocus():
             placed = view.page_layout.placed(cursor)
             if placed is not None:
-                _frame(painter, placed, view.theme.colour("focus"), pixel)
+                _frame(painter, placed, view.look.theme.colour("focus"), pixel)
 
 
-def _selected_in_view(view: PageView) -> list[Placed]:
+def _selected_in_view(view: CanvasHost) -> list[Placed]:
     """The selected blocks to draw a line around: of many only those that can be seen."""
     selected, layout = view.selection, view.page_layout
     if len(selected) <= FEW:
@@ -51,12 +51,12 @@ def _selected_in_view(view: PageView) -> list[Placed]:
             layout.placed(block) for block in selected.ids if block not in layout.layout.hidden
         )
         return [placed for placed in shown if placed is not None]
-    seen = layout.boxes(view.visible_page_rect())
+    seen = layout.boxes(view.sight.visible_page_rect())
     return [placed for placed in seen if placed.box.block in selected]
 
 
 def _rings(
-    painter: QPainter, view: PageView, blocks: list[Placed], colour: QColor, width: float
+    painter: QPainter, view: CanvasHost, blocks: list[Placed], colour: QColor, width: float
 ) -> None:
     """Lines around blocks; around very many, which are small then, plain rectangles."""
     if len(blocks) <= MANY:
@@ -86,36 +86,38 @@ class ProblemOverlay:
                 worst[problem.block] = problem
         self.problems = worst
 
-    def paint(self, painter: QPainter, view: PageView) -> None:
+    def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the badges of the blocks in view."""
         if not self.problems:
             return
-        for placed in view.page_layout.boxes(view.visible_page_rect()):
+        for placed in view.page_layout.boxes(view.sight.visible_page_rect()):
             problem = self.problems.get(placed.box.block)
             if problem is not None:
                 _badge(painter, badge_rect(placed, view), problem, view)
 
 
-def badge_rect(placed: Placed, view: PageView) -> QRectF:
+def badge_rect(placed: Placed, view: CanvasHost) -> QRectF:
     """Where the badge of a block is: at its far upper corner, half outside."""
-    size = 20 * view.measures.unit
+    size = 20 * view.look.measures.unit
     is_mirrored = placed.box.is_mirrored
     x = placed.x - size / 2 if is_mirrored else placed.x + placed.box.width - size / 2
     return QRectF(x, placed.y - size / 3, size, size)
 
 
-def ring(painter: QPainter, view: PageView, block_id: str, colour: QColor, width: float) -> None:
+def ring(painter: QPainter, view: CanvasHost, block_id: str, colour: QColor, width: float) -> None:
     """A line around a block."""
     placed = view.page_layout.placed(block_id)
     if placed is not None:
         _ring(painter, view, placed, colour, width)
 
 
-def _ring(painter: QPainter, view: PageView, placed: Placed, colour: QColor, width: float) -> None:
+def _ring(
+    painter: QPainter, view: CanvasHost, placed: Placed, colour: QColor, width: float
+) -> None:
     painter.setPen(QPen(colour, width))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.translate(placed.x, placed.y)
-    painter.drawPath(view.block_painter.outlines.of(placed.box))
+    painter.drawPath(view.look.block_painter.outlines.of(placed.box))
     painter.translate(-placed.x, -placed.y)
 
 
@@ -130,10 +132,10 @@ def _frame(painter: QPainter, placed: Placed, colour: QColor, pixel: float) -> N
 _SIGNS = {"error": "!", "warning": "!", "info": "i"}
 
 
-def _badge(painter: QPainter, rect: QRectF, problem: Problem, view: PageView) -> None:
+def _badge(painter: QPainter, rect: QRectF, problem: Problem, view: CanvasHost) -> None:
     """A round, a pointed or a square badge: the shape says how bad it is."""
-    painter.setPen(QPen(view.theme.colour("canvas"), 1.5 * view.measures.unit))
-    painter.setBrush(view.theme.colour(problem.severity))
+    painter.setPen(QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit))
+    painter.setBrush(view.look.theme.colour(problem.severity))
     if problem.severity == "warning":
         top = QPointF(rect.center().x(), rect.top())
         painter.drawPolygon([top, rect.bottomRight(), rect.bottomLeft()])
@@ -141,7 +143,7 @@ def _badge(painter: QPainter, rect: QRectF, problem: Problem, view: PageView) ->
         painter.drawEllipse(rect)
     else:
         painter.drawRoundedRect(rect, 4, 4)
-    painter.setPen(view.theme.colour("canvas"))
+    painter.setPen(view.look.theme.colour("canvas"))
     sign = rect.adjusted(0, rect.height() * 0.15 * (problem.severity == "warning"), 0, 0)
-    painter.setFont(view.badge_font)
+    painter.setFont(view.look.badge_font)
     painter.drawText(sign, Qt.AlignmentFlag.AlignCenter, _SIGNS[problem.severity])

@@ -8,10 +8,9 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPainterPath, QPen
 
 from nep_studio.blocks.language import Language
-from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts
+from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts, TextWidths
 from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
-from nep_studio.ui.canvas.layout.slot_style import LEADS, OPENS
 from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, Theme
 
 from .shapes import Outlines, paint_mark, paint_sign, round_pen
@@ -58,19 +57,18 @@ class PiecePainter:
     def _field(
         self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
     ) -> None:
-        kind = piece.kind
-        if kind == "parameter":
+        if piece.kind == "parameter":
             self._pill(painter, piece, colours, with_text)
             return
-        fill = QColor(piece.text) if kind == "colour" and piece.text else colours.field
+        fill = QColor(piece.text) if piece.mark == "swatch" and piece.text else colours.field
         self._shape(painter, piece, fill, colours.field_line)
         if not with_text:
             return
-        lead = self._measures.line * 0.95 if kind in LEADS else 0.0
-        trail = self._measures.line * 0.75 if kind in OPENS else 0.0
-        if lead or trail or kind in ("checkbox", "slider"):
+        lead = self._measures.line * 0.95 if piece.mark == "dial" else 0.0
+        trail = self._measures.line * 0.75 if piece.opens else 0.0
+        if piece.mark or piece.opens:
             self._marks(painter, piece, fill, colours)
-        if kind in ("colour", "checkbox"):
+        if piece.mark in ("swatch", "tick"):
             return
         left = piece.x + (trail if self._measures.is_mirrored else lead)
         room = piece.width - lead - trail
@@ -121,15 +119,15 @@ class PiecePainter:
             self._centred(painter, piece, piece.x, piece.width)
 
     def _marks(self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours) -> None:
-        """The little drawings in a field: arrow, tick, dial, file, bar."""
+        """The little drawings in a field: arrow, tick, dial, bar."""
         rect = QRectF(piece.x, piece.y, piece.width, piece.height)
         unit, is_mirrored = self._measures.unit, self._measures.is_mirrored
-        if piece.kind in OPENS:
+        if piece.opens:
             paint_mark(painter, "arrow", rect, fill, colours, unit, is_mirrored=is_mirrored)
-        if piece.kind in ("angle", "file", "slider", "checkbox"):
+        if piece.mark in ("dial", "bar", "tick"):
             paint_mark(
                 painter,
-                piece.kind,
+                piece.mark,
                 rect,
                 fill,
                 colours,
@@ -252,3 +250,18 @@ def _hatch(painter: QPainter, path: QPainterPath, colour: QColor) -> None:
     faint = QColor(colour)
     faint.setAlphaF(0.35)
     painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
+
+
+class Look:
+    """How the blocks of a canvas look: in this theme, this font, and from this side."""
+
+    def __init__(self, theme: Theme, font: QFont, language: Language, *, is_mirrored: bool) -> None:
+        self.theme = theme
+        self.block_font = QFont(font)
+        self.block_font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
+        self.badge_font = QFont(self.block_font)
+        self.badge_font.setBold(True)
+        self.badge_font.setPointSizeF(max(1.0, self.block_font.pointSizeF() * 0.8))
+        widths = TextWidths(self.block_font)
+        self.measures = Measures(widths.line, widths, is_mirrored=is_mirrored)
+        self.block_painter = BlockPainter(theme, language, self.measures, self.block_font)

@@ -140,7 +140,7 @@ def _polygon(path: QPainterPath, points: list[tuple[float, float]]) -> None:
     path.closeSubpath()
 
 
-# The little drawings inside fields and buttons: arrow, tick, dial, file, bar, plus, minus.
+# The little drawings inside fields and buttons: arrow, tick, dial, bar, plus, minus.
 
 
 def paint_mark(
@@ -165,13 +165,11 @@ def paint_mark(
     end = QPointF(rect.left() + inset if is_mirrored else rect.right() - inset, rect.center().y())
     if mark == "arrow":
         _arrow(painter, rect.center() if not is_plain and rect.width() < 40 * unit else end, unit)
-    elif mark == "checkbox" and amount:
+    elif mark == "tick" and amount:
         _tick(painter, rect.center(), 5 * unit)
-    elif mark == "angle":
+    elif mark == "dial":
         _dial(painter, start, 6 * unit, amount)
-    elif mark == "file":
-        _sheet(painter, start, unit)
-    elif mark == "slider":
+    elif mark == "bar":
         _bar(painter, rect, colours, unit, amount, is_mirrored=is_mirrored)
 
 
@@ -226,21 +224,6 @@ def _dial(painter: QPainter, at: QPointF, radius: float, degrees: float) -> None
     painter.drawEllipse(at, radius, radius)
     tip = at + QPointF(-radius * 0.85 * math.sin(angle), -radius * 0.85 * math.cos(angle))
     painter.drawLine(at, tip)
-
-
-def _sheet(painter: QPainter, at: QPointF, unit: float) -> None:
-    """A sheet of paper with a bent corner."""
-    x, y = at.x(), at.y()
-    wide, high, bend = 4.5 * unit, 6 * unit, 3.5 * unit
-    painter.drawPolygon(
-        [
-            QPointF(x - wide, y - high),
-            QPointF(x + wide - bend, y - high),
-            QPointF(x + wide, y - high + bend),
-            QPointF(x + wide, y + high),
-            QPointF(x - wide, y + high),
-        ]
-    )
 
 
 def _bar(

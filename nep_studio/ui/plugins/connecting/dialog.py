@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import card_around
 from nep_studio.ui.widgets.labels import room_around
 from nep_studio.ui.words import tr
 
@@ -139,17 +140,6 @@ class StepsView(QFrame):
         self._words[step].style().polish(self._words[step])
         self._words[step].setAccessibleName(f"{words} {state_words()[state]}")
         self.states[step] = state
-
-
-def card_around(label: QLabel, kind: str) -> QFrame:
-    """Put words into a card of a colour."""
-    card = QFrame()
-    card.setProperty("kind", kind)
-    room = label.fontMetrics().height() // 2
-    box = QVBoxLayout(card)
-    box.setContentsMargins(room, room, room, room)
-    box.addWidget(label)
-    return card
 
 
 USUAL_USER = "nao"

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import KEYS, Cue, own_cue
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon
@@ -187,8 +188,8 @@ class ArrangeDialog(QDialog):
     def _add(self, *, is_word: bool) -> None:
         try:
             cue = own_cue(self.own.text(), is_word=is_word)
-        except ValueError as error:
-            self.why_not.setText(tr(str(error)))
+        except EditRefused as refused:
+            self.why_not.setText(tr(refused.sentence))
             return
         if any(one.id == cue.id for one in self.cues):
             self.why_not.setText(tr("There is a cue for this already."))

@@ -25,9 +25,12 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import GESTURE_REQUEST, HUMAN_BEHAVIOR, GestureRequest, HumanBehavior
-from nep_studio.project.triggers import Cue, own_cue
+from nep_studio.blocks.edits.content import SetExtra
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.project.triggers import KEY, Cue, arranged, cues_of, kept_cues, own_cue, to_keep
 from nep_studio.run.plan import VIRTUAL_WATCH
 from nep_studio.ui.messages import announce
+from nep_studio.ui.open_project import OpenProject
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -35,12 +38,44 @@ from nep_studio.ui.words import tr
 
 from .arranging import ArrangeDialog
 from .board import CueBoard, cue_words
-from .project import ProjectCues
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.document_files import Files
+    from nep_studio.ui.host import Host
+
+
+# The cues of the project that is open, as they are at the moment.
+
+
+class ProjectCues(QObject):
+    """``changed`` tells, soon after, that they may be others."""
+
+    changed = Signal()
+
+    def __init__(self, files: Files, parent: QObject) -> None:
+        super().__init__(parent)
+        self._project = OpenProject(files, self)
+        self._project.changed.connect(self.changed)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is a project."""
+        return self._project.editor is not None
+
+    def cues(self) -> list[Cue]:
+        """The cues, arranged, hidden ones too."""
+        editor = self._project.editor
+        if editor is None:
+            return []
+        return arranged(cues_of(editor.project, editor.language), kept_cues(editor.project))
+
+    def keep(self, cues: list[Cue]) -> None:
+        """Keep how they are arranged in the project; can be taken back."""
+        editor = self._project.editor
+        if editor is not None:
+            editor.apply(SetExtra(KEY, to_keep(cues)), tr("arrange the cues"))
 
 
 # Sends cues by hand, and remembers which were sent when.
@@ -115,17 +150,17 @@ class CuePanel(QWidget):
 
     def __init__(
         self,
-        window: MainWindow,
+        host: Host,
         *,
         is_large: bool = False,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._look: Look = window.look
-        self._runner: Runner = window.running.runner
-        self.cues = ProjectCues(window.files, self)
+        self._look: Look = host.services.look
+        self._runner: Runner = host.services.runner
+        self.cues = ProjectCues(host.services.files, self)
         self.sending = CueSender(self._runner, self)
-        self.board = CueBoard(window.look, self)
+        self.board = CueBoard(host.services.look, self)
         self.empty = QLabel(tr("The rules of this program wait for nothing that could be sent."))
         self.empty.setProperty("role", "hint")
         self.empty.setWordWrap(True)
@@ -254,7 +289,7 @@ class CuePanel(QWidget):
     def _on_said(self) -> None:
         try:
             cue = own_cue(self.words.text(), is_word=True)
-        except ValueError:
+        except EditRefused:
             self.words.setFocus()
             return
         if self.send(cue):
@@ -287,10 +322,3 @@ class CuePanel(QWidget):
         self.say_button.setIcon(icon("ear", theme))
         self.arrange_button.setIcon(icon("sliders-horizontal", theme))
         self.movements.setIcon(icon("watch", theme))
-
-
-def add_cues_panel(window: MainWindow) -> CuePanel:
-    """Put the panel beside the canvas; hidden until somebody wants it."""
-    panel = CuePanel(window)
-    window.add_side_panel(panel, tr("Cues"), "flag", "right", is_shown=False)
-    return panel

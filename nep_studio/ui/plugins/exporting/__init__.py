@@ -3,44 +3,40 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
+from PySide6.QtGui import QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.run.python_file import SUFFIX, python_file, write_kept
 from nep_studio.ui.documents import Document
+from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.messages import Message
 from nep_studio.ui.words import tr
-
-if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
-
 
 # Save the Python of the open project as a file, and copy it.
 
 
-def choose_python_file(window: MainWindow) -> None:
+def choose_python_file(host: Host) -> None:
     """Ask where the Python is to be saved, and save it there."""
-    document = window.files.document
-    if document is None or python_text(window, document, "") is None:
+    document = host.services.document
+    if document is None or python_text(host, document, "") is None:
         return
-    folder = document.folder if document.path is not None else window.settings.last_folder
-    dialog = QFileDialog(window, tr("Save the Python as"), str(folder))
+    folder = document.folder if document.path is not None else host.services.settings.last_folder
+    dialog = QFileDialog(host.widget, tr("Save the Python as"), str(folder))
     dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
     dialog.setNameFilters([tr("Python programs (*.py)"), tr("All files (*)")])
     dialog.setDefaultSuffix(SUFFIX.removeprefix("."))
     dialog.selectFile(_file_name(document))
-    dialog.fileSelected.connect(lambda name: save_python(window, Path(name)))
+    dialog.fileSelected.connect(lambda name: save_python(host, Path(name)))
     dialog.open()
 
 
-def save_python(window: MainWindow, path: Path) -> bool:
+def save_python(host: Host, path: Path) -> bool:
     """Write the Python of the open project; whether that went well, which the person is told."""
-    document = window.files.document
-    text = python_text(window, document, path.name) if document is not None else None
+    document = host.services.document
+    text = python_text(host, document, path.name) if document is not None else None
     if text is None:
         return False
     beside = path.with_name(f".{path.name}.part")
@@ -51,30 +47,31 @@ def save_python(window: MainWindow, path: Path) -> bool:
         beside.replace(path)
     except OSError as error:
         beside.unlink(missing_ok=True)
-        window.messages.tell(_not_written(error))
+        host.services.messages.tell(_not_written(error))
         return False
-    window.messages.confirm(tr("Saved “{name}”. At its top it says how to run it.", name=path.name))
+    words = tr("Saved “{name}”. At its top it says how to run it.", name=path.name)
+    host.services.messages.confirm(words)
     return True
 
 
-def copy_python(window: MainWindow) -> bool:
+def copy_python(host: Host) -> bool:
     """Put the Python of the open project on the clipboard."""
-    document = window.files.document
-    text = python_text(window, document) if document is not None else None
+    document = host.services.document
+    text = python_text(host, document) if document is not None else None
     if text is None:
         return False
     QGuiApplication.clipboard().setText(text)
-    window.messages.confirm(tr("The Python is copied. Paste it where you like."))
+    host.services.messages.confirm(tr("The Python is copied. Paste it where you like."))
     return True
 
 
-def python_text(window: MainWindow, document: Document, file_name: str = "") -> str | None:
+def python_text(host: Host, document: Document, file_name: str = "") -> str | None:
     """The Python of a project with its comment; None, told, when the blocks make none yet."""
     name = file_name or _file_name(document)
     try:
         return python_file(document.project, document.editor.language, document.folder, name)
     except BlocksError as error:
-        window.messages.tell_error(error)
+        host.services.messages.tell_error(error)
         return None
 
 
@@ -94,42 +91,63 @@ def _not_written(error: OSError) -> Message:
     )
 
 
-# The actions that bring a program out of the studio, for the File menu.
-
-NEEDS_PROJECT = ("save_python", "copy_python", "print")
-"""These can be used while a project is open."""
+# The actions that bring a program out of the studio, in the File menu after the picture.
 
 
-def add_exporting(window: MainWindow) -> list[QAction]:
-    """Make the actions; they stand in the File menu after the picture."""
-    add = window.actions_by_name.add
-    return [
-        add(
+def make(host: Host) -> Parts:
+    """The actions; the picture has its own in the File menu, which is there before."""
+    actions = [
+        NewAction(
             "save_python",
             tr("Save the Python…"),
-            lambda: choose_python_file(window),
-            icon_name="file-code",
+            lambda: choose_python_file(host),
+            "file-code",
+            menu="file",
+            after="picture",
         ),
-        add("copy_python", tr("Copy the Python"), lambda: copy_python(window), icon_name="code"),
-        add(
+        NewAction(
+            "copy_python",
+            tr("Copy the Python"),
+            lambda: copy_python(host),
+            "code",
+            menu="file",
+            after="save_python",
+        ),
+        NewAction(
             "print",
             tr("Print…"),
-            lambda: open_print_dialog(window),
-            icon_name="printer",
-            keys=QKeySequence.StandardKey.Print,
+            lambda: open_print_dialog(host),
+            "printer",
+            QKeySequence.StandardKey.Print,
+            menu="file",
+            after="copy_python",
         ),
     ]
+    return Parts(actions=actions, commands={"exporting.picture": lambda: export_picture(host)})
 
 
-def open_print_dialog(window: MainWindow) -> None:
+def export_picture(host: Host) -> None:
+    """Ask for a picture of the blocks."""
+    from .picture_dialog import PictureDialog
+
+    document = host.services.document
+    if document is not None:
+        folder = document.path.parent if document.path else host.services.settings.last_folder
+        PictureDialog(host.workbench.canvas, folder, document.title, host.widget).open()
+
+
+def open_print_dialog(host: Host) -> None:
     """Ask what is printed."""
     from .print_dialog import ProgramPrintDialog  # printers are looked for only now
 
-    document = window.files.document
+    document = host.services.document
     if document is None:
         return
     try:
         code = generate_program(document.project, document.editor.language).text
     except BlocksError:
         code = ""
-    ProgramPrintDialog(window.workbench.canvas, code, window).open()
+    ProgramPrintDialog(host.workbench.canvas, code, host.widget).open()
+
+
+plugin = Plugin("exporting", make, order=90, needs_project=True)

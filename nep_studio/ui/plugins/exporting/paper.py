@@ -10,16 +10,17 @@ from PySide6.QtCore import QDate, QLocale, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QFontInfo, QFontMetricsF, QPageLayout, QPainter, QPen
 from PySide6.QtPrintSupport import QPrinter
 
-from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
-from nep_studio.ui.plugins.picture.writing import Part, What, scene_of
 from nep_studio.ui.theme.colours import LIGHT, load_theme
 from nep_studio.ui.theme.look import code_font, text_font
 from nep_studio.ui.words import is_right_to_left, tr
 from nep_studio.ui.workbench.pages_bar import page_title
+
+from .picture import Part, What, scene_of
 
 # Where a long drawing is cut into pages: between its pieces, never through one that fits.
 
@@ -110,7 +111,7 @@ def on_paper(font: QFont, size: float) -> QFont:
     return made
 
 
-def block_sheets(canvas: Canvas, what: What, room: QSizeF) -> list[Sheet]:
+def block_sheets(canvas: CanvasHost, what: What, room: QSizeF) -> list[Sheet]:
     """The sheets of the blocks; ``room`` is what is free on one, in points."""
     scene = scene_of(canvas, what)
     return [sheet for part in scene.parts for sheet in _sheets(part, room)]
@@ -181,7 +182,7 @@ HEAD, FOOT = 34.0, 24.0
 INK, PALE = QColor("black"), QColor("#666666")
 
 
-def print_program(canvas: Canvas, printer: QPrinter, code: str, options: PrintOptions) -> int:
+def print_program(canvas: CanvasHost, printer: QPrinter, code: str, options: PrintOptions) -> int:
     """Print, ``code`` too if the options say so; how many sheets there are."""
     layout = printer.pageLayout()
     paper = layout.paintRect(QPageLayout.Unit.Point)
@@ -207,7 +208,7 @@ def print_program(canvas: Canvas, printer: QPrinter, code: str, options: PrintOp
 
 
 def _paint(
-    painter: QPainter, sheet: Sheet, canvas: Canvas, paper: QRectF, place: tuple[int, int]
+    painter: QPainter, sheet: Sheet, canvas: CanvasHost, paper: QRectF, place: tuple[int, int]
 ) -> None:
     _paint_head(painter, _title(sheet, canvas), canvas.editor.project.name, paper)
     _paint_foot(painter, paper, place)
@@ -220,8 +221,8 @@ def _paint(
     painter.restore()
 
 
-def _title(sheet: Sheet, canvas: Canvas) -> str:
-    return sheet.title or page_title(canvas.editor.project, canvas.page)
+def _title(sheet: Sheet, canvas: CanvasHost) -> str:
+    return sheet.title or page_title(canvas.editor.project, canvas.page_layout.page)
 
 
 def _paint_head(painter: QPainter, title: str, name: str, paper: QRectF) -> None:
@@ -245,9 +246,9 @@ def _paint_foot(painter: QPainter, paper: QRectF, place: tuple[int, int]) -> Non
     painter.drawText(row, _end() | Qt.AlignmentFlag.AlignBottom, words)
 
 
-def _paint_blocks(painter: QPainter, sheet: BlocksSheet, canvas: Canvas) -> None:
+def _paint_blocks(painter: QPainter, sheet: BlocksSheet, canvas: CanvasHost) -> None:
     """Always in the light colours: dark ones would drink the ink."""
-    language, measures = canvas.editor.language, canvas.measures
+    language, measures = canvas.editor.language, canvas.look.measures
     font = _block_font(canvas, painter)
     blocks = BlockPainter(load_theme(LIGHT), language, measures, font)
     seen = sheet.seen
@@ -259,9 +260,9 @@ def _paint_blocks(painter: QPainter, sheet: BlocksSheet, canvas: Canvas) -> None
         blocks.paint(painter, boxes_of(chain, rect), 1.0)
 
 
-def _block_font(canvas: Canvas, painter: QPainter) -> QFont:
+def _block_font(canvas: CanvasHost, painter: QPainter) -> QFont:
     """The font of the blocks: as many canvas units high on paper as it is on the screen."""
-    font = QFont(canvas.block_font)
+    font = QFont(canvas.look.block_font)
     units = QFontInfo(font).pixelSize()
     font.setPointSizeF(units * 72.0 / painter.device().logicalDpiY())
     font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)

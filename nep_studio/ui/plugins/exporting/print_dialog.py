@@ -19,20 +19,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.picture.writing import What
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 
 from .paper import PrintOptions, print_program
+from .picture import What
 
 
 class ProgramPrintDialog(QDialog):
     """Asks what is printed, and on what paper; ``code`` is "" where there is no Python yet."""
 
     def __init__(
-        self, canvas: Canvas, code: str, parent: QWidget, printer: QPrinter | None = None
+        self, canvas: CanvasHost, code: str, parent: QWidget, printer: QPrinter | None = None
     ) -> None:
         super().__init__(parent)
         self._canvas, self._code = canvas, code
@@ -54,7 +54,7 @@ class ProgramPrintDialog(QDialog):
         self.setup_button = QPushButton(tr("Page setup…"))
         self.print_button = QPushButton(tr("Print…"))
         self.close_button = QPushButton(tr("Close"))
-        self._arrange(canvas.theme)
+        self._arrange(canvas.look.theme)
         self._connect()
 
     @property

@@ -1,1 +1,94 @@
-"""The panel in which gestures are recorded, learned and tried."""
+"""Gestures: take them down from a watch, teach a recogniser, see how well it does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from .gesture_controller import TrainerDesk
+    from .page import TrainerPage
+
+LEAST_SHARE = 0.55
+"""How much of the height beside the canvas gestures need."""
+
+
+class TrainerPanel(QWidget):
+    """Makes its page when it is shown: numpy is slow to load."""
+
+    def __init__(self, make: Callable[[], TrainerPage]) -> None:
+        super().__init__()
+        self._make = make
+        self.page: TrainerPage | None = None
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+
+    def opened(self) -> TrainerPage:
+        """What is in it; made now if it is not there yet."""
+        if self.page is None:
+            self.page = self._make()
+            box = self.layout()
+            if box is not None:
+                box.addWidget(self.page)
+        return self.page
+
+    def sizeHint(self) -> QSize:
+        """Room for the graph and a few takes."""
+        line = self.fontMetrics().height()
+        return QSize(line * 45, line * 22)
+
+    def minimumSizeHint(self) -> QSize:
+        """Less is of no use."""
+        line = self.fontMetrics().height()
+        return QSize(line * 14, line * 9)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Open it."""
+        self.opened()
+        super().showEvent(event)
+
+
+def make(host: Host) -> Parts:
+    """The panel below the canvas; its page is made when it is opened."""
+    panel = TrainerPanel(lambda: _page(host))
+    return Parts(NewPanel(panel, tr("Gestures"), "hand", "bottom", least_share=LEAST_SHARE))
+
+
+def desk_of(host: Host) -> TrainerDesk:
+    """The one desk; what it heard stays when the panel is made anew."""
+    from .gesture_controller import TrainerDesk
+
+    services = host.services
+
+    def make_desk() -> TrainerDesk:
+        return TrainerDesk(
+            services.files, services.runner, services.messages, services.look, services.running
+        )
+
+    return host.keep(TrainerDesk, make_desk)
+
+
+def _page(host: Host) -> TrainerPage:
+    from .page import TrainerPage
+    from .results.training import Training
+
+    desk = desk_of(host)
+
+    def make_training() -> Training:
+        training = Training(desk, desk)
+        desk.runner.closing.connect(training.close)
+        return training
+
+    page = TrainerPage(desk, host.keep(Training, make_training), host.workbench.canvas)
+    page.connect_asked.connect(lambda: host.ask("watches.open"))
+    return page
+
+
+plugin = Plugin("gestures", make, order=70)

@@ -111,7 +111,7 @@ class GestureChip(QAbstractButton):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint a hat of the colour of events."""
-        theme, line = self._canvas.theme, self.fontMetrics().height()
+        theme, line = self._canvas.look.theme, self.fontMetrics().height()
         colours = theme.block("events")
         rect = QRectF(self.rect()).adjusted(1.5, 1.5, -1.5, -1.5)
         with QPainter(self) as painter:

@@ -8,10 +8,9 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen
 
-from nep_studio.ui.plugins.sensors.curves import line_width
-from nep_studio.ui.plugins.sensors.curves_view import polygon
-from nep_studio.ui.plugins.sensors.streams import Floats
+from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.widgets.curves import line_width, polygon
 from nep_studio.ui.words import tr
 
 from .live import Samples

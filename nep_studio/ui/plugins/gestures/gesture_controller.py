@@ -22,7 +22,7 @@ from nep_studio.blocks.own_gestures import (
     own_recordings,
     training_digest,
 )
-from nep_studio.ui.plugins.cues.project import ProjectEar
+from nep_studio.ui.open_project import OpenProject
 from nep_studio.ui.running.tap import Heard, Tap
 from nep_studio.ui.words import tr
 
@@ -80,7 +80,7 @@ class TrainerDesk(QObject):
         self._seen: dict[str, Any] = {}
         self._digest = ""
         self._read()
-        self._ear = ProjectEar(files, self)
+        self._ear = OpenProject(files, self)
         self._ear.changed.connect(self.refresh)
         self.refresh()
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from nep_core.wire.messages import Imu
 from nep_studio.blocks.own_gestures import Wrist
-from nep_studio.ui.plugins.sensors.streams import Floats, Ring
+from nep_studio.ui.ring import Floats, Ring
 
 KEPT_S = 30.0
 MOST_HZ = 1000

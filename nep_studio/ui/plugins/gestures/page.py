@@ -24,8 +24,8 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.watches.status import WatchStatus
 from nep_studio.ui.theme.icons import fit_icons, icon
+from nep_studio.ui.watch_view.status import WatchStatus
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards
@@ -79,7 +79,6 @@ def shape_for(wide: float, high: float) -> Shape:
 
 Step = Literal["project", "connect", "name", "record", "more", "another", "train", "try"]
 ENOUGH_TAKES = 3
-MANY_TAKES = 5
 
 
 def next_step(desk: TrainerDesk) -> tuple[Step, str]:

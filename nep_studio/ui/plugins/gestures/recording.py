@@ -14,7 +14,7 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import VIRTUAL_WATCH
 from nep_studio.ui.words import count_words, tr
 from nodes.perceptual.recognition.segments import Movement, PerformanceFinder
-from nodes.sensory.arm.gestures import GESTURES
+from nodes.sensory.arm.gestures import GESTURES, MAKES_GESTURE
 
 from .curves import fault_words
 from .gesture_controller import TrainerDesk
@@ -344,8 +344,6 @@ BEGUN_S = 3.0
 watch would go on with gestures of its own."""
 LATE_S = 0.3
 """So much later than the movement it may be heard what it is."""
-MADE = "makes the gesture {} "
-"""What the virtual watch tells while a gesture is made."""
 
 
 class SimulatedWearer(QObject):
@@ -408,7 +406,8 @@ class SimulatedWearer(QObject):
         movement = self.movement_for(self._session.gesture)
         if live is None or watch is None:
             return
-        if watch.description.startswith(MADE.format(movement)):
+        told = watch.fault
+        if told.code == MAKES_GESTURE and told.values.get("gesture") == movement:
             self._made.append(live.last_t)
         if self._session.is_moving:
             self._moved_s = now_s

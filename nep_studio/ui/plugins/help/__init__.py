@@ -2,39 +2,57 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
-from nep_studio.ui.shell.help_dialogs import on_the_canvas, shortcuts_of
+from nep_studio.ui.actions import on_the_canvas, shortcuts_of
+from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.words import tr
 
-from .help_controller import HelpDesk
-from .panel import HelpPanel
-from .repository import Rows
-
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from .panel import HelpPanel
+    from .repository import Rows
+
+Listener = Callable[["HelpPanel", str], object]
 
 
-# Brings the help into a main window, whose Help menu asks it.
+def make(host: Host) -> Parts:
+    """The panel beside the canvas, and what the Help menu asks for."""
+    from .help_controller import HelpDesk, open_documentation
+    from .panel import HelpPanel
 
-
-def add_help(window: MainWindow) -> HelpDesk:
-    """Add the help to a window whose menus are made; the desk goes with the workbench.
-
-    Its ``try_requested`` brings a Project that can run as it is.
-    """
-    workbench = window.workbench
+    services, workbench = host.services, host.workbench
 
     def shortcuts() -> Rows:
-        return [*shortcuts_of(window.actions_by_name.by_name.values()), *on_the_canvas()]
+        return [*shortcuts_of(host.actions.by_name.values()), *on_the_canvas()]
 
     def new_panel() -> HelpPanel:
-        return HelpPanel(workbench.canvas, window.look, window.studio.language, shortcuts)
+        return HelpPanel(workbench.canvas, services.look, services.language, shortcuts)
 
-    panel, icon_name = new_panel(), "circle-question-mark"
-    window.add_side_panel(panel, tr("Help"), icon_name, "right", is_shown=False)
+    panel = new_panel()
     desk = HelpDesk(panel, new_panel, workbench.panels, workbench.helpers.opening)
-    window.later.desk = desk
-    for menu in window.menus.values():
+    desk.try_requested.connect(services.running.try_project)
+    for menu in host.menus.values():
         desk.listen(menu)
-    return desk
+
+    def follow(listener: Listener) -> None:
+        """Tell of each page that is shown, and in which panel."""
+
+        def follow_panel(shown: HelpPanel) -> None:
+            shown.page_shown.connect(partial(listener, shown))
+
+        desk.panel_made.connect(follow_panel)
+        follow_panel(desk.panel)
+
+    commands: dict[str, Callable[..., object]] = {
+        "help.answer": desk.answer,
+        "help.open": desk.open,
+        "help.search": desk.search,
+        "help.documentation": lambda: open_documentation(services.messages),
+        "help.follow": follow,
+    }
+    return Parts(NewPanel(panel, tr("Help"), "circle-question-mark", "right"), commands=commands)
+
+
+plugin = Plugin("help", make, order=110, modules=("repository", "panel", "help_controller"))

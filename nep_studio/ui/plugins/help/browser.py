@@ -143,11 +143,11 @@ class HelpBrowser(QTextBrowser):
     def picture_look(self, theme: Theme | None = None) -> PictureLook:
         """How pictures on this page are drawn."""
         canvas = self._canvas
-        size = QFontInfo(self.font()).pixelSize() / QFontInfo(canvas.block_font).pixelSize()
+        size = QFontInfo(self.font()).pixelSize() / QFontInfo(canvas.look.block_font).pixelSize()
         return PictureLook(
             theme or self._look.theme,
-            canvas.block_font,
-            canvas.measures.is_mirrored,
+            canvas.look.block_font,
+            canvas.look.measures.is_mirrored,
             self.devicePixelRatioF(),
             BLOCK_SCALE * size * self.zoom,
             max(NARROWEST, self.viewport().width() - 4 * self.document().documentMargin()),
@@ -317,7 +317,7 @@ class ExampleBar(QWidget):
         canvas.selection.set(made)
         canvas.show_block(made[0])
         told = sentence(canvas.editor.project, canvas.editor.language, made[0])
-        canvas.announced.emit(tr("added: {block}", block=told))
+        canvas.news.announced.emit(tr("added: {block}", block=told))
         return True
 
     def ask_to_try(self) -> None:
@@ -325,12 +325,12 @@ class ExampleBar(QWidget):
         if self._example is not None:
             language = self._book().language
             project = self._example.project(language, language_code(), self._title)
-            arrange(project, language, self._canvas.measures)
+            arrange(project, language, self._canvas.look.measures)
             self.try_requested.emit(project)
 
     def _clip(self, example: Example, page: str) -> Clip:
         clip = example.clip(self._book().language, language_code(), page)
-        arrange(clip.project, self._book().language, self._canvas.measures)
+        arrange(clip.project, self._book().language, self._canvas.look.measures)
         return clip
 
     def _put_all(self, clips: Mapping[str, Clip]) -> list[str]:

@@ -221,7 +221,7 @@ class HelpDesk(QObject):
         opening.page_asked.connect(self.open)
         opening.is_page_shown = lambda: panel.isVisible()
         self._canvas: Canvas = opening.canvas
-        self._canvas.menu_requested.connect(self._on_menu_requested)
+        self._canvas.news.menu_requested.connect(self._on_menu_requested)
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         app.focusChanged.connect(self._on_focus_changed)

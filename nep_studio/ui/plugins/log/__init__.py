@@ -1,1 +1,18 @@
-"""The log: what happens in the running program, and what the window has told."""
+"""The log: what happens while a program runs, and all that the window has told."""
+
+from __future__ import annotations
+
+from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
+from nep_studio.ui.words import tr
+
+
+def make(host: Host) -> Parts:
+    """The panel below the canvas."""
+    from .panel import LogPanel
+
+    services = host.services
+    panel = LogPanel(services.runner, services.messages, services.language, services.look)
+    return Parts(NewPanel(panel, tr("Log"), "history", "bottom"))
+
+
+plugin = Plugin("log", make, order=80, modules=("panel",))

@@ -42,12 +42,11 @@ from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import tr
-from nep_studio.ui.workbench.side_panels import Panel
 
 from .lines import RUN, Line, LinePainter, LinesModel, part_of
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    pass
 
 
 # The buttons of a list that can be copied, saved and emptied.
@@ -409,10 +408,3 @@ class LogPanel(QTabWidget):
         """Room for a few lines."""
         line = self.fontMetrics().height()
         return QSize(line * 30, line * 10)
-
-
-def add_log_panel(window: MainWindow) -> Panel:
-    """Put the log below the canvas."""
-    studio = window.studio
-    panel = LogPanel(window.running.runner, window.messages, studio.language, studio.look)
-    return window.add_side_panel(panel, tr("Log"), "history", "bottom", is_shown=False)

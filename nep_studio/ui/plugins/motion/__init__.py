@@ -12,11 +12,11 @@ from nep_studio.blocks.operations.animations import Use, use_of
 from nep_studio.blocks.own_animations import own_animations
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
+from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.canvas import Canvas
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.canvas.host import CanvasHost
 
     from .teleoperation import TeleoperationWindow
     from .window import MotionWindow
@@ -27,36 +27,43 @@ if TYPE_CHECKING:
 MOTION_WINDOW = "motion_window"
 
 
-def add_motion(window: MainWindow) -> MotionKit:
-    """Add the actions "make_motion" and "teleoperate" to the Robots menu."""
-    return MotionKit(window)
+def make(host: Host) -> Parts:
+    """The actions of the Robots menu, and what the menu of a block that plays a motion offers."""
+    kit = MotionKit(host)
+    actions = [
+        NewAction(
+            "make_motion",
+            tr("Make a motion…"),
+            kit.make,
+            "person-standing",
+            tip=tr("Pose the robot, put the poses on a timeline, and let blocks play the motion"),
+            menu="robots",
+        ),
+        NewAction(
+            "teleoperate",
+            tr("Drive a robot…"),
+            kit.drive,
+            "crosshair",
+            tip=tr("Let a robot walk and look around with keys, a gamepad or a watch"),
+            menu="robots",
+        ),
+    ]
+    return Parts(actions=actions, menu_sections=[kit.section])
 
 
 class MotionKit(QObject):
     """What the actions do; the windows are loaded when they are opened."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window.actions_by_name)
-        self._window = window
-        add = window.actions_by_name.add
-        tip = tr("Pose the robot, put the poses on a timeline, and let blocks play the motion")
-        words = tr("Make a motion…")
-        make = add("make_motion", words, self.make, icon_name="person-standing", tip=tip)
-        menu = window.menus["robots"]
-        menu.addAction(make)
-        words = tr("Drive a robot…")
-        tip = tr("Let a robot walk and look around with keys, a gamepad or a watch")
-        menu.addAction(add("teleoperate", words, self.drive, icon_name="crosshair", tip=tip))
-        window.workbench.canvas.menu_sections.append(self._section)
-        window.files.document_changed.connect(self._update)
-        window.installEventFilter(self)
-        self._update()
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.actions)
+        self._host = host
+        host.widget.installEventFilter(self)
 
     def make(self) -> MotionWindow:
         """Show the window in which motions are made; there is one."""
         from .window import MotionWindow
 
-        made = self._open_motion() or MotionWindow(self._window, self._model())
+        made = self._open_motion() or MotionWindow(self._host, self._model())
         made.show()
         made.raise_()
         made.activateWindow()
@@ -66,8 +73,8 @@ class MotionKit(QObject):
         """Show the window from which a robot is driven; there is one."""
         from .teleoperation import TeleoperationWindow
 
-        shown = [w for w in self._window.findChildren(TeleoperationWindow) if w.isVisible()]
-        made = shown[0] if shown else TeleoperationWindow(self._window)
+        shown = [w for w in self._host.widget.findChildren(TeleoperationWindow) if w.isVisible()]
+        made = shown[0] if shown else TeleoperationWindow(self._host)
         made.show()
         made.raise_()
         made.activateWindow()
@@ -75,7 +82,7 @@ class MotionKit(QObject):
 
     def _model(self) -> str:
         """The model of the project's robots; a NAO's where they are different ones."""
-        planned = self._window.running.runner.planned()
+        planned = self._host.services.runner.planned()
         models = {str(node.parameters.get("model", "")) for node in planned if is_robot(node)}
         return models.pop() if len(models) == 1 else ""
 
@@ -89,7 +96,7 @@ class MotionKit(QObject):
         motion = self.make()
         motion.project.guard(lambda: motion.project.open(name))
 
-    def _section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+    def section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of a block that plays a motion offers."""
         if place.hit is None:
             return []
@@ -118,19 +125,18 @@ class MotionKit(QObject):
 
     def _open_motion(self) -> MotionWindow | None:
         """The window that is open; by its name, for its room is loaded late."""
-        dialogs = self._window.findChildren(QDialog, MOTION_WINDOW)
+        dialogs = self._host.widget.findChildren(QDialog, MOTION_WINDOW)
         found = next((dialog for dialog in dialogs if dialog.isVisible()), None)
         return cast("MotionWindow | None", found)
 
     def _close_all(self, motion: MotionWindow) -> None:
         motion.close_now()
-        self._window.close()
-
-    def _update(self, _document: object = None) -> None:
-        is_open = self._window.files.document is not None
-        self._window.actions_by_name.enable(is_open, "make_motion", "teleoperate")
+        self._host.widget.close()
 
 
 def is_robot(node: PlannedNode) -> bool:
     """Whether a node plays a robot."""
     return node.node.startswith("action/")
+
+
+plugin = Plugin("motion", make, order=170, needs_project=True)

@@ -14,15 +14,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_core.errors import ActionFailed
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_animations import AnimationKind
+from nep_studio.ui.actions import Actions
 from nep_studio.ui.messages import announce
-from nep_studio.ui.shell.menus import Actions
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
 from robots.body.body import Body, posture_name
+from robots.errors import ActionFailed
 
 from .motion_controller import MotionDesk, Player
 from .timeline import Timeline

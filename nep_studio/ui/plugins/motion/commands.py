@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QCursor, QKeySequence
 from PySide6.QtWidgets import QInputDialog, QMenu
 
-from nep_core.errors import NepError
+from faults import FaultError
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.animations import Use
 from nep_studio.blocks.own_animations import OwnAnimation, free_name
@@ -20,6 +20,7 @@ from nep_studio.project.kept_files import to_toml
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.messages import Answer, Message, Messages, announce
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.labels import add_title
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import count_words, tr
 
@@ -208,16 +209,6 @@ class Commands:
         action.setIcon(icon("pause" if is_playing else "play", theme))
 
 
-# Titles inside menus: those that Qt has of its own are not painted in our style.
-
-
-def add_title(menu: QMenu, words: str) -> None:
-    """Begin a part of a menu with words that cannot be chosen."""
-    if not menu.isEmpty():
-        menu.addSeparator()
-    menu.addAction(words.replace("&", "&&")).setEnabled(False)
-
-
 # Opens motions, keeps them in the project, deletes them there, reads and writes them as text.
 
 
@@ -268,7 +259,7 @@ class ProjectCommands:
 
     def _fill_robot_menu(self) -> None:
         self.window.player.pause()
-        self.window.robots.fill(self.robot_menu, self.window.main.studio.language)
+        self.window.robots.fill(self.robot_menu, self.window.host.services.language)
 
     # Opening
 
@@ -319,7 +310,7 @@ class ProjectCommands:
             return
         try:
             self._show(self.kept.load(name), "")
-        except NepError as error:
+        except FaultError as error:
             self.tell_error(error)
 
     def _opener(self, name: str) -> Callable[[], None]:
@@ -343,7 +334,7 @@ class ProjectCommands:
             name = self.kept.save(self.desk.motion, self.desk.name, self._use)
         except EditRefused as refused:
             step = tr("Give it a name and at least one pose, then keep it again.")
-            self._tell(tr("The motion could not be kept"), tr(str(refused)), step)
+            self._tell(tr("The motion could not be kept"), tr(refused.sentence), step)
             return False
         self._use = None
         self.desk.saved(name)
@@ -417,9 +408,9 @@ class ProjectCommands:
     @property
     def messages(self) -> Messages:
         """The door for messages; they are shown in the main window."""
-        return self.window.main.messages
+        return self.window.host.services.messages
 
-    def tell_error(self, error: NepError) -> None:
+    def tell_error(self, error: FaultError) -> None:
         """Say what went wrong, over this window."""
         problem = problem_of(error)
         ok = Answer(tr("OK"), lambda: None, "primary")

@@ -32,11 +32,6 @@ class Drive:
         """The part of the legs, in steps of a tenth: less is not felt."""
         return (round(self.forward, 1), round(self.left, 1), round(self.turn, 1))
 
-    @property
-    def is_walking(self) -> bool:
-        """Whether the legs are asked to do something."""
-        return any(self.walk)
-
     def slowed(self, part: float) -> Drive:
         """The same with slower legs."""
         return Drive(

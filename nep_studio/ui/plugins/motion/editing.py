@@ -163,13 +163,6 @@ def backwards(motion: OwnAnimation) -> OwnAnimation:
     return from_keyframes(motion, all_keys.reversed().delayed(all_keys.first_key_s))
 
 
-def without_joints(motion: OwnAnimation, names: Iterable[str]) -> OwnAnimation:
-    """Do not move some joints."""
-    gone = set(names)
-    joints = {name: joint for name, joint in motion.joints.items() if name not in gone}
-    return replace(motion, joints=joints)
-
-
 def keyframes(motion: OwnAnimation) -> Keyframes:
     """The motion as the robot's node plays it."""
     tracks = {name: Track(j.times, j.keys, j.handles) for name, j in motion.joints.items()}

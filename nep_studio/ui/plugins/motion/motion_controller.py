@@ -336,7 +336,7 @@ class KeptMotions:
         }
 
     def load(self, name: str) -> OwnAnimation:
-        """A motion that comes with the robot; raises NodeStartError."""
+        """A motion that comes with the robot; raises FilesUnusable."""
         animation = as_own(load_animation(self._folder / f"{name}.toml", self._body))
         titles = [self.shipped(kind).get(name) for kind in TABLES]
         return replace(animation, title=next(filter(None, titles), animation.title))

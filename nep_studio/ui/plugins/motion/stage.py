@@ -14,13 +14,13 @@ from PySide6.QtWidgets import QMenu
 from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.view import RobotView
+from nep_studio.ui.widgets.labels import add_title
 from nep_studio.ui.words import tr
 from robots.body.body import Angles
 from robots.body.inverse import Goal, Reach
 from robots.body.kinematics import TORSO, Frames, Skeleton, rotation
 
 from . import editing
-from .commands import add_title
 from .motion_controller import FIRST_POSE_S, MotionDesk
 from .rehearsal import starting_posture, torso_for_posing
 

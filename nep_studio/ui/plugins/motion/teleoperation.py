@@ -31,8 +31,8 @@ from .pad import DrivePad
 from .stage import ACTION
 
 if TYPE_CHECKING:
+    from nep_studio.ui.host import Host
     from nep_studio.ui.running.tap import Heard
-    from nep_studio.ui.shell.main_window import MainWindow
 
 LOOK_MS = 100
 WALK, ARM = "walk", "arm"
@@ -41,23 +41,23 @@ WALK, ARM = "walk", "arm"
 class TeleoperationWindow(QDialog):
     """Drives one running robot with keys, a gamepad or a watch."""
 
-    def __init__(self, main: MainWindow) -> None:
-        super().__init__(main)
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.widget)
         self.setWindowTitle(tr("Drive a robot"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._runner = main.running.runner
+        self._runner = host.services.runner
         self.states: dict[str, m.RobotState] = {}
         self.pilot = Pilot(self._runner, self)
         self.gamepad = Gamepad(self)
         self.tilt = Tilt()
         self._tilt_heard_s = 0.0
         self._drives: dict[str, Drive] = {}
-        self.view = RobotView(main.look)
+        self.view = RobotView(host.services.look)
         self.robot = QComboBox()
         self.robot.setAccessibleName(tr("Robot"))
         self.start_button = QPushButton()
         self.start_button.setAutoDefault(False)
-        self.pad = DrivePad(main.look)
+        self.pad = DrivePad(host.services.look)
         self.speed = QSlider(Qt.Orientation.Horizontal)
         self.with_gamepad = QCheckBox(tr("Gamepad"))
         self.with_watch = QCheckBox(tr("Watch"))

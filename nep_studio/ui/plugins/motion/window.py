@@ -19,12 +19,13 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.own_animations import OwnAnimation
+from nep_studio.ui.actions import Actions
 from nep_studio.ui.robot_view.view import RobotView
-from nep_studio.ui.shell.menus import Actions
 from nep_studio.ui.theme.icons import fit_icons, icon_room
 from nep_studio.ui.widgets.labels import room_around
 from nep_studio.ui.words import tr
-from robots.body.body import NAO, load_body, robot_folder
+from nodes.resources import NAO, model_folder
+from robots.body.body import load_body
 
 from . import MOTION_WINDOW
 from .bars import Header, NotesBar, Transport
@@ -36,24 +37,24 @@ from .stage import PosingStage, RobotPoses
 from .timeline import Timeline
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 class MotionWindow(QDialog):
     """Makes one motion at a time, for a robot of a ``model``: "" is a NAO."""
 
-    def __init__(self, main: MainWindow, model: str = "") -> None:
-        super().__init__(main)
-        self.main, self.look = main, main.look
+    def __init__(self, host: Host, model: str = "") -> None:
+        super().__init__(host.widget)
+        self.host, self.look = host, host.services.look
         self.setObjectName(MOTION_WINDOW)
         self.setWindowFlag(Qt.WindowType.WindowMaximizeButtonHint)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        language = main.studio.language
-        self.model, folder = model, robot_folder(model or NAO)
+        language = host.services.language
+        self.model, folder = model, model_folder(model or NAO)
         body = load_body(folder)
         self.desk = MotionDesk(body, self)
         self.player = Player(self.desk, self)
-        self.kept = KeptMotions(main.files, folder, body)
+        self.kept = KeptMotions(host.services.files, folder, body)
         self.actions_by_name = Actions(self, self.look)
         self.commands = Commands(self)
         self.project = ProjectCommands(self)
@@ -66,7 +67,7 @@ class MotionWindow(QDialog):
         self.transport = Transport(self.desk, self.player, self.timeline, self.actions_by_name)
         self.notes = NotesBar(self.desk, self.look)
         self.faults = Faults(self.desk, self.stage.skeleton, language)
-        self.robots = RobotPoses(main.running.runner, self.desk, self)
+        self.robots = RobotPoses(host.services.runner, self.desk, self)
         self._may_close = False
         self._lay_out()
         self._connect()
@@ -80,7 +81,7 @@ class MotionWindow(QDialog):
         self.notes.open_asked.connect(self.project.show_open_menu)
         self.timeline.key_asked.connect(self.commands.add_pose)
         self.timeline.menu_asked.connect(self.commands.show_menu)
-        self.main.files.document_changed.connect(self._on_document_changed)
+        self.host.services.files.document_changed.connect(self._on_document_changed)
         self.view.limb_pressed.connect(lambda *_: self.player.pause())
         for signal in (self.desk.changed, self.desk.chosen_changed):
             signal.connect(self._on_changed)

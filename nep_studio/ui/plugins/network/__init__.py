@@ -2,35 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.network_feed import feed_of
 from nep_studio.ui.widgets.questions import tell_not_saved
 from nep_studio.ui.words import tr
-
-from .panel import NetworkPanel
-
-if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
-
-
-# Brings the network panel into a window.
 
 LEAST_SHARE = 0.45
 """How much of the height beside the canvas a graph needs to be of use."""
 
 
-def add_network_panel(window: MainWindow) -> NetworkPanel:
-    """Add the panel below the canvas; call it each time the workbench is made.
+def make(host: Host) -> Parts:
+    """The panel below the canvas; what is chosen in it is shown by other panels."""
+    from .panel import NetworkPanel
 
-    Connect its ``plot_requested`` to the sensors panel and its ``node_chosen`` to the node panel.
-    """
-    runner, workbench = window.running.runner, window.workbench
-    feed = feed_of(window.running, lambda: runner.local.network)
-    panel = NetworkPanel(feed, lambda: runner.board.nodes, runner, window.look)
-    added = window.add_side_panel(panel, tr("Network"), "share-2", "bottom", is_shown=False)
+    services, runner = host.services, host.services.runner
+    panel = NetworkPanel(feed_of(host), lambda: runner.board.nodes, runner, services.look)
     panel.run_asked.connect(runner.run)
-    panel.saving_failed.connect(lambda path, reason: tell_not_saved(window.messages, path, reason))
+    panel.saving_failed.connect(
+        lambda path, reason: tell_not_saved(services.messages, path, reason)
+    )
+    panel.sharing_asked.connect(lambda: host.ask("sharing.open"))
+    panel.node_chosen.connect(lambda name: host.ask("nodes.show_log", name))
+    panel.plot_requested.connect(lambda topic, field: host.ask("sensors.plot", topic, field))
+    place = NewPanel(panel, tr("Network"), "share-2", "bottom", least_share=LEAST_SHARE)
+    return Parts(place, commands={"network.show_sharing": panel.show_sharing})
 
-    workbench.panels.give_room(added, LEAST_SHARE)
-    return panel
+
+plugin = Plugin("network", make, order=50, modules=("graph_view", "panel"))

@@ -23,13 +23,13 @@ from PySide6.QtWidgets import QToolTip, QWidget
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.messages import announce
 from nep_studio.ui.network_feed import Seen
+from nep_studio.ui.network_words import node_words, topic_words
 from nep_studio.ui.node_style import type_words
 from nep_studio.ui.theme.look import Look as StudioLook
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .graph import MARGIN, Graph, Key, Shapes, shapes_of
 from .graph_painter import GraphPainter, Look
-from .graph_words import node_words, topic_words
 
 SMALLEST, LARGEST = 0.25, 2.5
 SMALLEST_FIT = 0.6

@@ -9,11 +9,11 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeWidget, QTree
 
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.network_feed import Seen
+from nep_studio.ui.network_words import ago_words, names, rate_words
 from nep_studio.ui.node_style import state_look, type_words
 from nep_studio.ui.words import tr
 
 from .graph import Graph, Key
-from .graph_words import ago_words, names, rate_words
 
 KEY = Qt.ItemDataRole.UserRole
 

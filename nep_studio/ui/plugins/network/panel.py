@@ -20,7 +20,6 @@ from PySide6.QtWidgets import (
 
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.network_feed import NetworkFeed, Seen
-from nep_studio.ui.plugins.sharing import SharingTold
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
@@ -124,14 +123,14 @@ class NetworkPanel(QWidget):
         """Save messages there at first."""
         self.pane.folder = folder
 
-    def show_sharing(self, told: SharingTold) -> None:
-        """Say that the network is open to other computers; nothing when it is not."""
-        self.sharing_button.setVisible(bool(told.words))
-        self.sharing_button.setText(told.words)
-        self.sharing_button.setToolTip(told.more or told.words)
-        self.sharing_button.setAccessibleName(told.words)
-        self.sharing_button.setAccessibleDescription(told.more)
-        self._sharing_icon = told.icon_name
+    def show_sharing(self, words: str, more: str, icon_name: str) -> None:
+        """Say that the network is open to other computers; no ``words`` when it is not."""
+        self.sharing_button.setVisible(bool(words))
+        self.sharing_button.setText(words)
+        self.sharing_button.setToolTip(more or words)
+        self.sharing_button.setAccessibleName(words)
+        self.sharing_button.setAccessibleDescription(more)
+        self._sharing_icon = icon_name
         self._on_theme_changed()
 
     def open_topic(self, topic: str) -> None:

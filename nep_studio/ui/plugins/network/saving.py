@@ -11,9 +11,8 @@ from typing import Any
 
 import msgspec
 
+from nep_studio.ui.network_words import as_json
 from nep_studio.ui.running.tap import Heard
-
-from .graph_words import as_json
 
 
 def as_json_lines(messages: Iterable[Heard]) -> str:

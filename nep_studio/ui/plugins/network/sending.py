@@ -18,14 +18,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from faults import FaultError, Words, text_of
+from faults import FaultError, Words
 from nep_core.wire import messages as m
 from nep_studio.ui.messages import announce
+from nep_studio.ui.network_words import one_line, pretty
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, base_point_size, code_font
 from nep_studio.ui.words import tr
-
-from .graph_words import one_line, pretty
 
 # Messages to begin with when one is sent by hand, and the check of what was written.
 
@@ -62,7 +61,7 @@ class NotAMessage(FaultError):
     """What was written cannot be sent; ``line`` is where it is wrong (0: not known)."""
 
     def __init__(self, reason: Words, line: int = 0, /, **values: object) -> None:
-        super().__init__(text_of(reason, line=line, **values))
+        super().__init__(reason, **values)
         self.line = line
 
 
@@ -106,7 +105,7 @@ def _not_json(text: str, reason: str) -> NotAMessage:
     if place < 0:
         return NotAMessage("This is not complete JSON: a bracket or a quote is missing.")
     line = text.encode()[:place].count(b"\n") + 1
-    return NotAMessage("This is not JSON: look at line {line}.", line)
+    return NotAMessage("This is not JSON: look at line {line}.", line, line=line)
 
 
 MOST_SENT = 20

@@ -2,35 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from nep_studio.run.session import PROGRAM
+from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.network_feed import feed_of
 from nep_studio.ui.widgets.questions import tell_not_saved
 from nep_studio.ui.words import tr
 
-from .notifications import NodeTelling
-from .panel import NodesPanel
 
-if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+def make(host: Host) -> Parts:
+    """The panel below the canvas, and what is told of nodes."""
+    from .notifications import NodeTelling
+    from .panel import NodesPanel
 
+    services, workbench = host.services, host.workbench
+    runner = services.runner
+    panel = NodesPanel(runner, feed_of(host), services.look)
 
-# Brings the node panel into a window, with what is told of nodes.
-
-
-def add_nodes_panel(window: MainWindow) -> NodesPanel:
-    """Add the panel below the canvas; call it each time the workbench is made."""
-    running, workbench = window.running, window.workbench
-    runner = running.runner
-    panel = NodesPanel(runner, feed_of(running, lambda: runner.local.network), window.look)
-    window.add_side_panel(panel, tr("Nodes"), "network", "bottom", is_shown=False)
-
-    def open_log(name: str) -> None:
-        workbench.panels.show(panel)
+    def show_log(name: str) -> None:
+        host.show_panel(panel)
         panel.open_log(name)
 
-    telling = panel.telling = NodeTelling(window, open_log, panel)
+    telling = panel.telling = NodeTelling(host, show_log, panel)
 
     def start(name: str) -> None:
         if name == PROGRAM:
@@ -41,7 +33,7 @@ def add_nodes_panel(window: MainWindow) -> NodesPanel:
 
     def stop(name: str) -> None:
         if name == PROGRAM:
-            running.stop()
+            services.running.stop()
         else:
             telling.expect_stop(name)
             runner.stop_node(name)
@@ -55,7 +47,11 @@ def add_nodes_panel(window: MainWindow) -> NodesPanel:
     panel.restart_asked.connect(restart)
     panel.page_asked.connect(lambda: workbench.canvas.show_page("robots"))
     panel.log.saving_failed.connect(
-        lambda path, reason: tell_not_saved(window.messages, path, reason)
+        lambda path, reason: tell_not_saved(services.messages, path, reason)
     )
     workbench.problems_found.connect(lambda _problems: panel.refresh_plan())
-    return panel
+    place = NewPanel(panel, tr("Nodes"), "network", "bottom")
+    return Parts(place, commands={"nodes.show_log": show_log})
+
+
+plugin = Plugin("nodes", make, order=40, modules=("notifications", "panel"))

@@ -23,8 +23,8 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.run.session import PROGRAM
 from nep_studio.ui.network_feed import NodeSeen
+from nep_studio.ui.network_words import rate_words
 from nep_studio.ui.node_style import icon_of, is_running, manifest_of, state_look, type_words
-from nep_studio.ui.plugins.network.graph_words import rate_words
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import ElidedLabel
@@ -198,7 +198,7 @@ class NodeCard(QFrame):
         manifest = manifest_of(status.node)
         title = tr(manifest.title) if manifest else ""
         kind = type_words(status.type)
-        described = tr(status.description.partition("\n")[0].strip())
+        described = tr(status.fault.sentence).partition("\n")[0].strip()
         self.name.set_words(entry.name)
         self.kind.set_words(f"{title} · {kind}" if title else kind)
         self.state.set_words(f"{look.word}: {described}" if described else look.word)

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from nep_core.processes.process import STEP
-from nep_studio.blocks.deployment import ROBOT_BLOCK
+from faults import Text, Words
+from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.program import ROBOT_BLOCK
 from nep_studio.problems import Problem
 from nep_studio.run.local_network import MASTER
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.run.session import PROGRAM
 from nep_studio.ui.messages import Answer, Kind
-from nep_studio.ui.plugins.connecting import open_connecting
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 Fix = Literal[
@@ -34,9 +34,6 @@ Fix = Literal[
     "run",
     "stop",
 ]
-
-STARTED_AGAIN = "; it is started again"
-"""How the studio's own words for a crashed node end when it has another try (see herald.py)."""
 
 BAD = frozenset({"warning", "frozen", "crashed"})
 WELL = frozenset({"ready", "busy"})
@@ -97,8 +94,8 @@ def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
 
 
 def _same(before: NodeStatus, after: NodeStatus) -> bool:
-    mine = (before.health, before.event, before.description)
-    return mine == (after.health, after.event, after.description)
+    mine = (before.health, before.event, before.fault)
+    return mine == (after.health, after.event, after.fault)
 
 
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
@@ -122,20 +119,14 @@ def _silent(name: str) -> str:
     return tr("“{name}” has said nothing for three seconds.", name=name)
 
 
-def _steps(lines: Sequence[str]) -> tuple[str, ...]:
-    """The checklist that a node tells below its sentence."""
-    return tuple(tr(line.removeprefix(STEP.lstrip())) for line in lines if line.strip())
-
-
 def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
     """The node's own words are a sentence and a checklist."""
-    first, *rest = status.description.splitlines() or [""]
-    steps = _steps(rest)
+    fault = status.fault
     where = tr(
         "The program could not reach {name} at {address}.", name=status.name, address=at.address
     )
-    sentence = tr(first) if first else where
-    problem = Problem(tr("{name} does not answer", name=status.name), sentence, steps)
+    title = tr("{name} does not answer", name=status.name)
+    problem = Problem(title, fault.sentence or where, fault.checklist)
     fixes: tuple[Fix, ...] = (
         ("use_virtual", "test_connection", "change_address") if at.has_block else ()
     )
@@ -144,37 +135,35 @@ def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
 
 def _warning(status: NodeStatus, at: Circumstances) -> Notice:
     name = status.name
-    described, *rest = status.description.splitlines() or [""]
-    steps: tuple[str, ...]
+    steps: tuple[Words, ...]
     if status.event == "disconnected":
         title = tr("“{name}” has lost its connection", name=name)
         steps = (tr("It goes on trying by itself."), tr("Is the device switched on and near?"))
     else:
         title = tr("“{name}” needs attention", name=name)
         steps = (tr("Look into its log."), tr("Look at its settings."))
-    steps = _steps(rest) or steps
-    problem = Problem(title, tr(described), steps)
+    problem = Problem(title, status.fault.sentence, status.fault.checklist or steps)
     fixes: list[Fix] = ["show_log"] if at.is_ours or at.is_program else []
     if at.has_block:
         fixes.append("show_settings")
-    return Notice(name, f"warning {described}", "warning", problem, tuple(fixes))
+    return Notice(name, f"warning {status.fault}", "warning", problem, tuple(fixes))
 
 
 def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
     name = status.name
     steps: tuple[str, ...]
-    described = tr(status.description.partition(STARTED_AGAIN)[0])
+    described = _how_it_ended(status)
     if not at.is_ours:
         title = tr("“{name}” has ended unexpectedly", name=name)
         steps = (tr("Start it again where it was started."),)
         return Notice(name, "ended", "warning", Problem(title, described, steps))
-    if status.description.endswith(STARTED_AGAIN):
+    if status.fault.code == PROCESS_RESTARTS:
         title = tr("“{name}” ended unexpectedly and is started again", name=name)
         steps = (tr("Wait a moment: it comes back by itself."), tr("Look into its log."))
         return Notice(
             name, "restarting", "warning", Problem(title, described, steps), ("show_log",)
         )
-    if not status.description.startswith(f"{name} "):
+    if status.fault.code != PROCESS_ENDED:
         return None  # its own last words; what became of its process follows at once
     if not at.was_ready:
         return None  # who started it is told why it could not start
@@ -185,16 +174,21 @@ def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
 
 def _program_ended(status: NodeStatus) -> Notice | None:
     """Only when it was killed: what else may end it, Run tells of."""
-    described, words, _ = status.description.partition(STARTED_AGAIN)
-    if not words:
+    if status.fault.code != PROCESS_RESTARTS:
         return None
     title = tr("The program ended unexpectedly and begins again")
     steps = (
         tr("Stop it, if it should not begin again."),
         tr("Does it use more and more memory? Its log may say so."),
     )
-    problem = Problem(title, tr(described), steps)
+    problem = Problem(title, _how_it_ended(status), steps)
     return Notice(status.name, "restarting", "warning", problem, ("stop", "show_log"))
+
+
+def _how_it_ended(status: NodeStatus) -> Text:
+    """That alone; what becomes of the node then is in the title."""
+    outcome = status.fault.values.get("outcome")
+    return outcome if isinstance(outcome, Text) else status.fault.sentence
 
 
 def started_again(name: str, problem: Problem) -> Notice:
@@ -208,15 +202,15 @@ def started_again(name: str, problem: Problem) -> Notice:
     return Notice(name, "started again", "info", again, ("show_log",), passes=True)
 
 
-def master_notice(event: str, sentence: str) -> Notice:
+def master_notice(event: str, sentence: Words) -> Notice:
     """What to tell of a master that ended unexpectedly."""
     if event == "restarting":
         title = tr("The network ended unexpectedly and is opened again")
         steps = (tr("Wait a moment: what runs goes on."), tr("Look into its log."))
-        problem = Problem(title, tr(sentence), steps)
+        problem = Problem(title, sentence, steps)
         return Notice(MASTER, "restarting", "warning", problem, ("show_log",))
     steps = (tr("Start it again: what runs goes on."), tr("Look into its log: why did it end?"))
-    problem = Problem(tr("The network ended unexpectedly"), tr(sentence), steps)
+    problem = Problem(tr("The network ended unexpectedly"), sentence, steps)
     return Notice(MASTER, "gone", "error", problem, ("start", "show_log"))
 
 
@@ -244,21 +238,21 @@ def could_not_start(name: str, problem: Problem, at: Circumstances) -> Notice:
 
 
 class NodeFixes:
-    """Fixes of one window; ``open_log`` shows the log of a node."""
+    """Does the fixes; ``open_log`` shows the log of a node."""
 
-    def __init__(self, window: MainWindow, open_log: Callable[[str], None]) -> None:
-        self._window, self._open_log = window, open_log
+    def __init__(self, host: Host, open_log: Callable[[str], None]) -> None:
+        self._host, self._open_log = host, open_log
 
     def plan_of(self, name: str) -> PlannedNode | None:
         """How a node is wanted now: as the project says, else as it was started."""
-        runner = self._window.running.runner
+        runner = self._host.services.runner
         found = {one.name: one for one in runner.planned()}
         return found.get(name) or runner.local.planned.get(name)
 
     def block_of(self, name: str) -> str:
         """The block that a node comes from; "" when it has none on a page."""
         plan = self.plan_of(name)
-        blocks = self._window.workbench.canvas.editor.project.blocks
+        blocks = self._host.workbench.canvas.editor.project.blocks
         return plan.block_id if plan is not None and plan.block_id in blocks else ""
 
     def answer(self, fix: Fix, name: str) -> Answer:
@@ -283,34 +277,34 @@ class NodeFixes:
             case "start":
                 self.start(name)
             case "restart":
-                self._window.running.runner.restart_node(name)
+                self._host.services.runner.restart_node(name)
             case "show_log":
                 self._open_log(name)
             case "show_settings":
-                self._window.workbench.show_block(self.block_of(name))
+                self._host.workbench.show_block(self.block_of(name))
             case "use_virtual":
                 self._use_virtual(name)
             case "test_connection":
-                open_connecting(self._window, name)
+                self._host.ask("connecting.open", name)
             case "change_address":
                 self._change_address(name)
             case "run":
-                self._window.running.runner.run()
+                self._host.services.runner.run()
             case "stop":
-                self._window.running.stop()
+                self._host.services.running.stop()
 
     def start(self, name: str) -> None:
         """Start a node as it is wanted now; or the network, when its master is gone."""
         if name == MASTER:
-            self._window.running.runner.open_network()
+            self._host.services.runner.open_network()
             return
         plan = self.plan_of(name)
         if plan is not None:
-            self._window.running.runner.start_node(plan)
+            self._host.services.runner.start_node(plan)
 
     def _use_virtual(self, name: str) -> None:
         """Let the robot be the one on the screen: in the project, where it can be undone."""
-        block, workbench = self._robot_block(name), self._window.workbench
+        block, workbench = self._robot_block(name), self._host.workbench
         if not block:
             return
         editor = workbench.canvas.editor
@@ -318,18 +312,18 @@ class NodeFixes:
             with editor.transaction(tr("use the robot on the screen")):
                 editor.apply(SetField(block, "driver", "virtual"))
         except EditRefused as refusal:
-            self._window.messages.refuse(refusal.sentence, refusal.checklist)
+            self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
         self.start(name)  # the running one is as it was before, so it is started anew
 
     def _change_address(self, name: str) -> None:
         """Show the robot's block with its address open to be written."""
-        block, workbench = self._robot_block(name), self._window.workbench
+        block, workbench = self._robot_block(name), self._host.workbench
         if block:
             workbench.show_block(block)
             workbench.canvas.fields.open(block, "address")
 
     def _robot_block(self, name: str) -> str:
         block = self.block_of(name)
-        project = self._window.workbench.canvas.editor.project
+        project = self._host.workbench.canvas.editor.project
         return block if block and project.blocks[block].type == ROBOT_BLOCK else ""

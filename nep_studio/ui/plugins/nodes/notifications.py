@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer
 
+from faults import Words
 from nep_core.errors import NepError
 from nep_studio.problems import Problem, problem_of
 from nep_studio.run.local_network import MASTER
@@ -30,7 +31,7 @@ from .notices import (
 )
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 GATHER_MS = 400
 """Nodes that become ready within this time are told of together."""
@@ -41,13 +42,11 @@ ENDING_S = 3.0
 class NodeTelling(QObject):
     """Listens to the runner of a window as long as ``parent`` lives."""
 
-    def __init__(
-        self, window: MainWindow, open_log: Callable[[str], None], parent: QObject
-    ) -> None:
+    def __init__(self, host: Host, open_log: Callable[[str], None], parent: QObject) -> None:
         super().__init__(parent)
-        self._window = window
-        self._runner = window.running.runner
-        self.fixes = NodeFixes(window, open_log)
+        self._host = host
+        self._runner = host.services.runner
+        self.fixes = NodeFixes(host, open_log)
         self._before: dict[str, NodeStatus] = dict(self._runner.board.nodes)
         self._told: dict[str, tuple[str, Message]] = {}
         self._asked: set[str] = set()
@@ -152,12 +151,12 @@ class NodeTelling(QObject):
         )
         if not notice.passes:
             self._told[notice.node] = (notice.key, message)
-        self._window.messages.tell(message)
+        self._host.services.messages.tell(message)
 
     def _take_back(self, name: str) -> None:
         told = self._told.pop(name, None)
         if told is not None:
-            self._window.messages.withdraw(told[1])
+            self._host.services.messages.withdraw(told[1])
 
     def _recover(self, name: str) -> None:
         """It is well again: take back what was told, but let what passed quickly be read."""
@@ -166,7 +165,7 @@ class NodeTelling(QObject):
         if key == "restarting" and message is not None and not self._is_ending:
             self.tell(started_again(name, Problem(message.title, message.sentence)))
 
-    def _on_master_changed(self, event: str, sentence: str) -> None:
+    def _on_master_changed(self, event: str, sentence: Words) -> None:
         if event == "back":
             self._recover(MASTER)
         else:
@@ -189,7 +188,7 @@ class NodeTelling(QObject):
         names = [one.name for one in self._runner.board.nodes.values() if one.health in WELL]
         count = len([name for name in names if name != PROGRAM])
         words = count_words(count, "It runs: 1 node is ready", "It runs: {n} nodes are ready")
-        self._window.messages.confirm(words)
+        self._host.services.messages.confirm(words)
         self._ready.clear()
 
     def _on_gathered(self) -> None:
@@ -200,9 +199,9 @@ class NodeTelling(QObject):
                 return
         ready, self._ready = self._ready, []
         if len(ready) == 1:
-            self._window.messages.confirm(tr("“{name}” is ready", name=ready[0]))
+            self._host.services.messages.confirm(tr("“{name}” is ready", name=ready[0]))
         elif ready:
-            self._window.messages.confirm(
+            self._host.services.messages.confirm(
                 count_words(len(ready), "1 node is ready", "{n} nodes are ready")
             )
 

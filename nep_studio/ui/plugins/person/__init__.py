@@ -1,1 +1,20 @@
-"""The simulated human: all that a program can react to, done with the mouse."""
+"""The simulated human: whatever a program waits for is done by hand, with mouse and keyboard."""
+
+from __future__ import annotations
+
+from nep_studio.ui.floor import floor_of
+from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
+from nep_studio.ui.words import tr
+
+LEAST_SHARE = 0.4
+
+
+def make(host: Host) -> Parts:
+    """The panel below the canvas; hidden until somebody wants it."""
+    from .panel import HumanPanel
+
+    panel = HumanPanel(host, floor_of(host))
+    return Parts(NewPanel(panel, tr("Person"), "user", "bottom", least_share=LEAST_SHARE))
+
+
+plugin = Plugin("person", make, order=20, modules=("senses", "panel"))

@@ -24,15 +24,14 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.blocks.slots import why_not_line
 from nep_studio.project.triggers import Happening, happenings_of
+from nep_studio.ui.floor import Floor
 from nep_studio.ui.messages import announce
-from nep_studio.ui.plugins.cues.project import ProjectEar
-from nep_studio.ui.plugins.robots.floor import Floor, floor_of
+from nep_studio.ui.open_project import OpenProject
 from nep_studio.ui.running.tap import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Columns, FlowLayout
 from nep_studio.ui.words import tr
-from nep_studio.ui.workbench.side_panels import Panel
 
 from .buttons import HappeningButton, Section, WordsButton
 from .person_box import PersonBox
@@ -41,7 +40,7 @@ from .stimuli import KINDS, Hands, Visitors
 from .words import words_of
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 # What the open program waits for: a button for each.
@@ -105,22 +104,18 @@ def _is_here(happening: Happening, here: dict[str, str]) -> bool:
     return not happening.value or plain(happening.value) == plain(here[happening.kind])
 
 
-SHARE = 0.4
-"""When it is opened, it gets at least this much of the window's height."""
-
-
 class HumanPanel(QScrollArea):
     """What the program waits for comes first; below it, all that can be done by hand.
 
     It is empty until it is shown for the first time.
     """
 
-    def __init__(self, window: MainWindow, floor: Floor) -> None:
+    def __init__(self, host: Host, floor: Floor) -> None:
         super().__init__()
-        self._window, self._look = window, window.look
-        self._runner, self._language = window.running.runner, window.studio.language
+        self._host, self._look = host, host.services.look
+        self._runner, self._language = host.services.runner, host.services.language
         self._tap: Tap | None = None
-        self._ear = ProjectEar(window.files, self)
+        self._ear = OpenProject(host.services.files, self)
         self.visitors = Visitors(floor, self)
         self.hands = Hands(self._runner, self.visitors, self.watch_gestures, self)
         self.setWidgetResizable(True)
@@ -331,11 +326,3 @@ class HumanPanel(QScrollArea):
         if self._tap is not None:
             self._tap.close()
             self._tap = None
-
-
-def add_human_panel(window: MainWindow) -> Panel:
-    """Put the simulated human beside the canvas; hidden until somebody wants it."""
-    panel = HumanPanel(window, floor_of(window))
-    added = window.add_side_panel(panel, tr("Person"), "user", "bottom", is_shown=False)
-    window.workbench.panels.give_room(added, SHARE)
-    return added

@@ -10,16 +10,14 @@ from typing import Literal
 import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from nep_core.program.human import state_of_thing, state_of_word
 from nep_core.program.robot import TOUCHES
 from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState, Thing, ThingKind
-from nep_studio.blocks.deployment import GESTURE_STATE
 from nep_studio.blocks.program import ALL_ROBOTS
 from nep_studio.project.surroundings import AHEAD_M, SIZES, named
-from nep_studio.project.triggers import Happening
+from nep_studio.project.triggers import Happening, state_of
 from nep_studio.run.plan import VIRTUAL_WATCH
-from nep_studio.ui.plugins.robots.floor import Floor
+from nep_studio.ui.floor import Floor
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.words import tr
 
@@ -206,7 +204,7 @@ class Hands(QObject):
         if happening.kind == "gesture":
             return self._gesture(happening)
         if happening.kind in ("emotion", "state"):
-            return self._tell(_state_of(happening), SOURCE, happening)
+            return self._tell(state_of(happening), SOURCE, happening)
         if not robot:
             return self._without_robot(happening)
         self._let(robot, happening)
@@ -297,13 +295,13 @@ class Hands(QObject):
             )
             self.told.emit(tr("The watch moves: {gesture}", gesture=happening.words))
             return is_sent
-        return self._tell(_state_of(happening), SOURCE, happening)
+        return self._tell(state_of(happening), SOURCE, happening)
 
     def _without_robot(self, happening: Happening) -> bool:
         """Tell the program what a robot would have noticed; what is measured cannot be told."""
         if happening.kind in TOLD_BY_HAND:
             source = SOURCE if happening.robot in (ALL_ROBOTS, "") else happening.robot
-            return self._tell(_state_of(happening), source, happening)
+            return self._tell(state_of(happening), source, happening)
         named = happening.robot if happening.robot != ALL_ROBOTS else self.robot
         self.refused.emit(
             tr(
@@ -345,22 +343,3 @@ class Hands(QObject):
         nodes = self._runner.board.nodes
         names = [name for name in self.robots if robot in ("", name)]
         return any(name in nodes and nodes[name].is_there for name in names)
-
-
-def _state_of(happening: Happening) -> str:
-    """The human state that tells of something."""
-    value = happening.value
-    match happening.kind:
-        case "word":
-            return state_of_word(value or "hello")
-        case "face" | "ball" | "mark" | "sound":
-            return state_of_thing(happening.kind, value)
-        case "touch":
-            return f"touched_{value}"
-        case "distance":
-            return f"person_{value}"
-        case "emotion":
-            return f"emotion_{value}"
-        case "gesture":
-            return f"{GESTURE_STATE}{value}"
-    return value or "touched_head"

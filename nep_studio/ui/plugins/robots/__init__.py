@@ -1,1 +1,30 @@
-"""The robots panel: each robot's body, what it says and does, and a touch by a click."""
+"""The robots: one scene with all robots of the project, and a card for each."""
+
+from __future__ import annotations
+
+from nep_studio.ui.floor import floor_of
+from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
+from nep_studio.ui.speech import sound_of
+from nep_studio.ui.words import tr
+
+
+def make(host: Host) -> Parts:
+    """The panel beside the canvas; it follows the Robots page."""
+    from .panel import RobotsPanel
+    from .participants import Starts
+
+    services, runner = host.services, host.services.runner
+    panel = RobotsPanel(
+        runner,
+        services.language,
+        services.look,
+        floor_of(host),
+        sound_of(host),
+        host.keep(Starts, lambda: Starts(runner, runner)),
+    )
+    host.workbench.problems_found.connect(lambda _problems: panel.refresh())
+    panel.stage.tools.connecting_asked.connect(lambda: host.ask("connecting.open"))
+    return Parts(NewPanel(panel, tr("Robots"), "bot", "right"))
+
+
+plugin = Plugin("robots", make, order=10, modules=("stage", "panel"))

@@ -32,7 +32,7 @@ from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
-from .floor import RobotPlan
+from .participants import RobotPlan
 
 # What is known of a robot: short facts beside each other, long ones in lines.
 

@@ -22,32 +22,21 @@ from faults import Tr
 from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import action_words
+from nep_studio.ui.floor import Floor
 from nep_studio.ui.node_style import state_look
-from nep_studio.ui.plugins.speech import Sound, sound_of
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import room_around
 from nep_studio.ui.words import tr
-from nep_studio.ui.workbench.side_panels import Panel
 
 from .card import Asking, RobotCard
-from .floor import (
-    ORIGIN,
-    Base,
-    Floor,
-    RobotPlan,
-    Starts,
-    floor_of,
-    look_of,
-    robots_of,
-    start_places,
-    starts_of,
-)
+from .participants import ORIGIN, Base, RobotPlan, Starts, look_of, robots_of, start_places
 from .stage import RobotStage
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    pass
 
 
 # A window of its own for the scene of the robots, for a room full of people.
@@ -370,19 +359,3 @@ class RobotsPanel(QWidget):
         """Listen no more, unless the large window is seen."""
         super().hideEvent(event)
         self._listen()
-
-
-def add_robots_panel(window: MainWindow) -> Panel:
-    """Put the robots beside the canvas; they follow the Robots page."""
-    panel = RobotsPanel(
-        window.running.runner,
-        window.studio.language,
-        window.studio.look,
-        floor_of(window),
-        sound_of(window),
-        starts_of(window),
-    )
-    window.workbench.problems_found.connect(lambda _problems: panel.refresh())
-    asked = panel.stage.tools.connecting_asked
-    asked.connect(lambda: window.actions_by_name["connect_robot"].trigger())
-    return window.add_side_panel(panel, tr("Robots"), "bot", "right", is_shown=False)

@@ -13,11 +13,12 @@ from PySide6.QtWidgets import QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from nep_core.wire.messages import RobotState, Thing, ThingKind
 from nep_studio.project.surroundings import moved, named, new_thing, turned
-from nep_studio.ui.plugins.speech import Sound
+from nep_studio.ui.floor import Floor
+from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
-from .floor import ORIGIN, Base, Floor, RobotPlan
+from .participants import ORIGIN, Base, RobotPlan
 from .stage_tools import StageTools, ThingBar, thing_words
 
 if TYPE_CHECKING:

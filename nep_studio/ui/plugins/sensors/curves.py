@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QIcon, QPainter, QPen, QPixmap
 
-from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
+from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.widgets.curves import line_width
 from nep_studio.ui.words import tr
 
 from .streams import ACCELERATION, MAGNITUDE, ROTATION, ImuStream, Stream, StreamKey
@@ -60,12 +61,6 @@ class CurveLook:
         painter.drawLine(0, size.height() // 2, size.width(), size.height() // 2)
         painter.end()
         return QIcon(pixmap)
-
-
-def line_width(theme: Theme, metrics: QFontMetricsF) -> float:
-    """How wide curves are: wider with larger text and with high contrast."""
-    width = max(1, round(metrics.height() / 17))
-    return width + 1 if theme.name == HIGH_CONTRAST else width
 
 
 def icon_size(metrics: QFontMetricsF) -> QSize:

@@ -6,17 +6,18 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-import pyqtgraph
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QPixmap, QPolygonF
 from PySide6.QtWidgets import QWidget
 
+from nep_studio.ui.ring import Floats, Ring
 from nep_studio.ui.theme.colours import Theme, load_theme
+from nep_studio.ui.widgets.curves import polygon
 
 from .curves import ValueRange, mixed
 from .feed import Mark
-from .streams import Floats, Ring, Samples, Stream
+from .streams import Samples, Stream
 
 # Samples brought down to what a screen can show: the least and the greatest of each column.
 
@@ -108,7 +109,6 @@ class LiveColumns:
 
 _FAR = 4.0
 """How many heights of the plot a line may go beyond it: further makes drawing slow."""
-_DOT = np.array([[-1.0, 0.0], [1.0, 0.0]])
 
 
 @dataclass(frozen=True)
@@ -158,17 +158,6 @@ def lines(columns: Columns, channel: int, frame: Frame) -> list[Floats]:
     points[:, 1] = (frame.values.high - points[:, 1]) * scale
     np.clip(points[:, 1], -_FAR * frame.height, (1 + _FAR) * frame.height, out=points[:, 1])
     return _between_gaps(points)
-
-
-def polygon(points: Floats) -> QPolygonF:
-    """Points (n, 2) as Qt takes them."""
-    if len(points) == 1:
-        points = points[[0, 0]]
-    if len(points) == 2 and (points[0] == points[1]).all():
-        points = points + _DOT  # one sample between two gaps: a short line, so that it is seen
-    made: QPolygonF = pyqtgraph.functions.create_qpolygonf(len(points))
-    pyqtgraph.functions.ndarray_from_qpolygonf(made)[:] = points
-    return made
 
 
 def _between_gaps(points: Floats) -> list[Floats]:

@@ -10,8 +10,10 @@ import numpy as np
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QPainter, QPen, QPixmap, QPolygonF
 
+from nep_studio.ui.widgets.curves import polygon
+
 from .curves import Curve, CurveKey, ValueRange
-from .curves_view import Columns, Frame, lines, polygon
+from .curves_view import Columns, Frame, lines
 
 _SPARE = 64
 """The picture has room for so many columns more than are seen: it is scrolled seldom."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .streams import Floats
+from nep_studio.ui.ring import Floats
 
 _SLACK = 0.3
 """A wave must leave the middle by this part of its deviation before it may come back."""

@@ -147,13 +147,6 @@ class Plots(QWidget):
         self.draw()
         self.cursors_changed.emit()
 
-    def row_at(self, y: float) -> PlotRow | None:
-        """The plot at a height of the canvas."""
-        for row in self.rows:
-            if row.view.geometry().top() <= y <= row.view.geometry().bottom():
-                return row
-        return None
-
     # Drawing
 
     def draw(self) -> None:

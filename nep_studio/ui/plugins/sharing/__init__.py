@@ -11,15 +11,13 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from nep_core.errors import NepError
 from nep_core.networks.security.keys import Keys
 from nep_studio.sharing import Refusal, Sharing
+from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import count_words, tr
 
 from .refusal_words import refusal_sentence
 
 if TYPE_CHECKING:
-    from nep_studio.ui.plugins.network.panel import NetworkPanel
-    from nep_studio.ui.shell.main_window import MainWindow
-
     from .dialog import SharingDialog
 
 
@@ -58,16 +56,22 @@ def joined_words(keys: Keys) -> str:
 # Puts “Open to other computers” into the window: its action, and what is told of it there.
 
 
-def add_sharing(window: MainWindow, panel: NetworkPanel) -> SharingKit:
-    """Add the action "open_network", in the Robots menu; ``panel`` shows that the network is open.
-
-    The command palette has it too.
-    """
-    kit = SharingKit(window)
-    panel.sharing_asked.connect(kit.open)
-    kit.told.connect(panel.show_sharing)
+def make(host: Host) -> Parts:
+    """The action, in the Robots menu; the network panel shows that the network is open."""
+    kit = SharingKit(host)
+    kit.told.connect(
+        lambda told: host.ask("network.show_sharing", told.words, told.more, told.icon_name)
+    )
     kit.tell()
-    return kit
+    action = NewAction(
+        "open_network",
+        tr("Open to other computers…"),
+        kit.open,
+        "monitor",
+        tip=tr("Let other computers take part: their nodes and robots talk with yours."),
+        menu="robots",
+    )
+    return Parts(actions=[action], commands={"sharing.open": kit.open})
 
 
 class SharingKit(QObject):
@@ -78,24 +82,15 @@ class SharingKit(QObject):
 
     told = Signal(object)
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window.actions_by_name)
-        self._window = window
-        self._runner = window.running.runner
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.actions)
+        self._host = host
+        self._runner = host.services.runner
         self._waiting: Callable[[], None] | None = None
         self._is_to_offer_run = False
         self._refused: Message | None = None
         self.dialog: SharingDialog | None = None
-        self.sharing = sharing_of(window)
-        tip = tr("Let other computers take part: their nodes and robots talk with yours.")
-        action = window.actions_by_name.add(
-            "open_network",
-            tr("Open to other computers…"),
-            self.open,
-            icon_name="monitor",
-            tip=tip,
-        )
-        window.menus["robots"].addAction(action)
+        self.sharing = sharing_of(host)
         self.sharing.changed.connect(self.tell)
         self.sharing.settled.connect(self._on_settled)
         self.sharing.refused.connect(self._on_refused)
@@ -114,8 +109,10 @@ class SharingKit(QObject):
             self.dialog.raise_()
             self.dialog.activateWindow()
             return
-        window, sharing = self._window, self.sharing
-        dialog = SharingDialog(sharing, self._runner, window.settings, window.look, window)
+        host, sharing = self._host, self.sharing
+        dialog = SharingDialog(
+            sharing, self._runner, host.services.settings, host.services.look, host.widget
+        )
         self.dialog = dialog
         dialog.open_asked.connect(lambda at: self._after_the_run(lambda: sharing.open(at)))
         dialog.join_asked.connect(
@@ -144,25 +141,25 @@ class SharingKit(QObject):
     def _on_settled(self, state: str) -> None:
         joined = self.sharing.joined
         if self._refused is not None and state != "open":
-            self._window.messages.withdraw(self._refused)
+            self._host.services.messages.withdraw(self._refused)
             self._refused = None
         if state == "open":
             self._confirm(tr("The network is open to other computers"))
         elif state == "joined" and joined is not None:
             self._confirm(joined_words(joined))
         elif state == "closed":
-            self._window.settings.kept_open_at = ""
+            self._host.services.settings.kept_open_at = ""
             self._confirm(tr("Only this computer takes part now"))
 
     def _confirm(self, title: str) -> None:
         run = Answer(tr("Run again"), self._runner.run)
-        self._window.messages.confirm(title, *([run] if self._is_to_offer_run else []))
+        self._host.services.messages.confirm(title, *([run] if self._is_to_offer_run else []))
         self._is_to_offer_run = False
 
     def _on_refused(self, refusal: Refusal) -> None:
         from .refusal_words import refusal_message
 
-        messages = self._window.messages
+        messages = self._host.services.messages
         if self._refused is not None:
             messages.withdraw(self._refused)
         self._refused = refusal_message(refusal, self.sharing.key_path, self.open)
@@ -171,22 +168,30 @@ class SharingKit(QObject):
     def _on_failed(self, error: NepError) -> None:
         if self.dialog is None:  # else the dialog tells it
             show = Answer(tr("Open to other computers…"), self.open)
-            self._window.messages.tell_error(error, show)
+            self._host.services.messages.tell_error(error, show)
 
     def _on_finished(self) -> None:
         self.dialog = None
 
 
-def sharing_of(window: MainWindow) -> Sharing:
-    """The one of the window; it stays when the window's contents are made anew."""
-    found = window.running.findChild(Sharing)
-    if found is not None:
-        return found
-    runner, settings = window.running.runner, window.settings
-    sharing = Sharing(runner.local, window.running)
-    sharing.went_down.connect(runner.disconnected)
-    runner.closing.connect(sharing.end)
-    runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
-    if address := settings.kept_open_at:
-        QTimer.singleShot(0, sharing, lambda: sharing.open(address))
-    return sharing
+def sharing_of(host: Host) -> Sharing:
+    """The one that there is; it stays when the window speaks another language."""
+    running, runner, settings = (
+        host.services.running,
+        host.services.runner,
+        host.services.settings,
+    )
+
+    def make_sharing() -> Sharing:
+        sharing = Sharing(runner.local, running)
+        sharing.went_down.connect(runner.disconnected)
+        runner.closing.connect(sharing.end)
+        runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
+        if address := settings.kept_open_at:
+            QTimer.singleShot(0, sharing, lambda: sharing.open(address))
+        return sharing
+
+    return host.keep(Sharing, make_sharing)
+
+
+plugin = Plugin("sharing", make, order=160)

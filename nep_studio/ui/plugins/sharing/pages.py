@@ -27,13 +27,18 @@ from nep_core.networks import discovery
 from nep_core.networks.security.keys import Computer, Keys
 from nep_core.networks.security.opening import DOOR_PORT
 from nep_studio.sharing import Refusal, Sharing
+from nep_studio.ui.jobs import Job, Tell
 from nep_studio.ui.messages import announce
-from nep_studio.ui.plugins.connecting.dialog import card_around
-from nep_studio.ui.plugins.connecting.search import Job, News
-from nep_studio.ui.plugins.watches.connectors import CopyLine
-from nep_studio.ui.plugins.watches.questions import column_in, hint, labelled, quiet_button
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import (
+    CopyLine,
+    card_around,
+    column_in,
+    hint,
+    labelled,
+    quiet_button,
+)
 from nep_studio.ui.words import count_words, language_code, tr
 
 from . import joined_words
@@ -160,8 +165,8 @@ class NetworkSearch(Job):
     def start(self, seconds: float) -> None:
         """Look for some seconds."""
 
-        def work(_cancelled: threading.Event, news: News) -> None:
-            news.put(discovery.find(seconds))
+        def work(_cancelled: threading.Event, tell: Tell) -> None:
+            tell(discovery.find(seconds))
 
         self._start(work, self.found.emit)
 

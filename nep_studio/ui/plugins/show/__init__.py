@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QTimer
 
 from nep_studio.settings import ShowOptions
-from nep_studio.ui.messages import Message
+from nep_studio.ui.host import Host, NewAction, Parts, Plugin
+from nep_studio.ui.messages import Message, Place
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
-
     from .window import ShowWindow
 
 
@@ -36,10 +35,12 @@ class _Silence:
 class ShowMode(QObject):
     """One show at a time over one window."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.widget)
+        self._host = host
         self.show: ShowWindow | None = None
+        self._place: Place | None = None
+        """Where the window shows messages, when there is no show."""
 
     def begin(self, options: ShowOptions | None = None, path: Path | None = None) -> ShowWindow:
         """Cover the screen; ``path`` is a project that is opened when it is needed."""
@@ -48,43 +49,50 @@ class ShowMode(QObject):
 
         if self.show is not None:
             return self.show
-        window, chosen = self._window, options or self._window.settings.show_options
-        performance = Performance(window, chosen, path)
-        show = self.show = ShowWindow(window, performance, chosen)
+        host, chosen = self._host, options or self._host.services.settings.show_options
+        performance = Performance(host, chosen, path)
+        show = self.show = ShowWindow(host, performance, chosen)
         show.left.connect(self._on_left)
-        window.messages.show_in(_Silence())
+        self._place = host.services.messages.show_in(_Silence())
         show.open()
-        window.hide()
+        host.widget.hide()
         if chosen.runs_at_once:
             QTimer.singleShot(0, performance, performance.run)
         return show
 
     def _on_left(self) -> None:
-        window, show = self._window, self.show
+        host, show = self._host, self.show
         if show is None:
             return
         self.show = None
         show.performance.retire()
         show.deleteLater()
-        window.messages.show_in(window.message_area)
-        window.show()
-        window.activateWindow()
+        if self._place is not None:
+            host.services.messages.show_in(self._place)
+        host.widget.show()
+        host.widget.activateWindow()
 
 
-def add_show_mode(window: MainWindow) -> None:
-    """Make the actions of show mode, for the View menu: ``show_mode`` and ``show_at_start``."""
-    mode = window.findChild(ShowMode) or ShowMode(window)
-    add = window.actions_by_name.add
-    add("show_mode", tr("Show mode"), mode.begin, icon_name="monitor", keys="F11")
-    add(
-        "show_at_start",
-        tr("Start with the computer…"),
-        lambda: _open_startup(window),
-        icon_name="power",
-    )
+def make(host: Host) -> Parts:
+    """The actions of the View menu; ``nep-studio show`` begins a show at once."""
+    mode = host.keep(ShowMode, lambda: ShowMode(host))
+    actions = [
+        NewAction("show_mode", tr("Show mode"), mode.begin, "monitor", "F11", menu="view"),
+        NewAction(
+            "show_at_start",
+            tr("Start with the computer…"),
+            lambda: _open_startup(host),
+            "power",
+            menu="view",
+        ),
+    ]
+    return Parts(actions=actions, commands={"show.begin": mode.begin})
 
 
-def _open_startup(window: MainWindow) -> None:
+def _open_startup(host: Host) -> None:
     from .startup_dialog import StartupDialog
 
-    StartupDialog(window).open()
+    StartupDialog(host).open()
+
+
+plugin = Plugin("show", make, order=100, needs_project=True)

@@ -48,7 +48,7 @@ class Holding(QObject):
 
     def __init__(self, keys_of: QWidget, handle: QWidget) -> None:
         super().__init__(keys_of)
-        self._keys_of, self._handle = keys_of, handle
+        self._handle = handle
         self._elapsed_ms = 0
         self._timer = QTimer(self, interval=STEP_MS)
         self._timer.timeout.connect(self._on_step)

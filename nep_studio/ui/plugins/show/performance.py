@@ -17,16 +17,16 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.problems import Problem, problem_of
+from nep_studio.run.controller import Request
 from nep_studio.run.session import Ending
 from nep_studio.run.timeline import Line, Timeline
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.messages import Told
-from nep_studio.ui.running.runner import Request
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 # Whether and when a show that has ended is begun again; no clock and no Qt in here.
@@ -101,14 +101,14 @@ class Performance(QObject):
 
     def __init__(
         self,
-        window: MainWindow,
+        host: Host,
         options: ShowOptions,
         path: Path | None = None,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
-        super().__init__(window)
-        self._window, self._options, self._path, self._now = window, options, path, now
-        self._runner = window.running.runner
+        super().__init__(host.widget)
+        self._host, self._options, self._path, self._now = host, options, path, now
+        self._runner = host.services.runner
         self.state: State = "ready"
         self.problem: Problem | None = None
         self.restarts = Restarts(options.restarts, options.again)
@@ -121,15 +121,15 @@ class Performance(QObject):
         self._runner.state_changed.connect(self._on_state_changed)
         self._runner.arrived.connect(self._on_arrived)
         self._runner.ended.connect(self._on_ended)
-        window.files.document_changed.connect(self._on_document_changed)
-        window.messages.told.connect(self._on_told)
+        host.services.files.document_changed.connect(self._on_document_changed)
+        host.services.messages.told.connect(self._on_told)
         if self._runner.state in _STATES:
             self.state = _STATES[self._runner.state]
 
     @property
     def title(self) -> str:
         """What is played."""
-        document = self._window.files.document
+        document = self._host.services.document
         if document is not None:
             return document.title
         return self._path.stem if self._path is not None else ""
@@ -160,8 +160,8 @@ class Performance(QObject):
         self._runner.state_changed.disconnect(self._on_state_changed)
         self._runner.arrived.disconnect(self._on_arrived)
         self._runner.ended.disconnect(self._on_ended)
-        self._window.files.document_changed.disconnect(self._on_document_changed)
-        self._window.messages.told.disconnect(self._on_told)
+        self._host.services.files.document_changed.disconnect(self._on_document_changed)
+        self._host.services.messages.told.disconnect(self._on_told)
         self.deleteLater()
 
     # How it goes on
@@ -170,12 +170,12 @@ class Performance(QObject):
         self._was_stopped = False
         self.problem = None
         self.restarts.began(self._now())
-        document = self._window.files.document
+        document = self._host.services.document
         if document is not None:
             self._play(document)
         elif self._path is not None:
             self._set_state("opening")
-            self._window.files.open(self._path)
+            self._host.services.files.open(self._path)
         else:
             steps = (tr("Open a project in the studio first."),)
             self._fail(Problem(tr("There is no project to play"), "", steps))
@@ -185,12 +185,11 @@ class Performance(QObject):
         self._timeline = Timeline(document.editor.language, tr)
         try:
             code = generate_program(document.project, document.editor.language)
-            nodes = self._window.running.planned()
+            nodes = self._host.services.running.planned()
         except (BlocksError, NepError) as error:
             self._fail(problem_of(error))
             return
-        self._window.running.stage.begin(code)
-        self._runner.start(Request(code, tuple(nodes)))
+        self._runner.start(Request(code, tuple(nodes), is_watched=False))
 
     def _fail(self, problem: Problem) -> None:
         self.problem = problem
@@ -241,7 +240,7 @@ class Performance(QObject):
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
         if self._timeline is None:
-            document = self._window.files.document
+            document = self._host.services.document
             if document is None:
                 return
             self._timeline = Timeline(document.editor.language, tr)

@@ -24,18 +24,18 @@ from nep_studio.ui.theme.look import code_font
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 class StartupDialog(QDialog):
     """Writes nothing until its button is pressed, and takes away what it wrote."""
 
-    def __init__(self, window: MainWindow, place: Place | None = None) -> None:
-        super().__init__(window)
+    def __init__(self, host: Host, place: Place | None = None) -> None:
+        super().__init__(host.widget)
         self.setWindowTitle(tr("Start with the computer"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._window, self._place = window, place or Place.here()
-        document = window.files.document
+        self._host, self._place = host, place or Place.here()
+        document = host.services.document
         self.project: Path | None = document.path if document is not None else None
         self.runs_at_once = QCheckBox(tr("Run at once, without anybody pressing Run"))
         self.runs_at_once.setChecked(True)

@@ -31,7 +31,6 @@ from PySide6.QtWidgets import (
 from nep_studio.problems import Problem
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.messages import announce
-from nep_studio.ui.plugins.cues.panel import CuePanel
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import ElidedLabel, screen_around
@@ -41,7 +40,7 @@ from .leaving import HoldBar, Holding, PinQuestion, StayingAwake
 from .performance import Performance
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 # Words that are as large as the room allows, for people who stand far away.
@@ -183,9 +182,9 @@ class ShowWindow(QWidget):
 
     left = Signal()
 
-    def __init__(self, window: MainWindow, performance: Performance, options: ShowOptions) -> None:
+    def __init__(self, host: Host, performance: Performance, options: ShowOptions) -> None:
         super().__init__(None, Qt.WindowType.Window | Qt.WindowType.FramelessWindowHint)
-        self._window, self.performance = window, performance
+        self._host, self.performance = host, performance
         self._may_close = False
         self.setObjectName("show")
         self.setAutoFillBackground(True)
@@ -195,17 +194,17 @@ class ShowWindow(QWidget):
         self.state_sign, self.state_words = QLabel(), QLabel()
         self.state_words.setTextFormat(Qt.TextFormat.PlainText)
         self.words = StageWords()
-        self.attention = AttentionPage(window.look, self)
+        self.attention = AttentionPage(host.services.look, self)
         self.middle = QStackedWidget()
         self.middle.addWidget(self.words)
         self.middle.addWidget(self.attention)
         self.run_button = _large_button(tr("Run"), "run")
         self.stop_button = _large_button(tr("Stop"), "stop")
-        self.cues = CuePanel(window, is_large=True, parent=self) if options.has_cues else None
+        self.cues = host.ask("cues.make_large", self) if options.has_cues else None
         self.awake = StayingAwake()
         self.holding = Holding(self, self.title)
         self.hold_bar = HoldBar(self)
-        self.pin = PinQuestion(window.settings.is_pin, self)
+        self.pin = PinQuestion(host.services.settings.is_pin, self)
         self._lay_out()
         self._connect()
         self._dress()
@@ -213,7 +212,7 @@ class ShowWindow(QWidget):
 
     def open(self) -> None:
         """Cover the screen that the window is on."""
-        self.setGeometry(screen_around(self._window))
+        self.setGeometry(screen_around(self._host.widget))
         self.showFullScreen()
         self.activateWindow()
         self.run_button.setFocus()
@@ -288,7 +287,7 @@ class ShowWindow(QWidget):
         self.holding.progress.connect(self.hold_bar.show_progress)
         self.holding.held.connect(self._on_held)
         self.pin.right.connect(self.leave)
-        self._window.look.theme_changed.connect(self._dress)
+        self._host.services.look.theme_changed.connect(self._dress)
         application = _application()
         application.screenRemoved.connect(self._on_screens_changed)
         application.primaryScreenChanged.connect(self._on_screens_changed)
@@ -310,7 +309,7 @@ class ShowWindow(QWidget):
     def _show_sign(self) -> None:
         name, colour = _SIGNS[self.performance.state]
         side = self.state_words.fontMetrics().height()
-        picture = icon(name, self._window.look.theme.colour(colour))
+        picture = icon(name, self._host.services.look.theme.colour(colour))
         self.state_sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
 
     def _show_lines(self) -> None:
@@ -321,7 +320,7 @@ class ShowWindow(QWidget):
         self.words.show_lines(lines)
 
     def _on_held(self) -> None:
-        if self._window.settings.has_pin:
+        if self._host.services.settings.has_pin:
             self.pin.ask()
         else:
             self.leave()
@@ -337,7 +336,7 @@ class ShowWindow(QWidget):
             self.showFullScreen()
 
     def _dress(self) -> None:
-        theme, height = self._window.look.theme, max(self.height(), 200)
+        theme, height = self._host.services.look.theme, max(self.height(), 200)
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.Window, theme.colour("canvas"))
         palette.setColor(QPalette.ColorRole.WindowText, theme.colour("text"))

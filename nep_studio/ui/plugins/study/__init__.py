@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -11,9 +10,8 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QPushButton, QWidget
 
 from nep_studio.study.records import Reply, Sitting, write_events, write_replies
+from nep_studio.ui.host import Host, Parts, Plugin
 from nep_studio.ui.messages import Answer, Message
-from nep_studio.ui.plugins.help.help_controller import HelpDesk
-from nep_studio.ui.plugins.help.panel import HelpPanel
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import ElidedLabel
@@ -23,8 +21,6 @@ from nep_studio.ui.words import count_words, tr
 from .recorder import StudyRecorder
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
-
     from .results import ResultsDialog
 
 
@@ -72,32 +68,31 @@ HELP_PAGES = "help"
 """What the names of actions begin with that show a page of the help."""
 
 
-def add_study(window: MainWindow) -> StudyRecorder:
-    """Add Help > Study, when the rest of the Help menu is made.
+def make(host: Host) -> Parts:
+    """Help > Study, when the rest of the Help menu is made, and the sign of a study that is on.
 
-    The recorder stays when the window is made anew in another language.
+    The recorder stays when the window speaks another language.
     """
-    recorder = window.findChild(StudyRecorder) or StudyRecorder(window)
-    kit = StudyKit(window, recorder)
+    kit = StudyKit(host, host.keep(StudyRecorder, lambda: StudyRecorder(host)))
     kit.add_menu()
     kit.add_sign()
-    return recorder
+    return Parts()
 
 
 class StudyKit(QObject):
     """What the Study menu does."""
 
-    def __init__(self, window: MainWindow, recorder: StudyRecorder) -> None:
-        super().__init__(window.actions_by_name)
-        self._window, self._recorder = window, recorder
+    def __init__(self, host: Host, recorder: StudyRecorder) -> None:
+        super().__init__(host.actions)
+        self._host, self._recorder = host, recorder
         self._folder = recorder.folder
         self._page = ""
         recorder.changed.connect(self._update_actions)
 
     def add_menu(self) -> None:
         """Make the menu."""
-        add, theme = self._window.actions_by_name.add, self._window.look.theme
-        help_menu = self._window.menus["help"]
+        add, theme = self._host.actions.add, self._host.services.look.theme
+        help_menu = self._host.menus["help"]
         self._follow_help(help_menu)
         menu = help_menu.addMenu(icon("graduation-cap", theme), tr("Study"))
         form, results = tr("Fill in the questionnaire…"), tr("Results…")
@@ -113,13 +108,13 @@ class StudyKit(QObject):
 
     def add_sign(self) -> None:
         """Put the sign at the lower edge of the window."""
-        bar = self._window.statusBar()
+        bar = self._host.status_bar
         for old in bar.findChildren(StudySign):
             bar.removeWidget(old)
             old.setParent(None)  # at once: there is one sign only
             old.deleteLater()
         bar.setSizeGripEnabled(False)
-        sign = StudySign(self._recorder, self._window.look)
+        sign = StudySign(self._recorder, self._host.services.look)
         sign.form_button.clicked.connect(self.fill_in)
         sign.stop_button.clicked.connect(self._recorder.stop)
         bar.addWidget(sign, 1)
@@ -129,7 +124,7 @@ class StudyKit(QObject):
         """Ask who takes part, and what is to be recorded."""
         from .start import StartDialog  # dialogs are loaded when they are opened
 
-        dialog = StartDialog(self._folder, self._window)
+        dialog = StartDialog(self._folder, self._host.widget)
         dialog.started.connect(self._on_started)
         dialog.open()
 
@@ -138,13 +133,13 @@ class StudyKit(QObject):
         from .start import what_is_recorded
 
         title, *sentences = what_is_recorded(self._folder)
-        self._window.messages.tell(Message("info", title, "\n\n".join(sentences)))
+        self._host.services.messages.tell(Message("info", title, "\n\n".join(sentences)))
 
     def fill_in(self) -> None:
         """Show the questionnaire."""
         from .form import QuestionnaireDialog
 
-        dialog = QuestionnaireDialog(self._folder, self._window.look, self._window)
+        dialog = QuestionnaireDialog(self._folder, self._host.services.look, self._host.widget)
         dialog.answered.connect(self._on_answered)
         dialog.open()
 
@@ -152,7 +147,7 @@ class StudyKit(QObject):
         """Show what was answered."""
         from .results import ResultsDialog
 
-        dialog = ResultsDialog(self._folder, self._window)
+        dialog = ResultsDialog(self._folder, self._host.widget)
         dialog.answers_asked.connect(lambda: self._save_answers(dialog))
         dialog.events_asked.connect(lambda: self._save_events(dialog))
         dialog.deletion_asked.connect(lambda: self._ask_to_delete(dialog))
@@ -168,11 +163,15 @@ class StudyKit(QObject):
             steps = (tr("Is there room on the disk?"),)
             title = tr("The answers could not be kept")
             again = Answer(tr("Try again"), lambda: self._on_answered(reply))
-            self._window.messages.tell(Message("error", title, "", steps, str(error), (again,)))
+            self._host.services.messages.tell(
+                Message("error", title, "", steps, str(error), (again,))
+            )
             return
         self._recorder.note("questionnaire_answered", number=round(reply.score, 2))
         title = tr("The answers of {participant} are kept", participant=reply.participant)
-        self._window.messages.confirm(title, Answer(tr("Show the results"), self.show_results))
+        self._host.services.messages.confirm(
+            title, Answer(tr("Show the results"), self.show_results)
+        )
 
     def _save_answers(self, dialog: ResultsDialog) -> None:
         self._save(dialog, "answers.csv", self._folder.replies(), write_replies)
@@ -190,9 +189,9 @@ class StudyKit(QObject):
         def tell(path: Path) -> None:
             rows = count_words(len(records), "1 row", "{n} rows")
             words = tr("{name} is saved: {rows}", name=path.name, rows=rows)
-            self._window.messages.confirm(words)
+            self._host.services.messages.confirm(words)
 
-        messages = self._window.messages
+        messages = self._host.services.messages
         save_text(dialog, messages, name, lambda path: write(path, records), tell)
 
     def _ask_to_delete(self, dialog: ResultsDialog) -> None:
@@ -203,7 +202,7 @@ class StudyKit(QObject):
         answers = (Answer(tr("Delete all"), delete), Answer(tr("Keep"), lambda: None, "primary"))
         title = tr("Delete all answers and events?")
         words = tr("This cannot be taken back. A study that is on ends. Saved files stay.")
-        self._window.messages.ask(Message("warning", title, words, answers=answers))
+        self._host.services.messages.ask(Message("warning", title, words, answers=answers))
 
     def _delete(self) -> None:
         try:
@@ -211,21 +210,16 @@ class StudyKit(QObject):
         except OSError as error:
             title = tr("Not everything could be deleted")
             words = tr("Delete the folder {folder} yourself.", folder=self._folder.folder)
-            self._window.messages.tell(Message("error", title, "", (words,), str(error)))
+            self._host.services.messages.tell(Message("error", title, "", (words,), str(error)))
             return
-        self._window.messages.confirm(tr("All answers and events are deleted"))
+        self._host.services.messages.confirm(tr("All answers and events are deleted"))
 
     def _follow_help(self, menu: QMenu) -> None:
         """Note which pages of the help are shown, and what else its menu opens."""
-        for desk in self._window.findChildren(HelpDesk):
-            desk.panel_made.connect(self._follow_panel)
-            self._follow_panel(desk.panel)
+        self._host.ask("help.follow", self._on_page_shown)
         for action in menu.actions():
             if action.iconText() and not action.objectName().startswith(HELP_PAGES):
                 action.triggered.connect(self._note_help(action.iconText()))
-
-    def _follow_panel(self, panel: HelpPanel) -> None:
-        panel.page_shown.connect(partial(self._on_page_shown, panel))
 
     def _on_page_shown(self, panel: QWidget, page: str) -> None:
         if panel.isVisible() and page != self._page:  # the same one is drawn again, as for a theme
@@ -236,7 +230,10 @@ class StudyKit(QObject):
         return lambda: self._recorder.note_help(words)
 
     def _update_actions(self) -> None:
-        is_on, actions = self._recorder.is_on, self._window.actions_by_name
+        is_on, actions = self._recorder.is_on, self._host.actions
         actions.enable(not is_on, "study_start")
         actions.enable(is_on, "study_stop")
-        self._window.statusBar().setVisible(is_on)
+        self._host.status_bar.setVisible(is_on)
+
+
+plugin = Plugin("study", make, order=130, modules=("recorder",))

@@ -17,7 +17,7 @@ from nep_studio.ui.messages import Message, Told
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 log = logging.getLogger(__name__)
 
@@ -29,25 +29,25 @@ class StudyRecorder(QObject):
 
     changed = Signal()
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._messages, self._runner = window.messages, window.running.runner
-        self.folder = StudyFolder(window.settings.folder / STUDY_FOLDER)
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.widget)
+        self._messages, self._runner = host.services.messages, host.services.runner
+        self.folder = StudyFolder(host.services.settings.folder / STUDY_FOLDER)
         self.sitting = self.folder.sitting()
         self._has_run = self._has_run_before()
         self._history: History | None = None
         self._edits = 0
         self._run_started_s = 0.0
-        window.files.document_changed.connect(self._on_document_changed)
-        window.messages.told.connect(self._on_told)
-        window.running.runner.run_asked.connect(lambda: self.note("run_asked"))
-        window.running.runner.state_changed.connect(self._on_state_changed)
-        window.running.runner.ended.connect(self._on_ended)
+        host.services.files.document_changed.connect(self._on_document_changed)
+        host.services.messages.told.connect(self._on_told)
+        host.services.runner.run_asked.connect(lambda: self.note("run_asked"))
+        host.services.runner.state_changed.connect(self._on_state_changed)
+        host.services.runner.ended.connect(self._on_ended)
         app = QCoreApplication.instance()
         if app is not None:
             app.aboutToQuit.connect(self._on_quit)
         self.note("app_opened")
-        self._follow(window.files.document)
+        self._follow(host.services.document)
 
     @property
     def is_on(self) -> bool:

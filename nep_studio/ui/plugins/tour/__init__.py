@@ -1,1 +1,20 @@
-"""The tour: five steps over the real window, from the first block to a robot that speaks."""
+"""The tour: the first steps, in a project of its own."""
+
+from __future__ import annotations
+
+from nep_studio.ui.host import Host, NewAction, Parts, Plugin
+from nep_studio.ui.words import tr
+
+
+def make(host: Host) -> Parts:
+    """The action, first in the Help menu. A tour goes on when the words are other ones."""
+    from .tour import Tour
+
+    tour = host.keep(Tour, lambda: Tour(host))
+    action = NewAction(
+        "tour", tr("Take the tour"), tour.start, "footprints", menu="help", before="help"
+    )
+    return Parts(actions=[action])
+
+
+plugin = Plugin("tour", make, order=120, modules=("tour",))

@@ -27,7 +27,7 @@ from .steps import FIRST_STEPS, PROJECT, Step, steps
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
-    from nep_studio.ui.shell.main_window import MainWindow
+    from nep_studio.ui.host import Host
 
 
 # The bubble of the tour: what a step says, where one is, and the buttons to go on.
@@ -222,25 +222,26 @@ class Tour(QObject):
 
     ended = Signal()
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.widget)
+        self._host = host
         self._steps: list[Step] = []
         self._document: Document | None = None
         self.number = -1
         self._is_opening = self._was_done = False
         self._shown: tuple[QRect, QRect, int] | None = None
-        self.veil, self.bubble = Veil(window.look, window), Bubble(window.look, window)
+        look, over = host.services.look, host.widget
+        self.veil, self.bubble = Veil(look, over), Bubble(look, over)
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self._on_look)
         self.bubble.forth.connect(self.go_on)
         self.bubble.back.connect(self.go_back)
         self.bubble.left.connect(self.end)
-        window.files.document_changed.connect(self._on_document_changed)
-        window.studio.words_changed.connect(
+        host.services.files.document_changed.connect(self._on_document_changed)
+        host.services.studio.words_changed.connect(
             self._on_looks_changed, Qt.ConnectionType.QueuedConnection
         )
-        window.look.theme_changed.connect(self._on_looks_changed)
+        look.theme_changed.connect(self._on_looks_changed)
 
     @property
     def is_running(self) -> bool:
@@ -251,13 +252,13 @@ class Tour(QObject):
         """Open the project of the tour and begin; work that is not saved is asked about first."""
         self.end()
         self._is_opening = True
-        self._window.files.open_example(FIRST_STEPS)
+        self._host.services.files.open_example(FIRST_STEPS)
 
     def go_on(self) -> None:
         """Go to the next step; what this one asks for is done if nobody has."""
         step = self._steps[self.number]
-        if step.is_done is not None and not step.is_done(self._window):
-            step.do(self._window)
+        if step.is_done is not None and not step.is_done(self._host):
+            step.do(self._host)
         self._go_to(self.number + 1)
 
     def go_back(self) -> None:
@@ -270,22 +271,22 @@ class Tour(QObject):
             return
         self.number, self._document, self._shown = -1, None, None
         self._looking.stop()
-        handle = self._window.windowHandle()
+        handle = self._host.widget.windowHandle()
         if handle is not None:
             handle.removeEventFilter(self)
         focus = QApplication.focusWidget()
         had_focus = focus is not None and self.bubble.isAncestorOf(focus)
         self.bubble.hide()
         self.veil.hide()
-        if had_focus and self._window.workbench.isVisible():
-            self._window.workbench.canvas.setFocus()
+        if had_focus and self._host.workbench.isVisible():
+            self._host.workbench.canvas.setFocus()
         self.ended.emit()
 
     def _begin(self) -> None:
-        self._window.settings.tour_done = True
-        self._window.start_page.tour_offer.hide()
+        self._host.services.settings.tour_done = True
+        self._host.ask("start_page.tour_taken")
         self._steps = steps()
-        handle = self._window.windowHandle()
+        handle = self._host.widget.windowHandle()
         if handle is not None:
             handle.installEventFilter(self)
         self._go_to(0)
@@ -298,22 +299,22 @@ class Tour(QObject):
             return
         self.number = number
         step = self._steps[number]
-        step.prepare(self._window)
-        self._was_done = step.is_done is not None and step.is_done(self._window)
+        step.prepare(self._host)
+        self._was_done = step.is_done is not None and step.is_done(self._host)
         self.bubble.say(step, number, len(self._steps))
         self._take_place()
         announce(self.bubble, self.bubble.accessibleName())
 
     def _take_place(self) -> None:
         """Lie over the window as it is now, above all that has come into it since."""
-        room = self._window.rect()
-        place = self._steps[self.number].target(self._window).intersected(room)
+        room = self._host.widget.rect()
+        place = self._steps[self.number].target(self._host).intersected(room)
         if self._shown != (place, room, self.number):
             self._shown = (place, QRect(room), self.number)
             self.veil.setGeometry(room)
             self.veil.show_hole(place)
             self.bubble.sit_beside(place, room)
-        over = _parts_of(self._window)[-2:]
+        over = _parts_of(self._host.widget)[-2:]
         if over != [self.veil, self.bubble] or self.bubble.isHidden():
             for part in (self.veil, self.bubble):
                 part.show()
@@ -321,13 +322,13 @@ class Tour(QObject):
 
     def _on_look(self) -> None:
         """Follow what is shown, and go on when it has been done."""
-        if not self._window.isVisible():
+        if not self._host.widget.isVisible():
             return
         self._take_place()
         done = self._steps[self.number].is_done
         if done is None:
             return
-        is_done = done(self._window)
+        is_done = done(self._host)
         if is_done and not self._was_done:
             self._go_to(self.number + 1)
         else:
@@ -368,12 +369,12 @@ class Tour(QObject):
 
     def _is_escape_needed(self) -> bool:
         """Whether a menu, a field or a drag is open, which Esc ends first."""
-        canvas = self._window.workbench.canvas
+        canvas = self._host.workbench.canvas
         return (
             QApplication.activePopupWidget() is not None
             or QApplication.activeModalWidget() is not None
             or isinstance(QApplication.focusWidget(), QLineEdit | QPlainTextEdit)
-            or canvas.gesture is not None
+            or canvas.pointing.gesture is not None
             or canvas.fields.widget is not None
         )
 
@@ -382,21 +383,3 @@ def _parts_of(window: QWidget) -> list[QWidget]:
     """What lies in a window, the lowest first; its dialogs are windows of their own."""
     parts = (part for part in window.children() if isinstance(part, QWidget))
     return [part for part in parts if not part.isWindow()]
-
-
-def add_tour(window: MainWindow) -> Tour:
-    """Put the tour into the Help menu; once for each build.
-
-    The window's contents may be made anew while the tour goes on: it stays.
-    """
-    tour = window.findChild(Tour) or Tour(window)
-    action = window.actions_by_name.add(
-        "tour", tr("Take the tour"), tour.start, icon_name="footprints"
-    )
-    help_menu = window.menus["help"]
-    first = next(iter(help_menu.actions()), None)
-    if first is None:
-        help_menu.addAction(action)
-    else:
-        help_menu.insertAction(first, action)
-    return tour

@@ -18,12 +18,12 @@ from nep_studio.blocks.operations.fixes import (
 )
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode, with_takes
+from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor
-    from nep_studio.ui.shell.main_window import MainWindow
 
     from .dialog import Plan, WatchDialog
 
@@ -35,40 +35,30 @@ MOST_GESTURES = 5
 """So many are offered to be made by a simulated person when the program waits for none yet."""
 
 
-def add_watches(window: MainWindow) -> WatchKit:
-    """Add the action "connect_watch"; it is in the Robots menu and in the command palette."""
-    return WatchKit(window)
-
-
-def open_watches(window: MainWindow) -> None:
-    """Show the dialog, as other rooms ask for it: who works there stays on their page."""
-    kit = window.actions_by_name.findChild(WatchKit)
-    if kit is not None:
-        kit.open(stays=True)
+def make(host: Host) -> Parts:
+    """The action, in the Robots menu; who opens it from another panel stays on their page."""
+    kit = WatchKit(host)
+    action = NewAction(
+        "connect_watch",
+        tr("Connect a watch or phone…"),
+        lambda: kit.open(),
+        "watch",
+        tip=tr("Let the movements of a real watch or phone into this project."),
+        menu="robots",
+    )
+    return Parts(actions=[action], commands={"watches.open": lambda: kit.open(stays=True)})
 
 
 class WatchKit(QObject):
     """What the action does; the dialog is loaded when it is opened, and there is one."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window.actions_by_name)
-        self._window = window
+    def __init__(self, host: Host) -> None:
+        super().__init__(host.actions)
+        self._host = host
         self._token = ""
         self.dialog: WatchDialog | None = None
         self._stays = False
-        tip = tr("Let the movements of a real watch or phone into this project.")
-        action = window.actions_by_name.add(
-            "connect_watch",
-            tr("Connect a watch or phone…"),
-            self._on_asked,
-            icon_name="watch",
-            tip=tip,
-        )
-        window.menus["robots"].addAction(action)
-        window.files.document_changed.connect(self._on_document_changed)
-
-    def _on_asked(self) -> None:
-        self.open()
+        host.services.files.document_changed.connect(self._on_document_changed)
 
     def open(self, *, stays: bool = False) -> None:
         """Show the dialog; when another watch is in use, ask first.
@@ -76,9 +66,9 @@ class WatchKit(QObject):
         ``stays``: the page that is shown stays when a watch is used, else its block is shown.
         """
         self._stays = stays
-        window = self._window
-        if window.files.document is None:
-            window.messages.refuse(
+        host = self._host
+        if host.services.document is None:
+            host.services.messages.refuse(
                 tr("There is no project to run."), (tr("Open or make one first."),)
             )
         elif self.dialog is not None:
@@ -97,17 +87,19 @@ class WatchKit(QObject):
             Answer(tr("Connect another one"), lambda: self._show(self._plan(is_another=True))),
             Answer(tr("Cancel"), lambda: None),
         )
-        self._window.messages.ask(Message("info", tr("A watch is in use"), words, answers=answers))
+        self._host.services.messages.ask(
+            Message("info", tr("A watch is in use"), words, answers=answers)
+        )
 
     def _show(self, plan: Plan) -> None:
         from nodes.sensory.phone_page.site import new_token
 
         from .dialog import WatchDialog
 
-        window = self._window
+        host = self._host
         self._token = self._token or new_token()
-        runner, look = window.running.runner, window.look
-        dialog = self.dialog = WatchDialog(runner, plan, self._token, look, window)
+        runner, look = host.services.runner, host.services.look
+        dialog = self.dialog = WatchDialog(runner, plan, self._token, look, host.widget)
         dialog.used.connect(lambda: self._use(dialog))
         dialog.finished.connect(self._on_finished)
         self.destroyed.connect(dialog.reject)  # the window is made anew, in another language
@@ -118,7 +110,7 @@ class WatchKit(QObject):
         from .dialog import Plan
 
         editor = self._editor
-        folder = self._window.settings.last_folder / RECORDINGS
+        folder = self._host.services.settings.last_folder / RECORDINGS
         blank = Plan(
             free_watch_name(editor),
             gestures=self._gestures(),
@@ -148,18 +140,18 @@ class WatchKit(QObject):
 
     @property
     def _editor(self) -> Editor:
-        return self._window.workbench.canvas.editor
+        return self._host.workbench.canvas.editor
 
     def _is_in_use(self, name: str) -> bool:
         """Whether a real watch of this name sends now."""
-        status = self._window.running.runner.board.nodes.get(name)
+        status = self._host.services.runner.board.nodes.get(name)
         if status is None or not status.is_there:
             return False
         return status.event == "connected" or (status.event == "warning" and bool(status.measures))
 
     def _use(self, dialog: WatchDialog) -> None:
         """Let the watch that runs be the project's; one step of undo."""
-        planned, window = dialog.planned, self._window
+        planned, host = dialog.planned, self._host
         if planned is None:
             dialog.trial.end()
             return
@@ -173,23 +165,23 @@ class WatchKit(QObject):
             )
         except EditRefused as refusal:
             dialog.trial.end()
-            window.messages.refuse(refusal.sentence, refusal.checklist)
+            host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
-        runner = window.running.runner
+        runner = host.services.runner
         for name in self._stand_ins(runner.local.planned):
             runner.stop_node(name)
         dialog.trial.keep(self._planned_of(block))
         if not self._stays:
-            window.workbench.show_block(block)
-        window.messages.confirm(tr("“{name}” gives the movements now", name=planned.name))
+            host.workbench.show_block(block)
+        host.services.messages.confirm(tr("“{name}” gives the movements now", name=planned.name))
 
     def _planned_of(self, block: str) -> PlannedNode | None:
-        planned = self._window.running.runner.planned()
+        planned = self._host.services.runner.planned()
         return next((node for node in planned if node.block_id == block), None)
 
     def _stand_ins(self, started: dict[str, PlannedNode]) -> list[str]:
         """The virtual watches that run, and that the project does not ask for any more."""
-        wanted = {node.name for node in self._window.running.runner.planned()}
+        wanted = {node.name for node in self._host.services.runner.planned()}
         virtual = [one.name for one in started.values() if one.node == VIRTUAL_WATCH]
         return [name for name in virtual if name not in wanted]
 
@@ -201,3 +193,6 @@ class WatchKit(QObject):
         self._token = ""
         if self.dialog is not None:
             self.dialog.reject()
+
+
+plugin = Plugin("watches", make, order=150)

@@ -22,10 +22,11 @@ from PySide6.QtWidgets import (
 from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import column_in
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .connectors import APPS, BLUETOOTH, PAPER_WATCH, PHONE_PAGE, RECORDING, VIRTUAL
-from .questions import Entry, column_in
+from .questions import Entry
 
 
 @dataclass(frozen=True)

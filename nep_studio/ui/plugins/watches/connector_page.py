@@ -10,16 +10,17 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QVBoxLayout, QWidget
 
+from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.watch_view.receiving import WatchEar
+from nep_studio.ui.widgets.forms import UNKNOWN, hint
 from nep_studio.ui.words import tr
 
 from .choosing import GesturesQuestion, RecordingQuestion
 from .connectors import (
     APPS,
     PHONE_PAGE,
-    SMARTWATCH,
-    UNKNOWN,
     Place,
     StepsList,
     Way,
@@ -30,8 +31,7 @@ from .connectors import (
 from .connectors import way_title as title_of
 from .live import LiveView
 from .qr_code import QrCode, WarningHelp
-from .questions import Entry, MoreSettings, NetworkQuestion, WornQuestion, hint
-from .receiving import WatchEar
+from .questions import Entry, MoreSettings, NetworkQuestion, WornQuestion
 
 LINES_FOR_TWO = 37
 """Narrower than so many lines, what arrives is below the steps, not beside them."""
@@ -95,7 +95,7 @@ class WayPage(QWidget):
     @property
     def settings(self) -> dict[str, Setting] | None:
         """The parameters of the node; None as long as something is missing."""
-        if self.way.node != SMARTWATCH:
+        if self.way.node != WATCH:
             return self._source.settings
         found: dict[str, Setting] = {"through": self.way.name}
         if address := self.address.text().strip():
@@ -123,7 +123,7 @@ class WayPage(QWidget):
 
     def _take(self, settings: Mapping[str, Setting]) -> None:
         """Begin with what the project says."""
-        if self.way.node != SMARTWATCH:
+        if self.way.node != WATCH:
             self._source.show_settings(settings)
             return
         self.worn.choose(str(settings.get("wrist") or self.way.worn))

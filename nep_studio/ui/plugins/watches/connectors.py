@@ -6,29 +6,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from PySide6.QtCore import QRectF, QSize, Qt, QTimer
-from PySide6.QtGui import QFont, QGuiApplication, QPainter, QPaintEvent
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QFont, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QGridLayout,
-    QHBoxLayout,
     QLabel,
-    QLineEdit,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
 from nep_core.errors import NepError
+from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH
-from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import UNKNOWN, CopyLine
 from nep_studio.ui.words import tr
 
-SMARTWATCH = "sensory/smartwatch"
 OWN_PROFILE = "six_int16"
 """The profile for those who build a sensor themselves."""
-UNKNOWN = "…"
-"""Stands where an address is not known."""
 Worn = Literal["left", "right", "hand"]
 Extra = Literal["", "network", "warning", "address", "gestures", "recording"]
 
@@ -43,7 +38,7 @@ class Way:
 
     name: str
     icon: str
-    node: str = SMARTWATCH
+    node: str = WATCH
     port: int = 0
     listens: bool = False
     protocol: Literal["TCP", "UDP", ""] = ""
@@ -242,7 +237,7 @@ def silence_steps(way: Way, place: Place, is_open: bool, address: str) -> tuple[
         found.append(tr("Is the sensor on, charged, and within 5 metres?"))
         found.append(tr("Is Bluetooth on, on this computer? Is the sensor free of its phone?"))
         return tuple(found)
-    if way.node != SMARTWATCH:
+    if way.node != WATCH:
         return (tr("Look into the log of the node in the panel Nodes."),)
     found.append(tr("Is the screen of the device on, and is it sending?"))
     if way.needs_address:
@@ -262,7 +257,6 @@ def silence_steps(way: Way, place: Place, is_open: bool, address: str) -> tuple[
 
 # Numbered steps in plain words, each with what is copied for it and what is asked there.
 
-COPIED_MS = 2000
 MOST_LETTERS = 24
 """So many letters fit beside the button."""
 
@@ -292,54 +286,6 @@ class StepNumber(QWidget):
             painter.setPen(theme.colour("accent_text"))
             painter.setFont(font)
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, str(self._number))
-
-
-class CopyLine(QWidget):
-    """A text that is written somewhere else, with the button that copies it.
-
-    Of a long one all letters must be seen: people type them. Its button is below it.
-    """
-
-    def __init__(
-        self, look: Look, words: str, is_long: bool = False, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
-        self.text = QLineEdit()
-        self.text.setReadOnly(True)
-        self.text.setAccessibleName(words)
-        self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.text.setAlignment(Qt.AlignmentFlag.AlignLeft)
-        self._words = words
-        self._look = look
-        self.button = QPushButton(words)
-        self.redraw()
-        self.button.setAutoDefault(False)
-        line = self.fontMetrics().height()
-        self.button.setIconSize(QSize(line, line))
-        self._again = QTimer(self, singleShot=True, interval=COPIED_MS)
-        self._again.timeout.connect(lambda: self.button.setText(self._words))
-        row = QVBoxLayout(self) if is_long else QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.text, 1)
-        row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignLeading)
-        self.button.clicked.connect(self._on_copy)
-
-    def redraw(self) -> None:
-        """Draw the icon in another theme."""
-        self.button.setIcon(icon("copy", self._look.theme))
-
-    def show_text(self, text: str) -> None:
-        """Show this; what is long shows its beginning."""
-        if text != self.text.text():
-            self.text.setText(text)
-            self.text.setCursorPosition(0)
-            self.text.setToolTip(text)
-            self.setEnabled(UNKNOWN not in text)
-
-    def _on_copy(self) -> None:
-        QGuiApplication.clipboard().setText(self.text.text())
-        self.button.setText(tr("Copied"))
-        self._again.start()
 
 
 class StepsList(QWidget):

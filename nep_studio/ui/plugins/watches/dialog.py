@@ -21,6 +21,7 @@ from nep_studio.run.plan import PlannedNode, Setting
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.watch_view.receiving import WatchEar
 from nep_studio.ui.widgets.labels import fit_on_screen, room_around
 from nep_studio.ui.widgets.layouts import scrolled, show_top
 from nep_studio.ui.words import is_right_to_left, tr
@@ -28,7 +29,6 @@ from nep_studio.ui.words import is_right_to_left, tr
 from .choosing import ChoosingPage
 from .connector_page import Known, WayPage
 from .connectors import WAYS, Way
-from .receiving import WatchEar
 from .trial import WatchTrial
 
 SETTLE_MS = 400
@@ -236,7 +236,7 @@ class WatchDialog(QDialog):
         if self.trial.state != "listening":
             return tr("Getting ready…"), ""
         status = self.ear.status
-        told = tr(status.description) if status is not None else ""
+        told = tr(status.fault.sentence) if status is not None else ""
         if page.way.listens and not page.network.is_open:
             return tr("Let this network in first"), told
         return tr("Waiting for the first movement…"), told

@@ -12,12 +12,11 @@ from nep_studio.problems import Problem
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.watch_view.indicators import Figure, LittleCurve, MoveDot, Moving, figures
+from nep_studio.ui.watch_view.receiving import SILENT_S, WatchEar
+from nep_studio.ui.watch_view.status import SIGNS
+from nep_studio.ui.widgets.forms import quiet_button
 from nep_studio.ui.words import tr
-
-from .indicators import Figure, LittleCurve, MoveDot, Moving, figures
-from .questions import quiet_button
-from .receiving import SILENT_S, WatchEar
-from .status import SIGNS
 
 MOST_FIGURES = 5
 
@@ -116,9 +115,9 @@ class LiveView(QFrame):
     def _told(self) -> list[str]:
         """How the node understands what arrives, and what it warns of."""
         status = self._ear.status
-        if status is None or not status.description:
+        if status is None or not status.fault.sentence:
             return []
-        told = tr(status.description)
+        told = tr(status.fault.sentence)
         if status.event == "warning":
             return [*self._understood, told]
         self._understood = [told]

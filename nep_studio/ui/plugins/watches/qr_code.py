@@ -11,10 +11,9 @@ from PySide6.QtWidgets import QButtonGroup, QLabel, QPushButton, QSizePolicy, QW
 
 from nep_studio import paths
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import column_in
 from nep_studio.ui.widgets.layouts import Flow
 from nep_studio.ui.words import tr
-
-from .questions import column_in
 
 QUIET = 4
 """So many modules of white are around a code: the standard asks for them."""

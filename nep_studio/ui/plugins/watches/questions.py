@@ -10,16 +10,14 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QFormLayout,
-    QLabel,
     QLineEdit,
-    QPushButton,
     QRadioButton,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.run.plan import Setting
+from nep_studio.ui.widgets.forms import column_in, hint, label_of, labelled, quiet_button
 from nep_studio.ui.widgets.layouts import Flow
 from nep_studio.ui.words import tr
 
@@ -206,44 +204,3 @@ def units_words() -> dict[str, str]:
         "standard": tr("As Android: m/s²"),
         "apple": tr("As Apple: g, axes the other way"),
     }
-
-
-def hint(words: str) -> QLabel:
-    """Words that explain, in a quiet colour."""
-    label = QLabel(words)
-    label.setWordWrap(True)
-    label.setProperty("role", "hint")
-    return label
-
-
-def label_of(words: str, buddy: QWidget) -> QLabel:
-    """The words before a field; screen readers say them there."""
-    label = QLabel(words)
-    label.setBuddy(buddy)
-    buddy.setAccessibleName(words)
-    return label
-
-
-def labelled(words: str, field: QWidget) -> QWidget:
-    """A field with its words."""
-    both = QWidget()
-    form = QFormLayout(both)
-    form.setContentsMargins(0, 0, 0, 0)
-    form.addRow(label_of(words, field), field)
-    return both
-
-
-def quiet_button(words: str) -> QPushButton:
-    """A button that does not call for attention, and never is what Enter presses."""
-    button = QPushButton(words)
-    button.setAutoDefault(False)
-    button.setProperty("kind", "quiet")
-    return button
-
-
-def column_in(widget: QWidget) -> QVBoxLayout:
-    """A column without margins."""
-    box = QVBoxLayout(widget)
-    box.setContentsMargins(0, 0, 0, 0)
-    box.setSpacing(widget.fontMetrics().height() // 3)
-    return box

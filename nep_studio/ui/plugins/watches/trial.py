@@ -141,7 +141,7 @@ class WatchTrial(QObject):
         elif self.state == "listening" and not status.is_there:
             title = tr("“{name}” has ended unexpectedly", name=self.name)
             steps = ("Look into its log.", "Start it again.")
-            self.problem = Problem(title, status.description, steps)
+            self.problem = Problem(title, status.fault.sentence, steps)
             self._set_state("failed")
         elif self.state == "failed" and self._wanted is not None and status.health == "ready":
             self._set_state("listening")  # it was started again by itself
@@ -151,9 +151,9 @@ class WatchTrial(QObject):
             problem = problem_of(error)
             launched = self._runner.local.launcher.nodes.get(name)
             outcome = launched.outcome if launched is not None else None
-            if outcome is not None and outcome.last_words:
+            if outcome is not None and outcome.why:
                 # its own words are plainer than those about its process
-                problem = replace(problem, sentence=outcome.last_words)
+                problem = replace(problem, sentence=outcome.why)
             self.problem = problem
             self._go_on("failed")
 

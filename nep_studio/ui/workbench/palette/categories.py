@@ -8,8 +8,8 @@ from PySide6.QtCore import QPoint, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QPainter, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QButtonGroup, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
-from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.drag_blocks import DragBlocks
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.words import tr
 
@@ -168,16 +168,16 @@ class DeleteAreas:
         return self.entered is not None or self._before(place)
 
 
-def add_delete_area(canvas: Canvas, widget: QWidget) -> None:
+def add_delete_area(canvas: CanvasHost, widget: QWidget) -> None:
     """Let blocks of a canvas that are dropped on a widget be deleted, beside where they were."""
-    if not isinstance(canvas.delete_area, DeleteAreas):
-        canvas.delete_area = DeleteAreas(canvas.delete_area)
-    canvas.delete_area.widgets.append(widget)
+    if not isinstance(canvas.marks.delete_area, DeleteAreas):
+        canvas.marks.delete_area = DeleteAreas(canvas.marks.delete_area)
+    canvas.marks.delete_area.widgets.append(widget)
 
 
-def is_taking(canvas: Canvas, widget: QWidget) -> bool:
+def is_taking(canvas: CanvasHost, widget: QWidget) -> bool:
     """Whether blocks of the program are carried over a widget, so that letting go deletes them."""
-    areas, gesture = canvas.delete_area, canvas.gesture
+    areas, gesture = canvas.marks.delete_area, canvas.pointing.gesture
     is_here = isinstance(areas, DeleteAreas) and areas.entered is widget
     return is_here and isinstance(gesture, DragBlocks) and bool(gesture.cargo.hidden)
 

@@ -30,6 +30,7 @@ from nep_studio.ui.canvas.block_pictures import BlockPicture
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
@@ -76,7 +77,7 @@ class PartRow(QWidget):
         self.kind.setVisible(bool(parameter))
         self.kind.currentIndexChanged.connect(dialog.update_preview)
         away = QToolButton(self)
-        away.setIcon(icon("x", dialog.canvas.theme))
+        away.setIcon(icon("x", dialog.canvas.look.theme))
         away.setToolTip(tr("Take this part away"))
         away.setAccessibleName(tr("Take this part away"))
         away.clicked.connect(lambda: dialog.take_away(self))
@@ -122,7 +123,7 @@ class MakeBlockDialog(QDialog):
         self.setWindowTitle(tr("Make a block") if self._is_new else tr("Change the block"))
         self.rows: list[PartRow] = []
         self.picture = BlockPicture(canvas, self)
-        self.reason = ReasonBubble(canvas.theme, self)
+        self.reason = ReasonBubble(canvas.look.theme, self)
         self.gives_value = QCheckBox(tr("The block gives a value back"), self)
         self.gives_value.toggled.connect(self.update_preview)
         self._list = QVBoxLayout()
@@ -231,14 +232,14 @@ class Making(QObject):
         palette = self._palette
         words = tr("Name of the new variable")
         self.asking = Asking(
-            palette, palette.canvas.theme, words, tr("Make"), self.make_variable, name=""
+            palette, palette.canvas.look.theme, words, tr("Make"), self.make_variable, name=""
         )
         self.asking.show_at(palette.mapToGlobal(QPoint(palette.width() // 3, 60)))
 
     def make_variable(self, name: str) -> None:
         """Make a variable, and show its blocks; raises EditRefused."""
         self._palette.canvas.editor.add_variable(name.strip())
-        self._palette.canvas.announced.emit(tr("variable {name} made", name=name.strip()))
+        self._palette.canvas.news.announced.emit(tr("variable {name} made", name=name.strip()))
 
     def ask_for_block(self) -> None:
         """Ask for the words and values of a new own block."""
@@ -257,7 +258,7 @@ class Making(QObject):
         self.dialog = MakeBlockDialog(canvas, change, self._palette, procedure)
         self.dialog.open()
 
-    def _section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+    def _section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of an own block, of its header and its parameters offers besides."""
         block_type = place.hit.placed.box.type if place.hit is not None else ""
         procedure = procedure_of(block_type)

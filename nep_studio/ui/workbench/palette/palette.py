@@ -29,6 +29,7 @@ from nep_studio.blocks.typing_in.suggesting import suggestions
 from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
@@ -114,7 +115,7 @@ class SnippetMenu(QObject):
         snippet = entry.snippet
         if snippet is None:
             return
-        palette, theme = self._palette, self._palette.canvas.theme
+        palette, theme = self._palette, self._palette.canvas.look.theme
         if self.menu is not None:
             self.menu.deleteLater()
         self.menu = QMenu(palette)
@@ -129,7 +130,7 @@ class SnippetMenu(QObject):
         delete.triggered.connect(lambda: self.ask_to_delete(snippet))
         self.menu.popup(place)
 
-    def _section(self, canvas: Canvas, place: MenuPlace) -> list[MenuEntry]:
+    def _section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of a block offers besides."""
         if place.hit is None:
             return []
@@ -139,7 +140,9 @@ class SnippetMenu(QObject):
         """Ask for a name for the selected blocks."""
         canvas = self._palette.canvas
         if not canvas.selection.ids:
-            canvas.refused.emit(tr("No blocks are selected. Select those that you want to keep."))
+            canvas.news.refused.emit(
+                tr("No blocks are selected. Select those that you want to keep.")
+            )
             return
         self._ask(tr("Name of the snippet"), tr("Keep"), self.keep, "")
 
@@ -147,10 +150,12 @@ class SnippetMenu(QObject):
         """Keep the selected blocks under a name; raises EditRefused."""
         palette, canvas = self._palette, self._palette.canvas
         ids = canvas.selection.ids
-        clip = copy(canvas.editor.project, canvas.editor.language, ids, canvas.corners(ids))
+        clip = copy(
+            canvas.editor.project, canvas.editor.language, ids, canvas.page_layout.corners(ids)
+        )
         palette.snippets.keep(name, clip)
         palette.fill()
-        canvas.announced.emit(tr("kept as {name}", name=name.strip()))
+        canvas.news.announced.emit(tr("kept as {name}", name=name.strip()))
 
     def ask_to_rename(self, snippet: Snippet) -> None:
         """Ask for another name."""
@@ -199,7 +204,7 @@ class SnippetMenu(QObject):
     def _ask(self, words: str, yes: str, answer: object, name: str | None) -> None:
         palette = self._palette
         assert callable(answer)
-        self.asking = Asking(palette, palette.canvas.theme, words, yes, answer, name)
+        self.asking = Asking(palette, palette.canvas.look.theme, words, yes, answer, name)
         self.asking.show_at(palette.mapToGlobal(QPoint(palette.width() // 3, 60)))
 
 
@@ -261,7 +266,7 @@ class Palette(QWidget):
         self.setAccessibleName(tr("Palette"))
         self.search.setPlaceholderText(tr("Search blocks"))
         self.search.setAccessibleName(tr("Search blocks"))
-        self._sign.setIcon(icon("search", self.canvas.theme))
+        self._sign.setIcon(icon("search", self.canvas.look.theme))
         self._show_fold()
         self._listen()
         self.shelf.refresh()
@@ -273,7 +278,7 @@ class Palette(QWidget):
         kind = editor.project.kind_of_page(self.canvas.page)
         recent = recent_types(self.settings, editor.language, kind)
         self._drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
-        self.categories.show_drawers(self._drawers, self.canvas.theme)
+        self.categories.show_drawers(self._drawers, self.canvas.look.theme)
         self._fit()
         self._goes_to_top |= to_top
         self.shelf.fill_later(partial(self._fill_shelf, editor, recent))
@@ -381,8 +386,8 @@ class Palette(QWidget):
         self.shelf.left_upwards.connect(self.search.setFocus)
         self.shelf.drawer_shown.connect(lambda drawer: self.categories.mark(drawer.id))
         self.shelf.menu_asked.connect(self.snippet_menu.open)
-        canvas.page_changed.connect(self._on_page_changed)
-        canvas.delete_area_entered.connect(self._on_delete_area_entered)
+        canvas.news.page_changed.connect(self._on_page_changed)
+        canvas.news.delete_area_entered.connect(self._on_delete_area_entered)
         self._later.timeout.connect(self.fill)
 
     def _on_search_changed(self, text: str) -> None:
@@ -397,7 +402,7 @@ class Palette(QWidget):
     def _show_fold(self) -> None:
         is_wide = not self.is_narrow
         side = self.fontMetrics().height()
-        self.fold.setIcon(icon("panel-left", self.canvas.theme))
+        self.fold.setIcon(icon("panel-left", self.canvas.look.theme))
         self.fold.setIconSize(QSize(side, side))
         words = tr("Make the palette narrow") if is_wide else tr("Show the blocks")
         self.fold.setToolTip(words)

@@ -176,7 +176,9 @@ class ShelfView(QAbstractScrollArea):
 
     def _make_layout(self) -> ShelfLayout:
         width = max(self.viewport().width(), 120)
-        size = QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.block_font).pixelSize()
+        size = (
+            QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.look.block_font).pixelSize()
+        )
         self._made = layout = ShelfLayout(self._canvas, float(width), size)
         layout.fill(*self._filled)
         self._painter = ShelfPainter(self._canvas, layout)
@@ -198,7 +200,7 @@ class ShelfView(QAbstractScrollArea):
         top = self._scrolled
         exposed = event.rect().translated(0, top)
         with QPainter(self.viewport()) as painter:
-            painter.fillRect(event.rect(), self._canvas.theme.colour("panel"))
+            painter.fillRect(event.rect(), self._canvas.look.theme.colour("panel"))
             painter.translate(0, -top)
             for number, spot in _near(layout, exposed.top() - 8, exposed.bottom() + 8):
                 is_current = number == self._current and self.hasFocus()

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFont, QPainter, QPen
 
-from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.gc_pause import paused_garbage_collection
+from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.boxes import Chain, Measures
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
@@ -58,8 +58,8 @@ class ShelfLayout:
     ``size`` is how large the words of the palette are beside those of a canvas at scale 1.
     """
 
-    def __init__(self, canvas: Canvas, width: float, size: float = 1.0) -> None:
-        like = canvas.measures
+    def __init__(self, canvas: CanvasHost, width: float, size: float = 1.0) -> None:
+        like = canvas.look.measures
         self.width, self.size, self.scale = width, size, SCALE * size
         self.is_mirrored = like.is_mirrored
         self.line = like.line * size
@@ -159,7 +159,7 @@ class ShelfLayout:
         chains = [layout.chain(stack.body) for stack in entry.snippet.clip.stacks[:1]]
         spot = self._blocks(entry, y, chains)
         spot.painter = BlockPainter(
-            self._canvas.theme, language, self.measures, self._canvas.block_font
+            self._canvas.look.theme, language, self.measures, self._canvas.look.block_font
         )
         spot.height += 1.4 * self.line
         return spot
@@ -183,15 +183,15 @@ class ShelfLayout:
 class ShelfPainter:
     """Paints with the look of a canvas."""
 
-    def __init__(self, canvas: Canvas, layout: ShelfLayout) -> None:
-        self._theme: Theme = canvas.theme
+    def __init__(self, canvas: CanvasHost, layout: ShelfLayout) -> None:
+        self._theme: Theme = canvas.look.theme
         self._layout = layout
-        self._font = QFont(canvas.block_font)
+        self._font = QFont(canvas.look.block_font)
         self._font.setPointSizeF(self._font.pointSizeF() * layout.size)
         self._bold = QFont(self._font)
         self._bold.setBold(True)
         self._blocks = BlockPainter(
-            canvas.theme, canvas.editor.language, layout.measures, canvas.block_font
+            canvas.look.theme, canvas.editor.language, layout.measures, canvas.look.block_font
         )
 
     def paint(self, painter: QPainter, spot: Spot) -> None:

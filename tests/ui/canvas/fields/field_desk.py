@@ -35,7 +35,7 @@ class Desk:
         self.canvas.show_page(page)
         self.canvas.show()
         qtbot.waitExposed(self.canvas)
-        self.canvas.fit()
+        self.canvas.sight.fit()
         self.steps = self.editor.history.steps
 
     @property

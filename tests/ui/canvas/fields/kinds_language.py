@@ -11,8 +11,6 @@ from nep_studio.run.installation import studio_language
 
 SENTENCES = {
     "kinds.lines": ("remember {text:lines} for later", {"text": ""}),
-    "kinds.date": ("on {day:date}", {"day": "2026-01-31"}),
-    "kinds.file": ("play {path:file} now", {"path": ""}),
     "kinds.angle": ("turn by {angle:angle} to the left", {"angle": 30}),
     "kinds.duration": ("rest {time:duration} then go on", {"time": 1}),
     "kinds.slider": ("be {much:slider(0..100)} loud", {"much": 50}),

@@ -21,7 +21,7 @@ def press(desk, kind: str, key: str = "", number: int = 0) -> None:
     x = placed.x + piece.x + piece.height / 2
     if placed.box.is_mirrored:
         x = placed.x + piece.x + piece.width - piece.height / 2
-    at = desk.canvas.camera.to_view(x, placed.y + piece.y + piece.height / 2).toPoint()
+    at = desk.canvas.sight.camera.to_view(x, placed.y + piece.y + piece.height / 2).toPoint()
     QTest.mouseClick(desk.canvas.viewport(), LEFT, PLAIN, at)
 
 
@@ -116,7 +116,7 @@ def test_the_comment_button_opens_and_closes_the_comment(desk_of) -> None:
 
     press(desk, "comment")
     bubble = desk.fields.comments.bubble
-    block_right = desk.canvas.view_rect_of(desk.block).right()
+    block_right = desk.canvas.sight.view_rect_of(desk.block).right()
 
     assert bubble.text.toPlainText() == "hello"
     assert bubble.geometry().left() > block_right
@@ -149,4 +149,4 @@ def test_a_mirrored_comment_is_at_the_left(desk_of) -> None:
     desk.fields.comments.open(desk.block)
 
     bubble = desk.fields.comments.bubble.geometry()
-    assert bubble.right() < desk.canvas.view_rect_of(desk.block).left()
+    assert bubble.right() < desk.canvas.sight.view_rect_of(desk.block).left()

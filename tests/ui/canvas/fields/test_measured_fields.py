@@ -1,11 +1,11 @@
-"""Fields that are measured or filled in a popup: angles, times, dates, files, settings."""
+"""Fields that are measured or filled in a popup: angles, times, settings."""
 
 from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication
 
 from nep_studio.ui.canvas.fields.angle import angle_at
 
@@ -93,47 +93,6 @@ def test_a_duration_is_not_less_than_nothing(desk_of) -> None:
 
     assert desk.value("time") == 1
     assert desk.widget.reason.text == "A time cannot be less than 0 seconds."
-
-
-def test_a_date_is_chosen_in_the_calendar_or_written(desk_of) -> None:
-    desk = desk_of("kinds.date")
-
-    desk.click("day")
-    desk.widget.written.selectAll()
-    QTest.keyClicks(desk.widget.written, "2026-03-05")
-    written = desk.value("day")
-    shown = desk.widget.calendar.selectedDate().toString("yyyy-MM-dd")
-    desk.widget.calendar.clicked.emit(desk.widget.calendar.selectedDate().addDays(1))
-
-    assert written == shown == "2026-03-05"
-    assert desk.value("day") == "2026-03-06"
-    assert desk.new_steps() == 1
-
-
-def test_a_file_inside_the_project_folder_is_kept_short(
-    desk_of, qtbot, tmp_path, monkeypatch
-) -> None:
-    desk = desk_of("kinds.file")
-    desk.fields.project_folder = tmp_path
-    wanted = tmp_path / "sounds" / "hello.wav"
-    answer = (str(wanted), "")
-    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: answer)
-
-    desk.click("path")
-    QTest.mouseClick(desk.widget.browse, LEFT)
-    qtbot.waitUntil(lambda: desk.value("path") != "")
-
-    assert desk.value("path") == "sounds/hello.wav"
-    assert desk.new_steps() == 1
-
-
-def test_a_file_is_typed(desk_of) -> None:
-    desk = desk_of("kinds.file")
-
-    desk.click("path")
-    QTest.keyClicks(desk.widget.path, "a.wav")
-
-    assert desk.value("path") == "a.wav"
 
 
 def test_settings_come_from_the_manifest_of_the_node(desk_of) -> None:

@@ -65,7 +65,7 @@ def test_arithmetic_stays_as_typed_and_shows_what_it_comes_to(desk_of) -> None:
 def test_what_is_no_number_keeps_the_last_good_one_and_says_why(desk_of) -> None:
     desk = desk_of("math.number", number=7)
     said = []
-    desk.canvas.announced.connect(said.append)
+    desk.canvas.news.announced.connect(said.append)
 
     desk.click("number")
     retype(desk, "seven")
@@ -191,8 +191,8 @@ def test_the_editor_follows_zooming_and_scrolling(desk_of) -> None:
     desk.click("number")
     height, at = desk.widget.height(), desk.widget.pos()
 
-    desk.canvas.zoom(2.0)
-    desk.canvas.pan(30, 10)
+    desk.canvas.sight.zoom(2.0)
+    desk.canvas.sight.pan(30, 10)
 
     assert desk.widget.height() > 1.7 * height
     assert desk.widget.pos() != at

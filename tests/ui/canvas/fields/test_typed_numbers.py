@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.blocks.arithmetic import LARGEST_NUMBER
+from nep_studio.blocks.arithmetic import LARGEST_NUMBER, number_text, typed_number
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.fields.choice import Option, matching
 from nep_studio.ui.canvas.fields.editors import field_after, fields_within
-from nep_studio.ui.canvas.fields.line_editor import number_text, result_text, stepped, typed_number
+from nep_studio.ui.canvas.fields.line_editor import result_text, stepped
 from tests.blocks.block_building import B, build
 
 NUMBERS = st.one_of(

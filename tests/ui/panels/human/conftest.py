@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
 from nep_studio.ui.documents import Document
-from nep_studio.ui.plugins.person.panel import HumanPanel, add_human_panel
+from nep_studio.ui.plugins.person.panel import HumanPanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.window.conftest import answer, chooser, home, studio, window
@@ -28,7 +28,7 @@ def human(window: MainWindow, qtbot: QtBot) -> Iterator[Callable[..., HumanPanel
         for name in robots:
             fields = {"name": name}
             build(window.studio.language, [B("robots.robot", fields)], page="robots", editor=editor)
-        made = window.findChild(HumanPanel) or add_human_panel(window).widget
+        made = window.findChild(HumanPanel)
         assert isinstance(made, HumanPanel)
         window.files.document = Document(editor, parent=window)
         window.files.document_changed.emit(window.files.document)

@@ -11,8 +11,8 @@ from pytestqt.qtbot import QtBot
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.own_gestures import OwnGesture, OwnTake, keep_gesture
 from nep_studio.run.installation import studio_language
+from nep_studio.ui.floor import floor_of
 from nep_studio.ui.plugins.person.panel import HumanPanel
-from nep_studio.ui.plugins.robots.floor import floor_of
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.panels.human.conftest import RUN_MS
@@ -129,7 +129,7 @@ def test_without_a_running_program_it_says_why_and_offers_run(
 def test_a_person_comes_closer_in_the_scene_and_goes(
     human: Human, window: MainWindow, qtbot: QtBot
 ) -> None:
-    panel, floor = human(rule("robot_events.person")), floor_of(window)
+    panel, floor = human(rule("robot_events.person")), floor_of(window.host)
 
     panel.person.is_there.click()
     panel.person.name.setEditText("Clara")
@@ -148,7 +148,7 @@ def test_a_visitor_that_is_moved_in_the_scene_moves_the_slider(
 ) -> None:
     from nep_studio.project.surroundings import moved
 
-    panel, floor = human(rule("robot_events.person")), floor_of(window)
+    panel, floor = human(rule("robot_events.person")), floor_of(window.host)
     panel.person.is_there.click()
 
     floor.change(moved(floor.things[0], 3.0, 0.0))
@@ -158,7 +158,7 @@ def test_a_visitor_that_is_moved_in_the_scene_moves_the_slider(
 
 
 def test_everything_is_as_at_the_start_again(human: Human, window: MainWindow) -> None:
-    panel, floor = human(rule("robot_events.person")), floor_of(window)
+    panel, floor = human(rule("robot_events.person")), floor_of(window.host)
     for check in (panel.person.is_there, panel.things.ball, panel.things.mark):
         check.click()
     panel.sensors.sliders["battery"].setValue(5)

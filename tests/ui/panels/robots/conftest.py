@@ -16,11 +16,12 @@ from nep_studio.blocks.program import Project
 from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import Settings
-from nep_studio.ui.plugins.robots.floor import Floor, Starts
+from nep_studio.ui.floor import Floor
 from nep_studio.ui.plugins.robots.panel import RobotsPanel
-from nep_studio.ui.plugins.speech import Sound
+from nep_studio.ui.plugins.robots.participants import Starts
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look, load_fonts
 
 NAO = PlannedNode("action/nao", "NAO", {"robot": "NAO", "driver": "virtual", "address": ""})

@@ -15,7 +15,7 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
 from nep_studio.project.surroundings import kept_things, new_thing
 from nep_studio.run.installation import studio_language
-from nep_studio.ui.plugins.robots.floor import Floor
+from nep_studio.ui.floor import Floor
 from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.plugins.robots.stage import RobotStage
 from nep_studio.ui.running.runner import Runner

@@ -12,14 +12,8 @@ from nep_studio.ui.plugins.sensors.curves import ValueRange
 from nep_studio.ui.plugins.sensors.curves_view import LiveColumns, columns_of
 from nep_studio.ui.plugins.sensors.feed import FieldStream, number_at, numbers_in, parts_of
 from nep_studio.ui.plugins.sensors.measuring import TimeView, fitting_length, measure
-from nep_studio.ui.plugins.sensors.streams import (
-    Channel,
-    ClockMap,
-    ImuStream,
-    Ring,
-    Stream,
-    StreamKey,
-)
+from nep_studio.ui.plugins.sensors.streams import Channel, ClockMap, ImuStream, Stream, StreamKey
+from nep_studio.ui.ring import Ring
 
 KEY = StreamKey("/imu", "watch")
 

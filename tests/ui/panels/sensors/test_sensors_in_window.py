@@ -8,7 +8,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.plugins.sensors.panel import SensorsPanel, add_sensors_panel, show_topic
+from nep_studio.ui.plugins.sensors import SensorsPanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import chooser, home, karate, studio, window
 
@@ -18,7 +18,7 @@ NODE_START_MS = 20_000
 
 
 def panel_of(window: MainWindow) -> SensorsPanel:
-    return window.workbench.findChild(SensorsPanel) or add_sensors_panel(window)
+    return window.workbench.findChild(SensorsPanel)
 
 
 @pytest.fixture
@@ -30,7 +30,7 @@ def opened(karate: MainWindow, qtbot: QtBot) -> Iterator[MainWindow]:
 
 def test_the_panel_loads_nothing_slow_before_it_is_shown() -> None:
     code = (
-        "import sys; import nep_studio.ui.plugins.sensors.panel; "
+        "import sys; import nep_studio.ui.plugins.sensors; "
         "sys.exit('numpy' in sys.modules or 'pyqtgraph' in sys.modules)"
     )
 
@@ -77,7 +77,7 @@ def test_a_topic_is_plotted_from_elsewhere_in_the_window(opened: MainWindow, qtb
     panel = panel_of(opened)
     opened.running.runner.start_node(PlannedNode("sensory/virtual_watch", "virtual_watch", {}))
 
-    show_topic(opened, "/node_state", "pid")
+    opened.host.ask("sensors.plot", "/node_state", "pid")
 
     assert panel.isVisible()
     plots = panel.opened().plots

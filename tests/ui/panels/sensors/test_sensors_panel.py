@@ -12,9 +12,9 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, RobotState
 from nep_studio.ui.messages import Message, Messages
-from nep_studio.ui.network_feed import feed_of
+from nep_studio.ui.network_feed import NetworkFeed
+from nep_studio.ui.plugins.sensors import SensorsPanel
 from nep_studio.ui.plugins.sensors.feed import SensorFeed
-from nep_studio.ui.plugins.sensors.panel import SensorsPanel
 from nep_studio.ui.plugins.sensors.recorder import Recorder
 from nep_studio.ui.plugins.sensors.workspace import Workspace
 from nep_studio.ui.running.runner import Runner
@@ -69,7 +69,7 @@ def panel(
     recorder = Recorder(feed)
 
     def make() -> Workspace:
-        network = feed_of(host, lambda: runner.local.network)
+        network = NetworkFeed(lambda: runner.local.network, host)
         return Workspace(
             feed, recorder, network, runner, messages, look, lambda: tmp_path / "recordings"
         )

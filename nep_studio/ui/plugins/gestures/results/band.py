@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QVBoxLayout, 
 from nep_core.errors import RecordingError
 from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
 from nep_studio.ui.plugins.gestures.live import Samples
-from nep_studio.ui.plugins.sensors.streams import Floats
+from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr

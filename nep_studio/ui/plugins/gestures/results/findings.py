@@ -125,14 +125,6 @@ def findings_of(report: Mapping[str, Any]) -> dict[str, Findings]:
     return found
 
 
-def ids_of_takes(
-    left_out: tuple[LeftOut, ...], gestures: Mapping[str, OwnGesture]
-) -> tuple[str, ...]:
-    """The ids of the project's takes; those that are gone by now are left out."""
-    found = (id_of_take(one, gestures) for one in left_out)
-    return tuple(take for take in found if take)
-
-
 def id_of_take(left_out: LeftOut, gestures: Mapping[str, OwnGesture]) -> str:
     """The id of the take in the project, "" when it is gone."""
     gesture = gestures.get(left_out.gesture)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import re
 import shutil
 import tempfile
 import weakref
@@ -25,11 +24,14 @@ from nep_studio.ui.words import tr
 from nodes.recordings import Recording, write_recording
 
 from .tuning import Tuning
-from .worker import Done, Failed, Progress, Worker, order
+from .worker import Done, Ended, Failed, Progress, Worker, order
 
 # What can go wrong while gestures are learned, as problems with a checklist.
 
-_MEMORY = ("MemoryError", "Cannot allocate memory", "bad_alloc", "(9)", "(137)")
+_KILLED = (9, 137)
+"""How a process ends that the system ends for its memory: by a signal, also within a shell."""
+_OF_MEMORY = ("MemoryError", "Cannot allocate memory", "bad_alloc")
+"""What Python, the system and C++ print then; they tell it in no other way."""
 
 
 def not_enough_room(error: OSError | RecordingError) -> Problem:
@@ -56,22 +58,17 @@ def not_enough_room(error: OSError | RecordingError) -> Problem:
     )
 
 
-def worker_ended(why: str) -> Problem:
+def worker_ended(how: Ended) -> Problem:
     """The process that learns is gone."""
-    if any(sign in why for sign in _MEMORY):
+    details = f"{how.words}\n({how.code})".strip()
+    if how.code in _KILLED or any(sign in how.words for sign in _OF_MEMORY):
         return _problem(
             "The computer has too little memory for the training.",
             (
                 "Close other programs, then train again.",
                 "Delete recordings that are very long, such as hours of everyday movement.",
             ),
-            why,
-        )
-    if re.search(r"No module named '?(sklearn|scipy|numpy)", why):
-        return _problem(
-            "A part that learning needs is not installed.",
-            ("Install NEP Studio again.", "From source: install the requirements again."),
-            why,
+            details,
         )
     return _problem(
         "The training ended in the middle.",
@@ -80,8 +77,13 @@ def worker_ended(why: str) -> Problem:
             "Leave the newest takes out, one after the other, to see whether one is the reason.",
             "Start the studio again.",
         ),
-        why,
+        details,
     )
+
+
+def _of_fault(fault: Fault, how: Ended | None = None) -> Problem:
+    """What the process told, and what it wrote when it ended then."""
+    return _problem(fault.sentence, fault.checklist, fault.details or (how.words if how else ""))
 
 
 def _problem(sentence: Words, checklist: tuple[Words, ...], details: str) -> Problem:
@@ -202,6 +204,8 @@ class Training(QObject):
         """What is being learned from; empty while nothing is."""
         self._editor: object = None
         """Whose project it is: another may be opened meanwhile."""
+        self._last_fault: Fault | None = None
+        """What the process told last, if it told why it does not go."""
         self._tried = ""
         self._is_asked = False
         self._next_file = QTimer(self, interval=0)
@@ -341,6 +345,7 @@ class Training(QObject):
         self.changed.emit()
 
     def _on_told(self, said: object) -> None:
+        self._last_fault = said.fault if isinstance(said, Failed) else None
         self._ask()
         if not self._is_asked:
             return
@@ -351,7 +356,7 @@ class Training(QObject):
             case Done():
                 self._keep(said)
             case Failed(fault):
-                self._fail(_problem(fault.sentence, fault.checklist, fault.details))
+                self._fail(_of_fault(fault))
 
     def _keep(self, done: Done) -> None:
         """Let the project have what was learned."""
@@ -371,11 +376,13 @@ class Training(QObject):
         self.changed.emit()
         self._on_project_changed()  # it may have changed meanwhile
 
-    def _on_ended(self, why: str) -> None:
+    def _on_ended(self, how: Ended) -> None:
+        fault, self._last_fault = self._last_fault, None
+        problem = worker_ended(how) if fault is None else _of_fault(fault, how)
         if self.is_training:
-            self._fail(worker_ended(why))
+            self._fail(problem)
         elif not self._worker.was_ready:  # else the next training starts another one
-            self.problem = worker_ended(why)
+            self.problem = problem
             self.changed.emit()
 
     def _on_project_changed(self) -> None:

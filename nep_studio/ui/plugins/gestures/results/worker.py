@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -47,6 +48,14 @@ class Failed(msgspec.Struct, frozen=True):
     fault: Fault
 
 
+@dataclass(frozen=True)
+class Ended:
+    """It has ended by itself: its exit code, or the signal that ended it, and its last words."""
+
+    code: int
+    words: str = ""
+
+
 Line = Ready | Progress | Done | Failed
 _KINDS: tuple[tuple[str, type[Line]], ...] = (
     ("ready", Ready),
@@ -85,12 +94,12 @@ _MOST_WORDS = 4000
 class Worker(QObject):
     """One process at a time.
 
-    ``told`` gives each line that means something, ``ended`` why the process ended by itself: its
-    last words. ``command`` gives what starts it.
+    ``told`` gives each line that means something, ``ended`` how the process ended by itself: its
+    Ended. ``command`` gives what starts it.
     """
 
     told = Signal(object)
-    ended = Signal(str)
+    ended = Signal(object)
 
     def __init__(self, command: Callable[[], Sequence[str]], parent: QObject) -> None:
         super().__init__(parent)
@@ -158,14 +167,14 @@ class Worker(QObject):
             return
         words = bytes(process.readAllStandardError().data()).decode(errors="replace").strip()
         log.info("the training process ended with %s: %s", code, words[-_MOST_WORDS:])
-        self._end(f"{words[-_MOST_WORDS:]}\n({code})".strip())
+        self._end(Ended(code, words[-_MOST_WORDS:]))
 
     def _on_error(self, process: QProcess, error: QProcess.ProcessError) -> None:
         if process is self._process and error == QProcess.ProcessError.FailedToStart:
-            self._end(process.errorString())
+            self._end(Ended(-1, process.errorString()))
 
-    def _end(self, why: str) -> None:
+    def _end(self, how: Ended) -> None:
         process = self._forget()
         if process is not None:
             process.deleteLater()
-        self.ended.emit(why)
+        self.ended.emit(how)

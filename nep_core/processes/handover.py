@@ -1,0 +1,58 @@
+"""What a launched process hands to its launcher when it will not go on: its fault, as data.
+
+The launcher names a file in the environment that is not there yet; who refuses writes the fault
+into it as JSON, beside what a person reads in the terminal or the log. A process that knows
+nothing of this, such as a node in another language, is told of by the last line that it wrote.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import tempfile
+import uuid
+from pathlib import Path
+
+import msgspec
+
+from faults import Fault, heard_fault
+
+log = logging.getLogger(__name__)
+
+VARIABLE = "NEP_FAULT_FILE"
+"""In the environment of a launched process: where it may write why it would not go on."""
+
+MOST_BYTES = 100_000
+
+
+def place() -> Path:
+    """A file of its own for a process that is about to be started; it is not made."""
+    return Path(tempfile.gettempdir()) / f"nep-fault-{uuid.uuid4().hex}.json"
+
+
+def hand_over(fault: Fault) -> None:
+    """Leave a fault for the launcher; nothing when there is none, or the disk is full."""
+    path = os.environ.get(VARIABLE, "")
+    if not path:
+        return
+    try:
+        with open(path, "xb") as file:  # never into somebody else's file
+            file.write(msgspec.json.encode(fault))
+    except OSError as error:
+        log.info("The launcher will not know more than the last line: %s", error)
+
+
+def take(path: Path) -> Fault | None:
+    """What a process left there, which is taken away; None when it left nothing to be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(MOST_BYTES)
+    except OSError:
+        return None
+    with contextlib.suppress(OSError):
+        path.unlink()
+    try:
+        return heard_fault(msgspec.json.decode(data))
+    except (msgspec.MsgspecError, RecursionError):
+        return None

@@ -1,0 +1,125 @@
+"""What a plugin sees of the window, and what a plugin is: neither knows the other's insides.
+
+A plugin is a folder in ``ui/plugins`` whose package has one object ``plugin``. The window finds
+the folders by themselves, asks each for its ``Parts``, and puts them where they belong. It asks
+again when the words of the window are other ones; what is to outlive that is kept (``Host.keep``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
+
+    from nep_studio.ui.actions import Actions, Keys
+    from nep_studio.ui.canvas.editing.menu import Section
+    from nep_studio.ui.services import Services
+    from nep_studio.ui.workbench.side_panels import AreaName
+    from nep_studio.ui.workbench.workbench import Workbench
+
+Kept = TypeVar("Kept")
+MenuName = Literal["file", "edit", "view", "run", "robots", "help"]
+
+
+class Host(Protocol):
+    """The window, as far as a plugin may know it."""
+
+    @property
+    def services(self) -> Services:
+        """The files, the messages, what runs, the settings and the look."""
+
+    @property
+    def widget(self) -> QWidget:
+        """What dialogs lie over."""
+
+    @property
+    def workbench(self) -> Workbench:
+        """Where the project is worked on: its canvas, its problems, its panels."""
+
+    @property
+    def actions(self) -> Actions:
+        """All actions by name; they go, with what they own, when the words are other ones."""
+
+    @property
+    def menus(self) -> Mapping[str, QMenu]:
+        """The menus of the menu bar by name."""
+
+    @property
+    def status_bar(self) -> QStatusBar:
+        """The line at the lower edge, which is hidden as long as nobody shows it."""
+
+    def show_panel(self, widget: QWidget) -> None:
+        """Show a panel, on top of the others of its area."""
+
+    def ask(self, command: str, *values: Any) -> Any:
+        """Let another plugin do what it offers by this name; None when nobody offers it."""
+
+    def keep(self, kind: type[Kept], make: Callable[[], Kept]) -> Kept:
+        """The one object of a kind, made when it is first asked for, kept as long as the window."""
+
+
+@dataclass(frozen=True)
+class NewAction:
+    """An action, its menu and its place there; without a menu it is in the palette of commands.
+
+    It stands behind, or before, the action of the name ``after`` or ``before``, else at the end.
+    """
+
+    name: str
+    words: str
+    do: Callable[[], object]
+    icon_name: str = ""
+    keys: Keys | tuple[Keys, ...] = ()
+    tip: str = ""
+    menu: MenuName | Literal[""] = ""
+    after: str = ""
+    before: str = ""
+
+
+@dataclass(frozen=True)
+class NewPanel:
+    """A panel beside the canvas: left, right or at the bottom.
+
+    It gets at least ``least_share`` of the height of the window when it is opened at the bottom.
+    """
+
+    widget: QWidget
+    title: str
+    icon_name: str
+    area: AreaName
+    is_shown: bool = False
+    least_share: float = 0.0
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What a plugin brings.
+
+    ``menu_sections`` add entries to the menu of the canvas. ``commands`` are what others may ask
+    for by name (``Host.ask``), as ``"<plugin>.<what>"``.
+    """
+
+    panel: NewPanel | None = None
+    actions: Sequence[NewAction] = ()
+    menu_sections: Sequence[Section] = ()
+    commands: Mapping[str, Callable[..., object]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """One panel or tool.
+
+    ``make`` gives its parts for a window. ``order`` says where its tab and its menu entries stand
+    among those of the others. ``modules`` of its package are loaded one at a time before ``make``
+    is called, so that the window, which is there already, never waits long. The actions of one
+    that ``needs_project`` can be used while a project is open.
+    """
+
+    name: str
+    make: Callable[[Host], Parts]
+    order: int = 1000
+    modules: Sequence[str] = ()
+    needs_project: bool = False

@@ -1,0 +1,342 @@
+"""Write pictures of programs: PNG, SVG and PDF files, and the clipboard."""
+
+from __future__ import annotations
+
+import html
+import math
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from PySide6.QtCore import (
+    QBuffer,
+    QByteArray,
+    QIODevice,
+    QMarginsF,
+    QPointF,
+    QRectF,
+    QSize,
+    QSizeF,
+    Qt,
+)
+from PySide6.QtGui import QFont, QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter
+from PySide6.QtSvg import QSvgGenerator
+
+from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.files import to_bytes
+from nep_studio.blocks.operations.copying import copy, to_text
+from nep_studio.blocks.operations.selection import members, runs
+from nep_studio.project import picture_files
+from nep_studio.ui.canvas.host import CanvasHost
+from nep_studio.ui.canvas.layout.boxes import Chain
+from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.canvas.layout.layout import Layout
+from nep_studio.ui.canvas.layout.page import PageLayout, boxes_of
+from nep_studio.ui.canvas.painting.painter import BlockPainter
+from nep_studio.ui.words import tr
+from nep_studio.ui.workbench.pages_bar import page_title
+
+# Words of an SVG file that stay inside their blocks, whatever fonts the computer has.
+
+_TEXT = re.compile(r'(<text [^>]*font-weight="(\d+)"[^>]*?)\s*>([^<]*)</text>')
+_FAMILY = re.compile(r'font-family="([^"]*)"')
+
+
+def fitted(svg: bytes, canvas: CanvasHost) -> bytes:
+    """The file with the width of each word, and with a usual font after ours."""
+    text = svg.decode()
+    text = _FAMILY.sub(r'font-family="\1,sans-serif"', text)
+    weight = str(int(canvas.look.block_font.weight()))
+
+    def with_width(match: re.Match[str]) -> str:
+        opening, its_weight, said = match.groups()
+        if its_weight != weight or not said.strip():
+            return match.group(0)
+        width = canvas.look.measures.text_width(html.unescape(said))
+        return f'{opening} textLength="{width:g}" lengthAdjust="spacingAndGlyphs">{said}</text>'
+
+    return _TEXT.sub(with_width, text).encode()
+
+
+# What is in a picture: the stacks of a page, of all pages, or the selected blocks.
+
+What = Literal["page", "selection", "pages"]
+
+MARGIN = 24.0
+"""The room around the blocks, in canvas units."""
+
+
+@dataclass
+class Part:
+    """Stacks that lie on one page, with a title above them where there are several pages."""
+
+    chains: list[Chain]
+    bounds: Rect
+    title: str = ""
+
+
+@dataclass
+class Scene:
+    """Parts below each other; all sizes are in canvas units."""
+
+    parts: list[Part] = field(default_factory=list)
+    title_height: float = 0.0
+    margin: float = MARGIN
+
+    @property
+    def width(self) -> float:
+        """How wide all of it is."""
+        return max((part.bounds.width for part in self.parts), default=0.0) + 2 * self.margin
+
+    @property
+    def height(self) -> float:
+        """How high all of it is."""
+        inside = sum(self._height_of(part) for part in self.parts)
+        return inside + self.margin * (len(self.parts) + 1)
+
+    def _height_of(self, part: Part) -> float:
+        return part.bounds.height + (self.title_height if part.title else 0.0)
+
+
+def scene_of(canvas: CanvasHost, what: What, margin: float = MARGIN) -> Scene:
+    """What of a canvas is asked for; a scene without parts when there are no blocks."""
+    scene = Scene(title_height=canvas.look.measures.line * 2.2, margin=margin)
+    if what == "selection":
+        chains = _selected(canvas)
+        scene.parts = [Part(chains, _bounds(chains))] if chains else []
+        return scene
+    project = canvas.editor.project
+    pages = list(project.pages) if what == "pages" else [canvas.page_layout.page]
+    for page in pages:
+        layout = PageLayout(project, canvas.editor.language, canvas.look.measures)
+        layout.show(page)
+        chains = list(layout.chains.values())
+        if chains:
+            title = page_title(project, page) if what == "pages" else ""
+            scene.parts.append(Part(chains, _bounds(chains), title))
+    return scene
+
+
+def paint_scene(painter: QPainter, scene: Scene, canvas: CanvasHost, scale: float) -> None:
+    """Paint it from (0, 0) on; the painter counts in canvas units."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    blocks = BlockPainter(
+        canvas.look.theme, canvas.editor.language, canvas.look.measures, canvas.look.block_font
+    )
+    y = scene.margin
+    for part in scene.parts:
+        if part.title:
+            _paint_title(painter, part.title, QPointF(scene.margin, y), scene, canvas)
+            y += scene.title_height
+        left = scene.margin
+        if canvas.look.measures.is_mirrored:
+            left = scene.width - scene.margin - part.bounds.width
+        painter.translate(left - part.bounds.x, y - part.bounds.y)
+        for chain in part.chains:
+            blocks.paint(painter, boxes_of(chain, part.bounds), max(scale, 1.0))
+        painter.translate(part.bounds.x - left, part.bounds.y - y)
+        y += part.bounds.height + scene.margin
+
+
+def _paint_title(
+    painter: QPainter, title: str, at: QPointF, scene: Scene, canvas: CanvasHost
+) -> None:
+    font = QFont(canvas.look.block_font)
+    font.setPointSizeF(font.pointSizeF() * 1.3)
+    font.setBold(True)
+    painter.setFont(font)
+    painter.setPen(canvas.look.theme.colour("text"))
+    row = QRectF(at.x(), at.y(), scene.width - 2 * scene.margin, scene.title_height)
+    painter.drawText(row, title)
+
+
+def _selected(canvas: CanvasHost) -> list[Chain]:
+    """The selected blocks, where they lie on the page."""
+    project = canvas.editor.project
+    layout = Layout(project, canvas.editor.language, canvas.look.measures)
+    chains = []
+    for run in runs(project, canvas.selection.ids):
+        placed = canvas.page_layout.placed(run.first)
+        if placed is None:
+            continue
+        chain = layout.chain(members(project, run), shown=True)
+        side = placed.box.width if placed.box.is_mirrored else 0.0
+        chain.x, chain.y = placed.x + side, placed.y
+        chains.append(chain)
+    return chains
+
+
+def _bounds(chains: list[Chain]) -> Rect:
+    """The rectangle around chains, with the tabs below them."""
+    rects = []
+    for chain in chains:
+        left = chain.x - chain.width if chain.is_mirrored else chain.x
+        rects.append(Rect(left, chain.y, chain.width, chain.height + 8.0))
+    whole = rects[0]
+    for rect in rects[1:]:
+        whole = whole.united(rect)
+    return whole
+
+
+Format = Literal["png", "svg", "pdf"]
+
+LARGEST_SIDE = 30_000
+LARGEST_PIXELS = 80_000_000
+"""A larger picture is made with less detail: few programs could open it."""
+
+SCALES = (1.0, 4.0)
+POINTS_AN_INCH = 72.0
+
+
+@dataclass(frozen=True)
+class PictureOptions:
+    """What is in a picture and how; ``scale`` is in pixels for each canvas unit."""
+
+    what: What = "page"
+    scale: float = 2.0
+    is_transparent: bool = False
+    margin: float = MARGIN
+    has_program: bool = True
+
+
+def write_picture(canvas: CanvasHost, path: Path, kind: Format, options: PictureOptions) -> None:
+    """Write a picture into a file; raises EditRefused when there is nothing, or no room.
+
+    A file that is there is replaced only once the new one is whole.
+    """
+    made = {"png": png_of, "svg": svg_of, "pdf": pdf_of}[kind](canvas, options)
+    beside = path.with_name(f".{path.name}.part")
+    try:
+        beside.write_bytes(made)
+        beside.replace(path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise EditRefused(
+            tr(
+                "The picture cannot be written: {reason}.",
+                reason=tr((error.strerror or str(error)).lower()),
+            ),
+            checklist=(tr("Choose another folder."),),
+        ) from error
+
+
+def copy_picture(canvas: CanvasHost, options: PictureOptions) -> None:
+    """Put a picture on the clipboard; raises EditRefused when there is nothing to show."""
+    QGuiApplication.clipboard().setImage(image_of(canvas, options))
+
+
+def png_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
+    """A PNG file, with the program in it if it is asked for."""
+    buffer = QBuffer()
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    image_of(canvas, options).save(buffer, "PNG")  # type: ignore[call-overload]  # takes a device
+    png = bytes(buffer.data().data())
+    return (
+        picture_files.png_with_program(png, program_of(canvas, options))
+        if options.has_program
+        else png
+    )
+
+
+def svg_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
+    """An SVG file, its words as text, with the program in it if it is asked for."""
+    scene = _scene(canvas, options)
+    buffer = QBuffer()
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    generator = QSvgGenerator(QSvgGenerator.SvgVersion.Svg11)
+    generator.setOutputDevice(buffer)
+    generator.setTitle(canvas.editor.project.name)
+    generator.setResolution(96)
+    size = QSize(round(scene.width), round(scene.height))
+    generator.setSize(size)
+    generator.setViewBox(QRectF(0, 0, scene.width, scene.height))
+    with QPainter(generator) as painter:
+        _paint(painter, scene, canvas, options, 1.0)
+    svg = fitted(bytes(buffer.data().data()), canvas)
+    if not options.has_program:
+        return svg
+    return picture_files.svg_with_program(svg, program_of(canvas, options))
+
+
+def pdf_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
+    """A PDF file with one page as large as the blocks, to be printed."""
+    scene = _scene(canvas, options)
+    data = QByteArray()
+    buffer = QBuffer(data)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    writer = QPdfWriter(buffer)
+    writer.setTitle(canvas.editor.project.name)
+    # as many dots as the screen, for which the font of the blocks is made: else its words are not
+    # as large as their blocks
+    dots_per_inch = QGuiApplication.primaryScreen().logicalDotsPerInchY()
+    writer.setResolution(round(dots_per_inch))
+    points = 0.75  # of a canvas unit, which is a pixel of 96 an inch
+    size = QSizeF(scene.width * points, scene.height * points)
+    writer.setPageSize(
+        QPageSize(size, QPageSize.Unit.Point, "", QPageSize.SizeMatchPolicy.ExactMatch)
+    )
+    writer.setPageMargins(QMarginsF(0, 0, 0, 0))
+    with QPainter(writer) as painter:
+        scale = writer.resolution() / POINTS_AN_INCH * points
+        painter.scale(scale, scale)
+        _paint(painter, scene, canvas, options, 1.0)
+    buffer.close()
+    return bytes(data.data())
+
+
+def image_of(canvas: CanvasHost, options: PictureOptions) -> QImage:
+    """The picture; raises EditRefused when there is nothing to show."""
+    scene = _scene(canvas, options)
+    scale = fitting_scale(scene, options.scale)
+    width, height = round(scene.width * scale), round(scene.height * scale)
+    image = QImage(width, height, QImage.Format.Format_ARGB32_Premultiplied)
+    if image.isNull():
+        raise EditRefused(
+            tr("The picture is too large for the memory of this computer."),
+            checklist=(tr("Show less, or make the picture smaller."),),
+        )
+    image.fill(Qt.GlobalColor.transparent)
+    with QPainter(image) as painter:
+        painter.scale(scale, scale)
+        _paint(painter, scene, canvas, options, scale)
+    return image
+
+
+def fitting_scale(scene: Scene, wanted: float) -> float:
+    """The scale that is wanted, or the largest one that makes no giant picture."""
+    side = LARGEST_SIDE / max(scene.width, scene.height)
+    area = math.sqrt(LARGEST_PIXELS / (scene.width * scene.height))
+    return min(wanted, side, area)
+
+
+def program_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
+    """The text of the project that is shown, or of the selected blocks."""
+    editor = canvas.editor
+    if options.what == "selection":
+        ids = canvas.selection.ids
+        return to_text(
+            copy(editor.project, editor.language, ids, canvas.page_layout.corners(ids))
+        ).encode()
+    return to_bytes(editor.project)
+
+
+def _scene(canvas: CanvasHost, options: PictureOptions) -> Scene:
+    scene = scene_of(canvas, options.what, options.margin)
+    if not scene.parts:
+        words = (
+            tr("No blocks are selected, so that there is nothing to show.")
+            if options.what == "selection"
+            else tr("There are no blocks yet, so that there is nothing to show.")
+        )
+        raise EditRefused(words, checklist=(tr("Choose something else to show."),))
+    return scene
+
+
+def _paint(
+    painter: QPainter, scene: Scene, canvas: CanvasHost, options: PictureOptions, scale: float
+) -> None:
+    if not options.is_transparent:
+        whole = QRectF(0, 0, scene.width, scene.height)
+        painter.fillRect(whole, canvas.look.theme.colour("canvas"))
+    paint_scene(painter, scene, canvas, scale)

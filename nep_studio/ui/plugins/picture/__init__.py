@@ -1,1 +1,0 @@
-"""Pictures of programs to keep and to show, with the program inside, to be opened again."""

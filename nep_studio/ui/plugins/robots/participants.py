@@ -1,0 +1,137 @@
+"""Which robots take part in the project, and where those on the screen begin."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer
+
+from nep_core.wire import messages as m
+from nep_core.wire.messages import RobotState
+from nep_studio import paths
+from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.node_style import StateLook
+from nep_studio.ui.running.runner import Runner
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    pass
+
+
+# Where the robots on the screen begin: beside each other, so that all are seen.
+
+ACTION = "action/"
+APART_M = 0.8
+ORIGIN = (0.0, 0.0, 0.0)
+BRAKING_MS = 500
+"""So long a robot takes at most to come to rest."""
+READY = ("ready", "busy", "warning")
+"""How nodes are that hear what they are asked."""
+Base = tuple[float, float, float]
+
+
+class Starts(QObject):
+    """Puts each robot to its place when its node is ready, and again when it is asked to."""
+
+    def __init__(self, runner: Runner, parent: QObject) -> None:
+        super().__init__(parent)
+        self._runner = runner
+        self._there: set[str] = set()
+        runner.nodes_changed.connect(self._on_nodes_changed)
+
+    def place_of(self, robot: str) -> Base:
+        """Where a robot begins: x m, y m, theta rad on the floor."""
+        return start_places(self._runner.planned()).get(robot, ORIGIN)
+
+    def put_back(self, robot: str) -> None:
+        """Stop a robot, and put it to where it began."""
+        stop = m.ActionRequest(id=uuid.uuid4().hex, robots=[robot], action="stop", priority=100)
+        self._runner.send(m.ACTION_REQUEST, stop)
+        QTimer.singleShot(BRAKING_MS, self, lambda: self._put(robot))
+
+    def _put(self, robot: str) -> None:
+        request = m.SenseRequest(robot=robot, sense="place", place=self.place_of(robot))
+        self._runner.send(m.SENSE_REQUEST, request)
+
+    def _on_nodes_changed(self, names: list[str]) -> None:
+        nodes = self._runner.board.nodes
+        came = {name for name in names if name in nodes and nodes[name].health in READY}
+        new, self._there = came - self._there, (self._there - set(names)) | came
+        if new:
+            places = start_places(self._runner.planned())
+            for robot in new & places.keys():
+                if places[robot] != ORIGIN:
+                    self._put(robot)
+
+
+def start_places(planned: Iterable[PlannedNode]) -> dict[str, Base]:
+    """Where the robots on the screen begin, by name: the first in the middle, if no real one is.
+
+    Where a real robot is, it says by itself: at first in the middle.
+    """
+    robots = [node for node in planned if node.node.startswith(ACTION)]
+    real = [node for node in robots if node.parameters.get("driver") == "naoqi"]
+    names = [str(one.parameters.get("robot", one.name)) for one in robots if one not in real]
+    numbers = range(1 if real else 0, len(names) + 1)
+    return {
+        name: (0.0, (number + 1) // 2 * (-APART_M if number % 2 else APART_M), 0.0)
+        for name, number in zip(names, numbers, strict=False)
+    }
+
+
+# The robots that a project says take part.
+
+
+@dataclass(frozen=True)
+class RobotPlan:
+    """A robot that takes part: a real one at an address, or one on the screen.
+
+    ``folder`` is where its kind is described; None for NAO.
+    """
+
+    name: str
+    is_real: bool = False
+    address: str = ""
+    folder: Path | None = None
+
+    @property
+    def words(self) -> str:
+        """Which kind of robot it is."""
+        if not self.is_real:
+            return tr("On this screen")
+        return tr("A real NAO at {address}", address=self.address or "?")
+
+
+def robots_of(planned: Iterable[PlannedNode]) -> list[RobotPlan]:
+    """The robots among the nodes that a project needs."""
+    return [
+        RobotPlan(
+            str(node.parameters.get("robot", node.name)),
+            node.parameters.get("driver") == "naoqi",
+            str(node.parameters.get("address", "")),
+            _folder(node),
+        )
+        for node in planned
+        if node.node.startswith(ACTION)
+    ]
+
+
+def _folder(node: PlannedNode) -> Path | None:
+    """The folder of a kind of robot that can be drawn: one of ours, or one of the person's."""
+    driver = str(node.parameters.get("driver", ""))
+    model = str(node.parameters.get("model", "")) or driver.partition("_")[2]
+    for folder in (paths.resources() / "robots" / model, Path(model)):
+        if model and (folder / "view.toml").is_file():
+            return folder
+    return None
+
+
+def look_of(state: RobotState | None) -> StateLook:
+    """How a robot is whose node has told nothing yet."""
+    if state is None:
+        return StateLook("circle-dashed", "muted", tr("Not started"))
+    return StateLook("circle-check", "success", tr("Ready"))

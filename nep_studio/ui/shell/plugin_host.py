@@ -1,0 +1,145 @@
+"""Finds the plugins, shows each the window as a ``Host``, and puts its parts where they belong."""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, cast
+
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
+
+from nep_studio.ui import plugins
+from nep_studio.ui.host import Kept, NewAction, NewPanel, Parts, Plugin
+
+if TYPE_CHECKING:
+    from nep_studio.ui.actions import Actions
+    from nep_studio.ui.services import Services
+    from nep_studio.ui.workbench.workbench import Workbench
+
+    from .main_window import MainWindow
+
+
+class WindowHost:
+    """What the plugins see of a window: see ``Host``."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window = window
+        self._kept: dict[type, object] = {}
+        self._commands: dict[str, Callable[..., object]] = {}
+        self.with_a_project: list[str] = []
+        """The actions of plugins that need an open project."""
+
+    @property
+    def services(self) -> Services:
+        """The files, the messages, what runs, the settings and the look."""
+        return self._window.services
+
+    @property
+    def widget(self) -> QWidget:
+        """What dialogs lie over."""
+        return self._window
+
+    @property
+    def workbench(self) -> Workbench:
+        """Where the project is worked on, made now if it is not there yet."""
+        return self._window.workbench
+
+    @property
+    def actions(self) -> Actions:
+        """All actions by name."""
+        return self._window.actions_by_name
+
+    @property
+    def menus(self) -> Mapping[str, QMenu]:
+        """The menus of the menu bar by name."""
+        return self._window.menus
+
+    @property
+    def status_bar(self) -> QStatusBar:
+        """The line at the lower edge."""
+        return self._window.statusBar()
+
+    def show_panel(self, widget: QWidget) -> None:
+        """Show a panel, on top of the others of its area."""
+        self.workbench.panels.show(widget)
+
+    def ask(self, command: str, *values: Any) -> Any:
+        """Do what a plugin offers by this name; all plugins are made now if it is not known yet."""
+        if command not in self._commands:
+            self._window.later.finish()
+        do = self._commands.get(command)
+        return None if do is None else do(*values)
+
+    def keep(self, kind: type[Kept], make: Callable[[], Kept]) -> Kept:
+        """The one object of a kind, made when it is first asked for."""
+        if kind not in self._kept:
+            self._kept[kind] = make()
+        return cast("Kept", self._kept[kind])
+
+    # What the window does with what plugins bring
+
+    def begin(self) -> None:
+        """Forget what was brought: it is brought anew, in other words."""
+        self.with_a_project.clear()
+        self._commands = {"start_page.tour_taken": self._window.start_page.tour_offer.hide}
+
+    def take(self, plugin: Plugin, parts: Parts) -> None:
+        """Put the parts of a plugin into the window."""
+        if parts.panel is not None:
+            self._add_panel(parts.panel)
+        for new in parts.actions:
+            self._add_action(new)
+            if plugin.needs_project:
+                self.with_a_project.append(new.name)
+        self.workbench.canvas.menu_sections += parts.menu_sections
+        self._commands |= parts.commands
+
+    def _add_panel(self, new: NewPanel) -> None:
+        panels = self.workbench.panels
+        added = panels.add(new.widget, new.title, new.icon_name, new.area, is_shown=new.is_shown)
+        if new.least_share:
+            panels.give_room(added, new.least_share)
+
+    def _add_action(self, new: NewAction) -> None:
+        action = self.actions.add(
+            new.name, new.words, new.do, icon_name=new.icon_name, keys=new.keys, tip=new.tip
+        )
+        if not new.menu:
+            return
+        menu = self.menus[new.menu]
+        if next_one := _next(menu, new.after, new.before):
+            menu.insertAction(next_one, action)
+        else:
+            menu.addAction(action)
+
+
+def _next(menu: QMenu, after: str, before: str) -> QAction | None:
+    """The entry of a menu that a new one comes before; None for the end."""
+    entries = menu.actions()
+    names = [entry.objectName() for entry in entries]
+    if before and before in names:
+        return entries[names.index(before)]
+    if after and after in names:
+        return next(iter(entries[names.index(after) + 1 :]), None)
+    return None
+
+
+def names_of_plugins() -> list[str]:
+    """The packages in the folder of plugins, wherever that is; in a frozen program, too."""
+    return [found.name for found in pkgutil.iter_modules(plugins.__path__) if found.ispkg]
+
+
+def add_plugins(host: WindowHost) -> Iterator[None]:
+    """Add all plugins in their order: a little at each step."""
+    found: list[Plugin] = []
+    for name in names_of_plugins():
+        found.append(import_module(f"{plugins.__name__}.{name}").plugin)
+        yield
+    for plugin in sorted(found, key=lambda one: (one.order, one.name)):
+        for module in plugin.modules:
+            import_module(f"{plugins.__name__}.{plugin.name}.{module}")
+            yield
+        host.take(plugin, plugin.make(host))
+        yield

@@ -1,0 +1,125 @@
+"""The small parts of forms: words before a field, hints, cards, a line that can be copied."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt, QTimer
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QFormLayout,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.words import tr
+
+UNKNOWN = "…"
+"""Stands where an address is not known."""
+COPIED_MS = 2000
+"""So long the button says that it is done."""
+
+
+class CopyLine(QWidget):
+    """A text that is written somewhere else, with the button that copies it.
+
+    Of a long one all letters must be seen: people type them. Its button is below it.
+    """
+
+    def __init__(
+        self, look: Look, words: str, is_long: bool = False, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.text = QLineEdit()
+        self.text.setReadOnly(True)
+        self.text.setAccessibleName(words)
+        self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        self.text.setAlignment(Qt.AlignmentFlag.AlignLeft)
+        self._words = words
+        self._look = look
+        self.button = QPushButton(words)
+        self.redraw()
+        self.button.setAutoDefault(False)
+        line = self.fontMetrics().height()
+        self.button.setIconSize(QSize(line, line))
+        self._again = QTimer(self, singleShot=True, interval=COPIED_MS)
+        self._again.timeout.connect(lambda: self.button.setText(self._words))
+        row = QVBoxLayout(self) if is_long else QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.text, 1)
+        row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignLeading)
+        self.button.clicked.connect(self._on_copy)
+
+    def redraw(self) -> None:
+        """Draw the icon in another theme."""
+        self.button.setIcon(icon("copy", self._look.theme))
+
+    def show_text(self, text: str) -> None:
+        """Show this; what is long shows its beginning."""
+        if text != self.text.text():
+            self.text.setText(text)
+            self.text.setCursorPosition(0)
+            self.text.setToolTip(text)
+            self.setEnabled(UNKNOWN not in text)
+
+    def _on_copy(self) -> None:
+        QGuiApplication.clipboard().setText(self.text.text())
+        self.button.setText(tr("Copied"))
+        self._again.start()
+
+
+def hint(words: str) -> QLabel:
+    """Words that explain, in a quiet colour."""
+    label = QLabel(words)
+    label.setWordWrap(True)
+    label.setProperty("role", "hint")
+    return label
+
+
+def label_of(words: str, buddy: QWidget) -> QLabel:
+    """The words before a field; screen readers say them there."""
+    label = QLabel(words)
+    label.setBuddy(buddy)
+    buddy.setAccessibleName(words)
+    return label
+
+
+def labelled(words: str, field: QWidget) -> QWidget:
+    """A field with its words."""
+    both = QWidget()
+    form = QFormLayout(both)
+    form.setContentsMargins(0, 0, 0, 0)
+    form.addRow(label_of(words, field), field)
+    return both
+
+
+def quiet_button(words: str) -> QPushButton:
+    """A button that does not call for attention, and never is what Enter presses."""
+    button = QPushButton(words)
+    button.setAutoDefault(False)
+    button.setProperty("kind", "quiet")
+    return button
+
+
+def column_in(widget: QWidget) -> QVBoxLayout:
+    """A column without margins."""
+    box = QVBoxLayout(widget)
+    box.setContentsMargins(0, 0, 0, 0)
+    box.setSpacing(widget.fontMetrics().height() // 3)
+    return box
+
+
+def card_around(label: QLabel, kind: str) -> QFrame:
+    """Put words into a card of a colour."""
+    card = QFrame()
+    card.setProperty("kind", kind)
+    room = label.fontMetrics().height() // 2
+    box = QVBoxLayout(card)
+    box.setContentsMargins(room, room, room, room)
+    box.addWidget(label)
+    return card
