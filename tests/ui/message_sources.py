@@ -45,7 +45,7 @@ NOT_SHOWN = (
     "nep_studio/help/",
     "nep_studio/run/python_file.py",
     "nep_studio/support/report.py",
-    "nep_studio/ui/plugins/show/command.py",
+    "nep_studio/ui/shell/show_command.py",
     "nep_studio/ui/shell/window_picture.py",
     "nodes/perceptual/recognition/command.py",
     # What the robot on the screen answers to programs of others, in the language of NAOqi.

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from faults import FaultError, Words
+from faults import FaultError, Words, text_of
 from nep_core.wire import messages as m
 from nep_studio.ui.messages import announce
 from nep_studio.ui.network_words import one_line, pretty
@@ -61,7 +61,7 @@ class NotAMessage(FaultError):
     """What was written cannot be sent; ``line`` is where it is wrong (0: not known)."""
 
     def __init__(self, reason: Words, line: int = 0, /, **values: object) -> None:
-        super().__init__(reason, **values)
+        super().__init__(text_of(reason, **values))
         self.line = line
 
 
