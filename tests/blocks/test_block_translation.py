@@ -137,7 +137,9 @@ def test_a_node_and_a_robot_bring_their_words_along_and_a_table_goes_before_them
 def test_a_block_may_bring_its_translation_and_a_table_goes_before_it(english: Language) -> None:
     off = english.definitions["robot_lights.off"]
     own = replace(off, translations={"es": "{robot} apaga {group}", "it": "{robot} spegne"})
-    brought = replace(english, definitions={own.id: own}, categories=(), choices={})
+    brought = replace(
+        english, definitions={own.id: own}, categories=(), choices={}, profiles=english.profiles[:1]
+    )
     table = {"blocks": {own.id: "apagar {group} de {robot}"}}
 
     alone = translated(brought, {}, "es").definitions[own.id]

@@ -25,7 +25,6 @@ ROOMS = (*OURS, "tests", "docs", "tools", "examples", "packaging", "benchmarks")
 FILE = re.compile(r"\w\.(py|md|toml)$")
 
 NOT_HERE = {
-    "host.py": "the rooms of the canvas and of the plugins get one each",
     "microbit.toml": "a reader of the page writes it",
     "pinetime.toml": "a reader of the page writes it",
     "six_int16.toml": "a reader of the page writes it",

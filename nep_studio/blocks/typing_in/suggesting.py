@@ -76,6 +76,26 @@ _TIMES = re.compile(
 )
 REPEAT, REPEAT_SLOT, REPEAT_BODY = "control.repeat", "times", "do"
 
+# What counts beside the typed words themselves (EXACT to NEAR in vocabulary.py) and what they are
+# in slots (qualities in filling.py). All of it together weighs less than one word more that fits.
+
+IN_ORDER = 1.0
+"""A word that stands right behind the one before, as in the sentence."""
+BEHIND, RIGHT_BEHIND = 0.5, 1.5
+"""A place behind the word before it: likelier than one in front, the very next one more."""
+UNTYPED_WORD = 0.5
+"""Taken off for each word of a sentence that nobody typed: the shorter sentence was meant."""
+SLOT = 0.1
+"""Taken off for each slot: of sentences that fit alike the simpler block comes first."""
+LITERAL, EXPRESSION = 9.0, 14.0
+"""Nothing but a number, a quoted text or a variable, less than a word that says a block; nothing
+but an expression, which can hardly be meant as words of a sentence."""
+REPEATED = 8.0
+"""“… twice” behind a sentence: about what a word gives that begins another (BEGUN)."""
+RECENT = 2.0
+"""The block that was used last, half of it for the one before, and so on: it decides between
+sentences that fit alike."""
+
 Fits = Callable[[Definition], bool]
 
 
@@ -188,14 +208,13 @@ def _attempt(
         attempt.used.add(index)
         said = entry.words[index][0]
         attempt.matched.append(word if word in said else said[: len(word)])
-        attempt.score += like[said] + (1.0 if index == last + 1 else 0.0)
+        attempt.score += like[said] + (IN_ORDER if index == last + 1 else 0.0)
         last, after, is_in_run = index, entry.words[index][1], False
     for after, run in runs:
         if not _place_run(attempt, run, after, filler):
             return None
-    attempt.score -= 0.5 * (len(entry.words) - len(attempt.used)) + 0.1 * len(
-        entry.definition.slots
-    )
+    attempt.score -= UNTYPED_WORD * (len(entry.words) - len(attempt.used))
+    attempt.score -= SLOT * len(entry.definition.slots)
     return attempt
 
 
@@ -205,7 +224,7 @@ def _best_word(entry: Entry, like: Mapping[str, float], used: set[int], last: in
     for index, (word, _) in enumerate(entry.words):
         if index in used or word not in like:
             continue
-        better = like[word] + (0.5 if index > last else 0.0)
+        better = like[word] + (BEHIND if index > last else 0.0)
         if better > quality:
             best, quality = index, better
     return best
@@ -229,7 +248,8 @@ def _fill(attempt: _Try, text: str, after: int, filler: Filler) -> bool:
         filling = filler.fill(attempt.entry, part, text)
         if filling is None:
             continue
-        quality = filling.quality + (1.5 if place == after + 1 else 0.5 if place > after else 0.0)
+        near = RIGHT_BEHIND if place == after + 1 else BEHIND if place > after else 0.0
+        quality = filling.quality + near
         if best is None or quality > best[0]:
             best = (quality, part, filling)
     if best is None:
@@ -281,13 +301,14 @@ def _values(typed: str, filler: Filler, fits: Fits | None) -> list[Suggestion]:
     definitions = filler.language.definitions
     number = number_in(typed)
     if number is not None and "math.number" in definitions:
-        made.append((Made("math.number", {"number": number}), 9.0))
+        made.append((Made("math.number", {"number": number}), LITERAL))
     elif is_quoted(typed) and "text.text" in definitions:
-        made.append((Made("text.text", {"text": typed[1:-1]}), 9.0))
+        made.append((Made("text.text", {"text": typed[1:-1]}), LITERAL))
     elif (found := filler.expression(typed)) is not None:
-        made.append((found[0], 14.0))
+        made.append((found[0], EXPRESSION))
     elif folded(typed) in filler.variables and "variable.get" in definitions:
-        made.append((Made("variable.get", {"variable": filler.variables[folded(typed)]}), 9.0))
+        variable = filler.variables[folded(typed)]
+        made.append((Made("variable.get", {"variable": variable}), LITERAL))
     return [
         _told(one, filler, score, [typed])
         for one, score in made
@@ -311,7 +332,8 @@ def _repeated(
         label = f"{label_of(made, filler.language, filler.project, {})}: {inner.label}"
         spans = spans_in(label, [str(times), *(inner.label[a:b] for a, b in inner.spans)])
         new = inner.new_variables
-        found.append(Suggestion(REPEAT, made.fields, label, spans, inner.score + 8.0, made, new))
+        score = inner.score + REPEATED
+        found.append(Suggestion(REPEAT, made.fields, label, spans, score, made, new))
     return found
 
 
@@ -332,7 +354,7 @@ def _recent(
 
 
 def _recency(block_type: str, recents: Sequence[str]) -> float:
-    return 2.0 / (1 + recents.index(block_type)) if block_type in recents else 0.0
+    return RECENT / (1 + recents.index(block_type)) if block_type in recents else 0.0
 
 
 # Make the block of a suggestion in the program, as one step.
