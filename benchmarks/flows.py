@@ -151,7 +151,8 @@ class Flows:
         from benchmarks._heartbeat_child import wait
         from nep_studio import paths
         from nep_studio.settings import Settings
-        from nep_studio.ui.services import Studio, make_application
+        from nep_studio.ui.services import Studio
+        from nep_studio.ui.shell.app import make_application
         from nep_studio.ui.shell.main_window import MainWindow
 
         self._entered, self._wait = entered, wait

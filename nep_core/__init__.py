@@ -1,5 +1,10 @@
 """What every node needs to talk: publish and subscribe, the master, the launcher, robots, rules.
 
+Enters what is true for a node of any robot, with no screen: ``wire`` (messages and frames),
+``networks`` (who finds whom), ``processes`` (a node and its life), ``program`` (what decides),
+``recordings`` and the command line ``cli``. No Qt, no numpy, and nothing of the studio, which is
+one client among others. Other libraries than those of the wire are imported inside functions.
+
 The public names are loaded when they are first used, so that a small node starts fast.
 """
 

@@ -1,4 +1,9 @@
-"""The robot developer's command line: ``nep master``, ``nep echo /imu``, ``nep record FILE``."""
+"""The robot developer's command line: ``nep master``, ``nep echo /imu``, ``nep record FILE``.
+
+Enters what a person types in a terminal and what is printed for it, a module for each group of
+commands; ``lessons`` has the examples, which tests run. How a network works is in ``networks``;
+nobody but the program ``nep`` imports this.
+"""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ from typing import Literal
 import psutil
 import zmq
 
-from faults import Words
+from faults import FaultError
 from nep_core.errors import ManifestError, NepError
 from nep_core.networks import transports
 from nep_core.networks.endpoints import (
@@ -56,12 +56,17 @@ State = Literal["ok", "look", "unknown", "note"]
 
 @dataclass(frozen=True)
 class Finding:
-    """A thing, how it is, in a sentence, and the steps to do when it is wrong."""
+    """A thing, how it is, in an English sentence, and the steps to do when it is wrong."""
 
     about: str
     state: State
-    told: Words
-    steps: tuple[Words, ...] = ()
+    told: str
+    steps: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, about: str, error: FaultError) -> Finding:
+        """Return what an error tells of a thing, as words: reports are for programs too."""
+        return cls(about, "look", str(error), tuple(map(str, error.checklist)))
 
 
 MARKS = {"ok": "ok       ", "look": "LOOK     ", "unknown": "unknown  ", "note": "-        "}
@@ -194,7 +199,7 @@ def _variable(name: str, value: str) -> Finding:
         if name in (MASTER_VARIABLE, BROKER_VARIABLE):
             fixed_endpoint(value)
     except NepError as error:
-        return Finding(name, "look", error.sentence, error.checklist)
+        return Finding.of(name, error)
     if name == NODES_VARIABLE:
         missing = [part for part in value.split(os.pathsep) if part and not Path(part).is_dir()]
         if missing:
@@ -213,7 +218,7 @@ def service(endpoint: str | None = None) -> Finding:
             return master(endpoint)
         count = len(transports.registrations())
     except NepError as error:
-        return Finding("network", "look", error.sentence, error.checklist)
+        return Finding.of("network", error)
     return Finding("network", "ok", f"{many(count, 'program')} over {kind}")
 
 
@@ -222,7 +227,7 @@ def master(endpoint: str | None = None) -> Finding:
     try:
         place = fixed_endpoint(endpoint) if endpoint else master_endpoint()
     except NepError as error:
-        return Finding("master", "look", error.sentence, error.checklist)
+        return Finding.of("master", error)
     listing = ask_master(place, ANSWER_S)
     if listing is not None:
         count = len(listing.registrations)
@@ -563,8 +568,8 @@ def manifests() -> Finding:
         try:
             read_manifest(path)
         except ManifestError as error:
-            problems.append(error.sentence)
-            steps.append(error.checklist[0])
+            problems.append(str(error))
+            steps.append(str(error.checklist[0]))
     if problems:
-        return Finding("nodes", "look", " ".join(map(str, problems)), tuple(steps))
+        return Finding("nodes", "look", " ".join(problems), tuple(steps))
     return Finding("nodes", "ok", f"{len(paths)} can be started")

@@ -100,12 +100,14 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """What a node is, hears, says and can be set to; ``command`` starts one that is not Python.
 
-    ``ready_s``: how long it may take to be ready; ``restart``: when it is started again.
+    ``titles`` are its title in other languages: ``{ de = "Gesten" }``. ``ready_s``: how long it may
+    take to be ready; ``restart``: when it is started again.
     """
 
     type: NodeType
     name: str
     title: str
+    titles: dict[str, str] = {}
     description: str
     icon: str = "box"
     help: str = ""

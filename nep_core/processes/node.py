@@ -178,7 +178,7 @@ class Node:
     ) -> None:
         """Tell of something that a person should look at."""
         fault = fault_of(words, code=code, checklist=checklist, **values)
-        log.warning("%s", fault)
+        log.warning("%s", " ".join(str(words) for words in (fault, *fault.checklist)))
         self.state("warning", fault)
 
     def wait(self, seconds: float) -> bool:

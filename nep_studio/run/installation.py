@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from faults import Text, Words, text_of
 from nep_core.errors import ManifestError, NepError
@@ -13,7 +15,7 @@ from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import check_steps
 from nep_studio.blocks.checks.problem import Problem
-from nep_studio.blocks.definition_files import load_definitions, load_profiles
+from nep_studio.blocks.definition_files import load_definitions, load_profiles, read_toml
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NodeEntry,
@@ -193,7 +195,40 @@ def studio_language(code: str = "en") -> Language:
         gestures=shipped_gestures(),
         nodes=launchable_nodes(),
     )
-    table = resources / "translations" / f"{code}.toml"
-    if code == "en" or not table.is_file():
+    if code == "en" or not _table_file(code).is_file():
         return language
-    return translated(language, tomllib.loads(table.read_text(encoding="utf-8")), code)
+    return translated(language, table_of(code), code)
+
+
+def table_of(code: str) -> dict[str, Any]:
+    """The words of a language: its table, and what nodes and robots bring along in it.
+
+    So a node or a robot is added by its own files; where both have words, the table's are used.
+    """
+    table = tomllib.loads(_table_file(code).read_text(encoding="utf-8"))
+    choices = table.setdefault("choices", {})
+    for brought in (_titles_of_nodes(code), *_words_of_robots(code)):
+        for name, labels in brought.items():
+            choices[name] = {**labels, **choices.get(name, {})}
+    return table
+
+
+def _table_file(code: str) -> Path:
+    return paths.resources() / "translations" / f"{code}.toml"
+
+
+def _titles_of_nodes(code: str) -> dict[str, dict[str, str]]:
+    titles = {}
+    for path in NodeCatalog(node_folders()).paths():
+        with suppress(ManifestError):  # a check tells what is wrong with it
+            manifest = read_manifest(path)
+            if code in manifest.titles:
+                titles[manifest.id] = manifest.titles[code]
+    return {"nodes": titles}
+
+
+def _words_of_robots(code: str) -> Iterator[dict[str, dict[str, str]]]:
+    """``[translations.de.drivers]`` and so on of each robot.toml: value = label."""
+    for path in sorted((paths.resources() / "robots").glob("*/robot.toml")):
+        brought = read_toml(path).get("translations", {}).get(code, {})
+        yield {name: labels for name, labels in brought.items() if isinstance(labels, dict)}

@@ -124,8 +124,8 @@ def _without_names(part: Part, anonymous: Anonymous) -> Part:
             Finding(
                 hide(one.about),
                 one.state,
-                hide(str(one.told)),
-                tuple(hide(str(step)) for step in one.steps),
+                hide(one.told),
+                tuple(map(hide, one.steps)),
             )
             for one in part.findings
         ),

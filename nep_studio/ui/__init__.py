@@ -1,4 +1,10 @@
-"""Everything with a widget: the window, the canvas, the panels."""
+"""Everything with a widget: the window, the canvas, the panels.
+
+``shell`` is the window and alone knows it, ``canvas`` the blocks, ``workbench`` what stands around
+them, ``running`` a run as it is seen, ``plugins`` what can be left out, ``widgets`` and ``theme``
+what all of them use. What is true without a screen goes to ``blocks``, ``project`` or ``run``;
+words are made here, in the language of the person, by ``tr``.
+"""
 
 from __future__ import annotations
 

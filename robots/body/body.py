@@ -115,13 +115,18 @@ class _BodyFile(msgspec.Struct, frozen=True):
     sonars: dict[str, Sonar] = {}
 
 
+class _Profile(msgspec.Struct, frozen=True):
+    title: str
+
+
 class Body:
-    """The joint table and postures of one kind of robot.
+    """The joint table and postures of one kind of robot, and what people call that kind: NAO.
 
     ``names``, ``min``, ``max`` and ``max_speed`` are in the same order: the body's joint order.
     """
 
-    def __init__(self, file: _BodyFile) -> None:
+    def __init__(self, file: _BodyFile, title: str) -> None:
+        self.title = title
         self.joints = file.joints
         self.names = tuple(joint.name for joint in file.joints)
         self.index = {name: i for i, name in enumerate(self.names)}
@@ -185,10 +190,17 @@ class Body:
 
 
 def load_body(folder: Path) -> Body:
-    """Read ``body.json`` of a robot's folder. Raises FilesUnusable when it cannot be used."""
-    path = folder / "body.json"
+    """Read ``body.json`` of a robot's folder. Raises FilesUnusable when it cannot be used.
+
+    ``robot.toml`` beside it says what such a robot is called; without one it is as the folder.
+    """
+    path, profile = folder / "body.json", folder / "robot.toml"
     try:
-        return Body(msgspec.json.decode(path.read_bytes(), type=_BodyFile))
+        file = msgspec.json.decode(path.read_bytes(), type=_BodyFile)
+        if not profile.exists():
+            return Body(file, folder.name)
+        path = profile
+        return Body(file, msgspec.toml.decode(path.read_bytes(), type=_Profile).title)
     except (OSError, msgspec.DecodeError) as error:
         raise FilesUnusable(
             "The description of the robot's body, {path}, cannot be read.",

@@ -144,7 +144,11 @@ class VirtualDriver:
 
     def connect(self) -> None:
         """Be connected at once: the robot is in this process."""
-        words = fault_of("virtual NAO, {family}", family=Text(self.robot.family))
+        words = fault_of(
+            "virtual {kind}, {family}",
+            kind=self.robot.body.title,
+            family=Text(self.robot.family),
+        )
         self.connection = Connection("connected", words)
 
     def disconnect(self) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -12,7 +12,7 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language, faults, translated, translated_parts
 from nep_studio.blocks.sentence import Group, SentenceError, Slot
 from nep_studio.blocks.text import sentence
-from nep_studio.run.installation import studio_language
+from nep_studio.run.installation import studio_language, table_of
 from tests.blocks.block_building import B, build
 
 TABLES = sorted((paths.resources() / "translations").glob("*.toml"))
@@ -105,9 +105,33 @@ def test_a_program_reads_in_the_other_language_and_makes_the_same_code(english) 
 
 @pytest.mark.parametrize("table", TABLES, ids=lambda path: path.stem)
 def test_every_table_translates_every_block_category_and_choice(english, table) -> None:
-    data = tomllib.loads(table.read_text(encoding="utf-8"))
+    words = table_of(table.stem)
 
-    assert [str(fault) for fault in faults(english, data, table.stem)] == []
+    assert [str(fault) for fault in faults(english, words, table.stem)] == []
+
+
+def test_a_node_and_a_robot_bring_their_words_along_and_a_table_goes_before_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = 'type = "sensory"\nname = "door"\ntitle = "Door"\ndescription = "Says who comes."\n'
+    robot = 'name = "pip"\ntitle = "Pip"\nnode = "action/nao"\n[translations.de.drivers]\n'
+    files = {
+        "nodes/sensory/door.py": "",
+        "nodes/sensory/door.toml": node + 'titles = { de = "Tür", fr = "Porte" }\n',
+        "resources/robots/pip/robot.toml": robot + 'virtual_pip = "ein Pip"\nother = "eigen"\n',
+        "resources/translations/de.toml": '[choices.drivers]\nother = "aus der Tabelle"\n',
+    }
+    for name, text in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    monkeypatch.setenv("NEP_NODES", str(tmp_path / "nodes"))
+    monkeypatch.setattr(paths, "resources", lambda: tmp_path / "resources")
+
+    choices = table_of("de")["choices"]
+
+    assert choices["nodes"] == {"sensory/door": "Tür"}
+    assert choices["drivers"] == {"virtual_pip": "ein Pip", "other": "aus der Tabelle"}
 
 
 def test_a_block_may_bring_its_translation_and_a_table_goes_before_it(english: Language) -> None:

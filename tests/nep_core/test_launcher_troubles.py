@@ -53,9 +53,9 @@ def test_a_node_that_cannot_be_started_again_is_told(
     assert ends.get(timeout=5)[2]
     _, outcome, again = ends.get(timeout=5)
     assert not again
-    assert "No such file" in str(outcome)
+    assert "no such file" in str(outcome)
     assert launched.ended.is_set()
-    with pytest.raises(NodeStartError, match="No such file"):
+    with pytest.raises(NodeStartError, match="no such file"):
         launched.wait_ready()
 
 

@@ -104,7 +104,7 @@ def test_what_does_not_fit_the_robot_is_left_out_and_told(tmp_path: Path, body: 
 
     assert set(animations.names()) == {*shipped.names(), "hop"}
     assert len(left_out) == 2
-    assert "Wheel" in left_out[0]
+    assert "Wheel" in str(left_out[0])
 
 
 def test_without_a_folder_there_are_the_shipped_animations(body: Body) -> None:

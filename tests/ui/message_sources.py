@@ -268,3 +268,30 @@ def filled_too_early() -> tuple[str, ...]:
         for told in given_to_tell(node)
         if isinstance(told, ast.JoinedStr)
     )
+
+
+@cache
+def unfilled() -> tuple[str, ...]:
+    """Where a template with places is given without the values of all of them."""
+    return tuple(
+        f"{path.relative_to(ROOT)}:{node.lineno} {words}"
+        for path, nodes in parsed(files())
+        for node in nodes
+        if isinstance(node, ast.Call) and all(keyword.arg for keyword in node.keywords)
+        for words in _templates_of(node)
+        if set(re.findall(r"\{(\w+)\}", words)) - {keyword.arg for keyword in node.keywords}
+    )
+
+
+def _templates_of(call: ast.Call) -> Iterator[str]:
+    """The templates of a call that takes their values by name."""
+    name = last_name(call.func)
+    if name in (*OF_THE_WINDOW, *TEMPLATES, *errors()) and name not in (
+        "Text",
+        "told",
+        "Connection",
+    ):
+        at = TEMPLATES.get(name, 0)
+        for argument in call.args[at : at + 1]:
+            if not any(isinstance(part, ast.Call) for part in ast.walk(argument)):
+                yield from literals(argument, {})

@@ -50,6 +50,7 @@ WITHOUT = {
     'the setting "{name}" has no choices': PASSED_ON,
     "A registration names its instance and its node.": OF_A_PROGRAM,
     "reason": SAYS_WHY,
+    "reason or 'A letter or a digit is needed.'": SAYS_WHY,
     "There is no block for this.": NO_HAND,
     "This block is not there any more.": NO_HAND,
     "There is no such part in this block.": NO_HAND,

@@ -19,6 +19,7 @@ from message_sources import (
     last_name,
     parsed,
     templates,
+    unfilled,
 )
 
 from nep_studio import paths
@@ -175,6 +176,10 @@ def test_the_words_of_the_window_are_found() -> None:
 def test_no_words_are_filled_in_before_they_are_translated() -> None:
     assert found_in_sources().filled == []
     assert filled_too_early() == ()
+
+
+def test_every_place_of_a_template_is_given_a_value() -> None:
+    assert unfilled() == ()
 
 
 def test_a_table_has_all_words_of_the_window(table) -> None:

@@ -55,6 +55,13 @@ _FINGERS = {
     QEvent.Type.TouchCancel,
 }
 
+_FOR_FIELDS = {
+    QEvent.Type.MouseButtonPress,
+    QEvent.Type.ToolTip,
+    QEvent.Type.Hide,
+    QEvent.Type.Resize,
+}
+
 SLICE_S = 0.006
 """How long stacks out of view are laid out at a time."""
 
@@ -243,6 +250,8 @@ class Canvas(QAbstractScrollArea):
     def viewportEvent(self, event: QEvent) -> bool:
         """Take fingers, touch pads that zoom, and the resolution of another screen."""
         kind = event.type()
+        if kind in _FOR_FIELDS and self.fields.take(event):
+            return True
         if kind in _FINGERS and isinstance(event, QTouchEvent):
             event.accept()
             return self.pointing.touch(event)

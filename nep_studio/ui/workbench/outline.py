@@ -12,6 +12,7 @@ from PySide6.QtCore import (
     QPersistentModelIndex,
     Qt,
 )
+from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QAbstractItemView, QTreeView, QWidget
 
 from nep_studio.blocks.editor import Editor
@@ -36,7 +37,8 @@ PAGE = ""
 class OutlineModel(QAbstractItemModel):
     """Rows are blocks: the first of each stack at the top, with the rest of the stack under it.
 
-    What is plugged into a block is part of its sentence, and has no row of its own.
+    What is plugged into a block is part of its sentence, and has no row of its own. There are no
+    rows, and nothing is followed, until it is ``awake``, that is, until somebody looks.
     """
 
     def __init__(self, editor: Editor, theme: Theme, parent: QObject | None = None) -> None:
@@ -49,11 +51,18 @@ class OutlineModel(QAbstractItemModel):
         self._rows: dict[str, dict[str, int]] = {}
         self._in_order: dict[str, list[str]] = {}
         """The blocks under a row, each with its number, and the same as a list."""
-        editor.history.listen(self._on_changes)
+        self.is_awake = False
 
-    def close(self) -> None:
-        """Follow the program no longer."""
-        self._editor.history.unlisten(self._on_changes)
+    def set_awake(self, is_awake: bool) -> None:
+        """Have rows and follow the program, or rest."""
+        if is_awake == self.is_awake:
+            return
+        history = self._editor.history
+        self.beginResetModel()
+        self.is_awake = is_awake
+        self._rows.clear()
+        (history.listen if is_awake else history.unlisten)(self._on_changes)
+        self.endResetModel()
 
     def show_page(self, page: str) -> None:
         """Show the blocks of another page."""
@@ -65,7 +74,7 @@ class OutlineModel(QAbstractItemModel):
     def index_of(self, block_id: str) -> QModelIndex:
         """The row of a block, or of the block around it when it is plugged in."""
         project = self._editor.project
-        if block_id not in project.blocks:
+        if block_id not in project.blocks or not self.is_awake:
             return QModelIndex()
         if project.page_of(project.stack_of(block_id).id) != self._page:
             return QModelIndex()
@@ -143,6 +152,8 @@ class OutlineModel(QAbstractItemModel):
 
     def _blocks_under(self, owner: str) -> list[str]:
         project = self._editor.project
+        if not self.is_awake:
+            return []
         if owner == PAGE:
             return [stack.body[0] for stack in project.pages.get(self._page, [])]
         if owner not in project.blocks:
@@ -188,6 +199,7 @@ class Outline(QTreeView):
         self._canvas = canvas
         self._rows = OutlineModel(canvas.editor, canvas.look.theme, self)
         self._is_following = False
+        self._is_new_page = True
         self._unfolded: set[str] = set()
         self._take_rows()
         self.setHeaderHidden(True)
@@ -203,11 +215,24 @@ class Outline(QTreeView):
 
     def refresh(self) -> None:
         """Follow another project, another theme or another language of the canvas."""
-        self._rows.close()
+        self._rows.set_awake(False)
         self._rows.deleteLater()
         self._rows = OutlineModel(self._canvas.editor, self._canvas.look.theme, self)
         self._take_rows()
+        self._rows.set_awake(self.isVisible())
         self._on_page_changed(self._canvas.page_layout.page)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Follow the program while somebody looks; unfold a page that is seen the first time."""
+        super().showEvent(event)
+        self._rows.set_awake(True)
+        if self._is_new_page:
+            self._on_page_changed(self._canvas.page_layout.page)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Rest when nobody looks."""
+        super().hideEvent(event)
+        self._rows.set_awake(False)
 
     def _take_rows(self) -> None:
         self.setModel(self._rows)
@@ -222,6 +247,7 @@ class Outline(QTreeView):
 
     def _on_page_changed(self, page: str) -> None:
         self._rows.show_page(page)
+        self._is_new_page = not self._rows.is_awake
         self.expandToDepth(0)
 
     def _on_current_changed(self, current: QModelIndex, before: QModelIndex) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -33,7 +33,10 @@ MOST_ROWS = 50
 
 
 class ProblemsPanel(QScrollArea):
-    """Shows problems; ``opened`` asks to see the place of one, ``fix_asked`` to put it right."""
+    """Shows problems; ``opened`` asks to see the place of one, ``fix_asked`` to put it right.
+
+    The rows are made once somebody looks.
+    """
 
     opened = Signal(object)
     fix_asked = Signal(object)
@@ -46,21 +49,33 @@ class ProblemsPanel(QScrollArea):
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setAccessibleName(tr("Problems"))
-        look.theme_changed.connect(self._fill)
-        self._fill()
+        self._is_old = True
+        look.theme_changed.connect(self._refresh)
 
     def show_problems(self, problems: Sequence[Problem]) -> None:
         """Show these; nothing is drawn again when they are the same."""
         if list(problems) != list(self._problems):
             self._problems = tuple(problems)
+            self._refresh()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Show what is new since somebody looked last."""
+        if self._is_old:
             self._fill()
+        super().showEvent(event)
 
     def sizeHint(self) -> QSize:
         """Room for three problems."""
         line = self.fontMetrics().height()
         return QSize(line * 20, line * 8)
 
+    def _refresh(self) -> None:
+        self._is_old = True
+        if self.isVisible():
+            self._fill()
+
     def _fill(self) -> None:
+        self._is_old = False
         inner = QWidget()
         box = QVBoxLayout(inner)
         shown = self._problems[:MOST_ROWS]

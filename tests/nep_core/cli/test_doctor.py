@@ -14,7 +14,7 @@ import pytest
 from nep_core.cli import doctor as network
 from nep_core.cli import doctor as system
 from nep_core.networks.broker import Broker
-from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.endpoints import BROKER_VARIABLE, MASTER_VARIABLE
 from nep_core.networks.master import Master
 from nep_core.places import NODES_VARIABLE
 from tests.nep_core.cli.conftest import Call
@@ -41,6 +41,7 @@ def test_a_machine_gets_the_same_findings(
     master: Master, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(NODES_VARIABLE, str(tmp_path / "missing"))
+    monkeypatch.setenv(BROKER_VARIABLE, "nowhere")
 
     answer = call("nep doctor --json")
 
@@ -49,6 +50,8 @@ def test_a_machine_gets_the_same_findings(
     assert findings["ZeroMQ"]["state"] == "ok"
     assert findings[NODES_VARIABLE]["state"] == "look"
     assert findings[NODES_VARIABLE]["steps"]
+    assert "nowhere" in findings[BROKER_VARIABLE]["told"]
+    assert all(isinstance(step, str) for step in findings[BROKER_VARIABLE]["steps"])
 
 
 def test_a_port_that_another_program_has_is_told_with_its_name(taken_port: int) -> None:

@@ -27,6 +27,7 @@ from robots.body.motion import keyframe_motion
 from robots.body.pose import VirtualRobot
 from robots.body.speech import CONTEXTUAL, RANDOM
 from robots.body.virtual import VirtualDriver
+from robots.errors import FilesUnusable
 from tests.node_running import NodeRunner, until
 
 ROBOTS = resource_folder() / "robots"
@@ -175,6 +176,23 @@ def test_a_model_is_named_by_its_folder(tmp_path: Path) -> None:
     assert model_of(model_folder(str(tmp_path))) == str(tmp_path.resolve())
 
 
+def test_a_robot_is_called_as_its_profile_says_and_without_one_as_its_folder(
+    folder: Path,
+) -> None:
+    called = load_body(folder).title
+    (folder / "robot.toml").unlink()
+
+    assert (called, load_body(folder).title) == ("Sitter", "sitter")
+    assert (load_body(PEPPER).title, load_body(ROBOTS / "nao").title) == ("Pepper", "NAO")
+
+
+def test_a_profile_without_a_title_is_told(folder: Path) -> None:
+    (folder / "robot.toml").write_text('name = "sitter"')
+
+    with pytest.raises(FilesUnusable, match=r"robot\.toml, cannot be read"):
+        load_body(folder)
+
+
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """A robot of one's own: Pepper without wrists, which can sit, with one nod of its own."""
@@ -193,6 +211,8 @@ def folder(tmp_path: Path) -> Path:
     body["postures"]["Sit"] = {**body["postures"]["Crouch"], "family": "sitting", "next": ["Stand"]}
     body["postures"]["Stand"]["next"].append("Sit")
     (made / "body.json").write_text(json.dumps(body))
+    profile = made / "robot.toml"
+    profile.write_text(profile.read_text().replace('title = "Pepper"', 'title = "Sitter"'))
     for path in (made / "animations").glob("*.toml"):
         path.unlink()
     (made / "animations" / "deep_nod.toml").write_text(NOD)
@@ -231,7 +251,7 @@ def test_a_robot_made_as_a_folder_acts_without_any_code(
 ) -> None:
     states = Subscriber(ROBOT_STATE, RobotState, network=network)
     runner.start_node("action/nao", "sitter", robot="Sitter", model=str(folder), speed=20)
-    runner.state("ready")
+    ready = runner.state("ready")
     robot = Robot("Sitter")
 
     robot.play("deep_nod")
@@ -240,6 +260,7 @@ def test_a_robot_made_as_a_folder_acts_without_any_code(
     robot.do("posture_sit")
 
     last = until(states, lambda state: state.posture == "Sit")[-1]
+    assert ready.description == "virtual Sitter, standing"
     assert last.model == str(folder.resolve())
     assert last.base[0] == pytest.approx(0.3, abs=1e-3)
     assert "LWristYaw" not in last.joints and len(last.joints) == 15

@@ -102,7 +102,7 @@ def test_what_cannot_be_read_is_told(bluez):
         bluez.do(motion.tell, b"\x01\x02\x03")
         found = heard(way, lambda arrived: arrived.trouble)
 
-    assert found[-1].trouble == f"{NAME} sends something that cannot be read; it is left out."
+    assert str(found[-1].trouble) == f"{NAME} sends something that cannot be read; it is left out."
 
 
 @needs_bus
@@ -112,7 +112,7 @@ def test_a_device_that_nobody_described_is_told(bluez):
     with opened(address="Lamp") as way:
         found = heard(way, lambda arrived: arrived.trouble)
 
-    assert found[-1].trouble.startswith("Lamp is none of the devices that are known here.")
+    assert str(found[-1].trouble).startswith("Lamp is none of the devices that are known here.")
 
 
 @needs_bus
@@ -123,7 +123,9 @@ def test_a_device_that_is_not_there_is_told(bluez, monkeypatch):
     with opened(address="Thingy") as way:
         found = heard(way, lambda arrived: arrived.trouble)
 
-    assert found[-1].trouble.startswith("No Bluetooth device “Thingy” is found. Is it switched on")
+    assert str(found[-1].trouble).startswith(
+        "No Bluetooth device “Thingy” is found. Is it switched on"
+    )
 
 
 def test_a_computer_without_bluetooth_is_told(monkeypatch, tmp_path):
@@ -133,7 +135,7 @@ def test_a_computer_without_bluetooth_is_told(monkeypatch, tmp_path):
     with opened() as way:
         found = heard(way, lambda arrived: arrived.trouble)
 
-    assert found[0].trouble.startswith("Bluetooth cannot be used on this computer.")
+    assert str(found[0].trouble).startswith("Bluetooth cannot be used on this computer.")
 
 
 def test_without_bleak_it_says_what_to_install(monkeypatch):
@@ -149,6 +151,7 @@ def test_without_bleak_it_says_what_to_install(monkeypatch):
 
 def test_the_way_says_what_it_looks_for():
     assert (
-        BluetoothWay(Settings(port=0)).where == "looks for a Bluetooth device that measures motion"
+        str(BluetoothWay(Settings(port=0)).where)
+        == "looks for a Bluetooth device that measures motion"
     )
-    assert "“Thingy”" in BluetoothWay(Settings(port=0, address=" Thingy ")).missing
+    assert "“Thingy”" in str(BluetoothWay(Settings(port=0, address=" Thingy ")).missing)

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import pytest
 
+from faults import plain
 from nodes.sensory.connectors.connector import Arrived
 from nodes.sensory.hearing import Hearing
 from nodes.sensory.reading import Reading
@@ -12,18 +13,18 @@ ACC, GYR = (0.0, 0.0, 9.81), (0.1, 0.2, 0.3)
 
 
 class Told:
-    """A node that notes what it tells."""
+    """A node that notes the English words of what it tells."""
 
     def __init__(self):
         self.states, self.measures = [], {}
 
-    def state(self, event, description="", *, measures=None):
+    def state(self, event, words="", /, *, measures=None, **values):
         self.measures = measures or self.measures
         if event != "alive":
-            self.states.append((event, description))
+            self.states.append((event, plain(words, **values)))
 
-    def warn(self, description):
-        self.states.append(("warning", description))
+    def warn(self, words, /, **values):
+        self.states.append(("warning", plain(words, **values)))
 
     @property
     def warnings(self):

@@ -144,7 +144,7 @@ def test_the_user_is_told_of_a_second_phone_now_and_then():
         receiving.take(message(), "1.1.1.1")
         receiving.take(message(id="b2", device="iPhone"), "2.2.2.2")
 
-    told = [arrived.trouble for arrived in given_on if arrived.trouble]
+    told = [str(arrived.trouble) for arrived in given_on if arrived.trouble]
 
     assert (
         told

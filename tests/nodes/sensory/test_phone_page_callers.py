@@ -45,7 +45,7 @@ def test_a_second_phone_is_told_to_wait_and_so_is_the_user(page):
 
     first, warning, next_one = page.take()
     assert json.loads(answers[1][2]) == {"state": "busy"}
-    assert warning.trouble.startswith("A second phone (127.0.0.1) has the page open")
+    assert str(warning.trouble).startswith("A second phone (127.0.0.1) has the page open")
     assert len(first.readings) == len(next_one.readings) == 1
     assert (status, json.loads(answer)["state"]) == (200, "followed")  # as the first one left
 
@@ -151,10 +151,11 @@ def test_the_way_tells_where_and_keeps_the_users_token_for_itself(folder):
     made = PhonePageWay(Settings(port=8443), folder)
 
     assert (
-        own.where == "waits for a phone that opens its page on port 8443 (from this computer only)"
+        str(own.where)
+        == "waits for a phone that opens its page on port 8443 (from this computer only)"
     )
-    assert made.page.token in made.where
-    assert "listen on" in own.missing
+    assert made.page.token in str(made.where)
+    assert "listen on" in str(own.missing)
     assert own.hand == ""
     own.close()
 

@@ -71,7 +71,8 @@ def test_an_unknown_gesture_is_told_with_the_known_ones_and_nothing_ends(listene
     listener.publisher(GESTURE_REQUEST).send(GestureRequest(gesture="wave"))
 
     warning = listener.state("warning", 'no gesture "wave"')
-    assert "karate" in warning.description
+    [step] = warning.fault.checklist
+    assert "karate" in str(step)
     assert listener.imu.receive(2) is not None
 
 

@@ -184,7 +184,7 @@ def test_when_nothing_comes_the_user_is_told_where_to_send():
     alone, open_to_all = Settings(8086), Settings(8086, listen_on="network")
 
     for kind in ("udp", "tcp", "paper_watch", "sensor_logger"):
-        assert "set “listen on” to network" in WAYS[kind].make(alone).missing
-        told = WAYS[kind].make(open_to_all).missing
+        assert "set “listen on” to network" in str(WAYS[kind].make(alone).missing)
+        told = str(WAYS[kind].make(open_to_all).missing)
         assert "8086" in told
         assert "firewall" in told

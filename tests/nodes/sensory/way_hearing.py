@@ -47,7 +47,7 @@ class Collected:
 
     @property
     def troubles(self) -> str:
-        return " ".join(arrived.trouble for arrived in self.arrivals if arrived.trouble)
+        return " ".join(str(arrived.trouble) for arrived in self.arrivals if arrived.trouble)
 
     @property
     def told(self) -> str:

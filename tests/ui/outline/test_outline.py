@@ -116,15 +116,22 @@ def test_another_page_has_other_rows(outline: Outline, canvas: Canvas) -> None:
 @pytest.mark.parametrize("seed", range(6))
 def test_after_any_steps_the_rows_are_those_of_an_outline_made_anew(qtbot, seed) -> None:
     editor, chance = program(), random.Random(seed)
-    model = OutlineModel(editor, load_theme("light"))
+    model = awake(editor)
     tree(model)
 
     for _ in range(40):
         random_step(editor, chance)
-        fresh = OutlineModel(editor, load_theme("light"))
+        fresh = awake(editor)
 
         assert tree(model) == tree(fresh)
-        fresh.close()
+        fresh.set_awake(False)
+
+
+def awake(editor: Editor) -> OutlineModel:
+    """The rows as somebody who looks has them."""
+    model = OutlineModel(editor, load_theme("light"))
+    model.set_awake(True)
+    return model
 
 
 def random_step(editor: Editor, chance: random.Random) -> None:
@@ -152,7 +159,7 @@ def random_step(editor: Editor, chance: random.Random) -> None:
 
 def test_qt_finds_no_fault_in_the_model_while_the_program_changes(qtbot) -> None:
     editor = program()
-    model = OutlineModel(editor, load_theme("dark"))
+    model = awake(editor)
     tester = QAbstractItemModelTester(model, QAbstractItemModelTester.FailureReportingMode.Fatal)
     tree(model)
     stack = editor.project.pages["behaviour"][0]
@@ -164,5 +171,22 @@ def test_qt_finds_no_fault_in_the_model_while_the_program_changes(qtbot) -> None
     editor.history.redo()
 
     assert tree(model)[0][0] == "when the program starts"
-    model.close()
+    model.set_awake(False)
+    assert model.rowCount() == 0
     assert tester.model() is model
+
+
+def test_nothing_is_done_while_nobody_looks_and_all_is_there_again_afterwards(
+    outline, canvas
+) -> None:
+    model, editor = outline.model(), canvas.editor
+    outline.expandAll()
+    outline.hide()
+
+    editor.apply(DeleteBlocks(block_of(canvas, "after"), 1))
+    assert model.rowCount() == 0
+    outline.show()
+
+    [repeat] = tree(model)[0][1]
+    assert repeat[0] == "repeat 1 + 2 times"
+    assert outline.isExpanded(model.index(0, 0, model.index(0, 0)))

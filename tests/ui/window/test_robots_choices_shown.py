@@ -40,7 +40,7 @@ def offered(qtbot: QtBot) -> Callable[[MainWindow, str, str], list[str]]:
     def read(window: MainWindow, block: str, key: str) -> list[str]:
         canvas = window.workbench.canvas
         canvas.show_page("behaviour")
-        canvas.fit()
+        canvas.sight.fit()
         rect = view_rect_of(canvas, block, key)
         QTest.mouseClick(
             canvas.viewport(),

@@ -11,9 +11,8 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
-from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import ALL_ROBOTS, Project
+from nep_studio.blocks.program import Project
 from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import GESTURE_STATE
 from nep_studio.ui.theme.icons import icon
@@ -51,21 +50,6 @@ SHIPPED_STATES = (
 """Human states that a robot tells of whatever the program is."""
 
 
-def options_of(project: Project, language: Language, edit: Editing) -> list[Option]:
-    """What the field of an editing offers."""
-    kind = edit.slot.kind.name
-    if kind == "robot":
-        return _robots(project, language)
-    if kind == "variable":
-        return [Option(v.name, v.id, "variable") for v in project.variables]
-    if kind == "state":
-        return _states(project, language)
-    block = project.blocks[edit.block]
-    offered = language.choices_of(edit.slot, block, edit.key)
-    icon = {"gesture": "hand"}.get(kind, "")
-    return [Option(label, value, icon) for value, label in offered.items()]
-
-
 def matching(options: Iterable[Option], typed: str) -> list[Option]:
     """The options that hold what is typed, whatever its case and accents; beginnings first."""
     wanted = plain(typed).split()
@@ -80,12 +64,6 @@ def plain(text: str) -> str:
     apart = unicodedata.normalize("NFKD", text.casefold())
     bare = "".join(c for c in apart if not unicodedata.combining(c))
     return unicodedata.normalize("NFKC", bare).replace("_", " ")
-
-
-def _robots(project: Project, language: Language) -> list[Option]:
-    names = dict.fromkeys(entry.name for entry in robot_entries(project, language))
-    found = [Option(name, name, "bot") for name in names if name != ALL_ROBOTS]
-    return [*found, Option(tr("all robots"), ALL_ROBOTS, "users")]
 
 
 def _states(project: Project, language: Language) -> list[Option]:
@@ -131,6 +109,7 @@ class ChoicePopup(FieldPopup):
     """Chooses one of the options; with ``is_free``, what is typed is a value too."""
 
     is_free = False
+    icon_name = ""
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
         super().__init__(editors, edit, title)
@@ -158,7 +137,9 @@ class ChoicePopup(FieldPopup):
     def options(self) -> list[Option]:
         """What can be chosen."""
         editor = self._editors.canvas.editor
-        return options_of(editor.project, editor.language, self.edit)
+        block = editor.project.blocks[self.edit.block]
+        offered = editor.language.choices_of(self.edit.slot, block, self.edit.key)
+        return [Option(label, value, self.icon_name) for value, label in offered.items()]
 
     def more_rows(self) -> list[Option]:
         """Rows at the end that do something else."""
@@ -298,6 +279,12 @@ class ChoicePopup(FieldPopup):
             )
 
 
+class GesturePopup(ChoicePopup):
+    """One of the gestures that a recogniser knows."""
+
+    icon_name = "hand"
+
+
 class StatePopup(ChoicePopup):
     """A human state: one that is known, or any word that a node will say."""
 
@@ -308,3 +295,8 @@ class StatePopup(ChoicePopup):
         self.search.setText(str(edit.value or ""))
         self.search.selectAll()
         self.search.setPlaceholderText(tr("Type a state, or choose one"))
+
+    def options(self) -> list[Option]:
+        """The states that are known."""
+        editor = self._editors.canvas.editor
+        return _states(editor.project, editor.language)

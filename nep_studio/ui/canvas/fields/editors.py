@@ -16,7 +16,7 @@ from nep_studio.blocks.sentence import Slot
 from nep_studio.ui.words import tr
 
 from .angle import AnglePopup
-from .choice import ChoicePopup, StatePopup
+from .choice import ChoicePopup, GesturePopup, StatePopup
 from .colour import ColourPopup
 from .comments import Comments
 from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
@@ -176,7 +176,7 @@ class OpenEditor(Protocol):
 EDITORS: dict[str, type] = {
     "lines": LinesEditor,
     "choice": ChoicePopup,
-    "gesture": ChoicePopup,
+    "gesture": GesturePopup,
     "robot": RobotPopup,
     "variable": VariablePopup,
     "state": StatePopup,
@@ -203,10 +203,7 @@ class FieldEditors(QObject):
         self._left_comment = ""
         """The block whose comment the press has closed: its button does not open it again."""
         self._ring = FieldRing(canvas)
-        canvas.news.view_changed.connect(self._follow)
-        canvas.news.layout_changed.connect(self._follow)
         canvas.news.page_changed.connect(self.close)
-        canvas.area.viewport().installEventFilter(self)
 
     @property
     def place(self) -> Place | None:
@@ -231,8 +228,8 @@ class FieldEditors(QObject):
             return False
         self.canvas.sight.show_rect(rect)
         self._open = self._new(edit)
+        self._listen(is_open=True)
         self._open.show_editor()
-        self.canvas.layers.show_overlay(self._ring)
         self.canvas.layers.update_page(rect.grown(4.0))
         return True
 
@@ -303,7 +300,7 @@ class FieldEditors(QObject):
         key = move_part_of(self.canvas, *place, down=down)
         self.open(place[0], key or place[1])
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    def take(self, event: QEvent) -> bool:
         """A press on the canvas keeps what was typed; resting over a field tells what it takes."""
         if event.type() == QEvent.Type.MouseButtonPress:
             self.close()
@@ -320,13 +317,21 @@ class FieldEditors(QObject):
         return False
 
     def _new(self, edit: Editing) -> OpenEditor:
-        kind, title = edit.slot.kind.name, title_of(edit.slot)
-        made = EDITORS.get(kind, LineEditor)
+        made, title = EDITORS.get(edit.slot.kind.name, LineEditor), title_of(edit.slot)
         language, block = self.canvas.editor.language, self.canvas.editor.project.blocks[edit.block]
-        is_open_choice = kind in ("choice", "gesture")
-        if is_open_choice and not language.choices_of(edit.slot, block, edit.key):
+        is_chosen_only = made in (ChoicePopup, GesturePopup)
+        if is_chosen_only and not language.choices_of(edit.slot, block, edit.key):
             made = LineEditor
         return cast(OpenEditor, made(self, edit, title))
+
+    def _listen(self, *, is_open: bool) -> None:
+        """Follow the field while an editor is open, and show which one it is."""
+        self.canvas.layers.show_overlay(self._ring, is_shown=is_open)
+        for signal in (self.canvas.news.view_changed, self.canvas.news.layout_changed):
+            if is_open:
+                signal.connect(self._follow)
+            else:
+                signal.disconnect(self._follow)
 
     def _toggle(self, edit: Editing) -> bool:
         edit.set(not edit.value)
@@ -337,7 +342,7 @@ class FieldEditors(QObject):
     def _end(self, *, restore: bool) -> None:
         closing, self._open = self._open, None
         assert closing is not None
-        self.canvas.layers.show_overlay(self._ring, is_shown=False)
+        self._listen(is_open=False)
         if restore:
             closing.edit.restore()
         self.canvas.attempt(closing.edit.end)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.project import RemoveVariable, RenameVariable
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.finding import why_not_rename_robot
 from nep_studio.blocks.places import InStack, variable_uses
-from nep_studio.blocks.program import ROBOT_BLOCK
+from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK
 from nep_studio.ui.words import count_words, tr
 
 from .choice import ChoicePopup, Option
@@ -16,6 +17,11 @@ from .popup import Question
 
 class VariablePopup(ChoicePopup):
     """A variable: choose one, make one, rename or delete the one that is chosen."""
+
+    def options(self) -> list[Option]:
+        """The variables of the project."""
+        variables = self._editors.canvas.editor.project.variables
+        return [Option(variable.name, variable.id, "variable") for variable in variables]
 
     def more_rows(self) -> list[Option]:
         """Make, rename, delete."""
@@ -85,6 +91,14 @@ class VariablePopup(ChoicePopup):
 
 class RobotPopup(ChoicePopup):
     """A robot of the Robots page, all of them, or a new one."""
+
+    def options(self) -> list[Option]:
+        """The robots by name, and all of them."""
+        editor = self._editors.canvas.editor
+        entries = robot_entries(editor.project, editor.language)
+        names = dict.fromkeys(entry.name for entry in entries)
+        found = [Option(name, name, "bot") for name in names if name != ALL_ROBOTS]
+        return [*found, Option(tr("all robots"), ALL_ROBOTS, "users")]
 
     def more_rows(self) -> list[Option]:
         """A new robot goes on the Robots page."""

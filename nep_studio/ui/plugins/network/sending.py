@@ -61,7 +61,7 @@ class NotAMessage(FaultError):
     """What was written cannot be sent; ``line`` is where it is wrong (0: not known)."""
 
     def __init__(self, reason: Words, line: int = 0, /, **values: object) -> None:
-        super().__init__(text_of(reason, line=line, **values))
+        super().__init__(text_of(reason, **values))
         self.line = line
 
 
@@ -105,7 +105,7 @@ def _not_json(text: str, reason: str) -> NotAMessage:
     if place < 0:
         return NotAMessage("This is not complete JSON: a bracket or a quote is missing.")
     line = text.encode()[:place].count(b"\n") + 1
-    return NotAMessage("This is not JSON: look at line {line}.", line)
+    return NotAMessage("This is not JSON: look at line {line}.", line, line=line)
 
 
 MOST_SENT = 20
