@@ -27,6 +27,14 @@ class Room:
 TALK = ("zmq", "msgspec", "psutil", "platformdirs")
 UI = ("faults", "nep_core", "robots", "nodes", "nep_studio", "nep_studio.blocks", "nep_studio.ui")
 QT = (*TALK, "numpy", "PySide6", "pyqtgraph")
+AROUND = ("nep_studio.ui.canvas", "nep_studio.ui.workbench", "nep_studio.ui.running")
+OFFERED = ("nep_studio.ui.host", "nep_studio.ui.services")
+"""What plugins see of the window; it names what runs and the workbench, for types only."""
+SHARED = (
+    *("nep_studio.ui.floor", "nep_studio.ui.network_feed", "nep_studio.ui.speech"),
+    *("nep_studio.ui.network_words", "nep_studio.ui.watch_view", "nep_studio.ui.widgets.questions"),
+)
+"""What several plugins use of what runs and of the canvas: below all plugins."""
 ROOMS = {
     "dev": Room(("dev_system", "dev_tests")),
     "dev_tests": Room(("dev_system",)),
@@ -41,23 +49,21 @@ ROOMS = {
     ),
     "nep_studio.ui": Room(UI, QT),
     "nep_studio.ui.canvas": Room((*UI, "nep_studio.ui.canvas"), QT),
-    "nep_studio.ui.workbench": Room((*UI, "nep_studio.ui.canvas", "nep_studio.ui.workbench"), QT),
-    "nep_studio.ui.running": Room(
-        (*UI, "nep_studio.ui.canvas", "nep_studio.ui.workbench", "nep_studio.ui.running"), QT
-    ),
-    "nep_studio.ui.plugins": Room(
+    "nep_studio.ui.workbench": Room(
         (
-            *(*UI, "nep_studio.ui.canvas", "nep_studio.ui.workbench", "nep_studio.ui.running"),
-            "nep_studio.ui.plugins",  # but no other plugin: see PARTS
+            *(*UI, "nep_studio.ui.canvas", "nep_studio.ui.workbench", "nep_studio.ui.services"),
+            "nep_studio.ui.widgets.questions",
         ),
+        QT,
+    ),
+    "nep_studio.ui.running": Room((*UI, *AROUND, *OFFERED), QT),
+    **dict.fromkeys((*OFFERED, *SHARED), Room((*UI, *AROUND, *OFFERED, *SHARED), QT)),
+    "nep_studio.ui.plugins": Room(
+        (*UI, *AROUND, *OFFERED, *SHARED, "nep_studio.ui.plugins"),  # but no other plugin
         QT,
     ),
     "nep_studio.ui.shell": Room(
-        (
-            *(*UI, "nep_studio.ui.canvas", "nep_studio.ui.workbench", "nep_studio.ui.running"),
-            *("nep_studio.ui.plugins", "nep_studio.ui.shell"),
-        ),
-        QT,
+        (*UI, *AROUND, *OFFERED, *SHARED, "nep_studio.ui.plugins", "nep_studio.ui.shell"), QT
     ),
 }
 """The arrows of the design; a module is in the room with the longest name that fits."""
