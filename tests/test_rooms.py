@@ -41,7 +41,7 @@ ROOMS = {
     "dev_system": Room(),
     "faults": Room((), ("msgspec",)),
     "nep_core": Room(("nep_core", "faults"), TALK),
-    "robots": Room(("robots", "faults"), ("numpy", "msgspec")),
+    "robots": Room(("robots", "faults"), ("numpy", "msgspec", "platformdirs")),
     "nodes": Room(("nodes", "robots", "nep_core", "faults"), (*TALK, "numpy")),
     "nep_studio.blocks": Room(("nep_studio.blocks", "faults"), ("msgspec",)),
     "nep_studio": Room(
