@@ -70,7 +70,7 @@ ROOMS = {
 
 LATE = {
     "nep_core": ("mcap", "spake2", "zenoh", "zeroconf"),
-    "robots.naoqi": ("zeroconf", "platformdirs"),
+    "robots.naoqi": ("zeroconf",),
     "nodes.sensory": ("aiohttp", "cryptography", "bleak"),
     "nep_studio.ui": ("segno", "mcap"),
 }
