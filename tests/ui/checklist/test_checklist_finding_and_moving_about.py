@@ -103,6 +103,7 @@ def test_a_screen_reader_hears_the_blocks_and_the_moves(person: Person) -> None:
     )
     assert heard[0].startswith("Picked up") and heard[-1] == "Put back."
     outline = person.window.workbench.outline
+    person.window.workbench.panels.show(outline)
     row = outline.model().index(0, 0)
     assert "when the program starts" in str(row.data())
 
