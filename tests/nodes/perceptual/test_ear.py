@@ -43,9 +43,12 @@ class Listening:
         for batch in batches:
             if self.ear is None:
                 make = partial(Spotter, self.model)
-                self.ear = SensorEar(batch, self.model, make, self.worn, *[self.told.append] * 2)
+                self.ear = SensorEar(batch, self.model, make, self.worn, *[self._tell] * 2)
             found += self.ear.hear(batch)
         return found + self.ear.flush()
+
+    def _tell(self, words):
+        self.told.append(str(words))
 
 
 def names_in(recording):

@@ -159,9 +159,9 @@ def test_a_sensor_that_lacks_something_is_told_and_another_is_still_heard(progra
     program.state("ready")
 
     program.send(brief, source="phone", gravity_included=False)
-    lacking = program.state("warning").description
-    assert "needs acceleration with gravity" in lacking
-    assert "switch on acceleration with gravity" in lacking
+    lacking = program.state("warning").fault
+    assert "needs acceleration with gravity" in str(lacking)
+    assert "switch on acceleration with gravity" in " ".join(map(str, lacking.checklist))
     program.send(brief, source="torn", t=[0.0])
     assert "torn sends times and samples" in program.state("warning").description
     program.send(brief, gyr=None)

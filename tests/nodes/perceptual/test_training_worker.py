@@ -9,6 +9,7 @@ import sys
 import psutil
 import pytest
 
+from faults import heard_fault
 from nodes.perceptual.recognition import worker
 from nodes.perceptual.recognition.model import read_model
 from nodes.recordings import write_recording
@@ -34,7 +35,7 @@ class Worker:
     def answers(self):
         """All that it tells of an order, to the last."""
         answers = [self.told()]
-        while not {"done", "error"} & set(answers[-1]):
+        while not {"done", "fault"} & set(answers[-1]):
             answers.append(self.told())
         return answers
 
@@ -92,8 +93,9 @@ def test_what_cannot_be_trained_is_told_with_what_to_do(process, folder, tmp_pat
     process.order(**usual | order)
     told = process.answers()[-1]
 
-    assert sentence in told["error"]
-    assert told["checklist"]
+    fault = heard_fault(told["fault"])
+    assert sentence in str(fault)
+    assert fault.checklist
     assert not (tmp_path / "mine.gestures").exists()
 
 
@@ -101,8 +103,8 @@ def test_it_goes_on_after_a_line_that_is_no_order(process):
     process.process.stdin.write(b"\xff{\n\nnull\n")
     process.process.stdin.flush()
 
-    assert "error" in process.told()
-    assert "error" in process.told()
+    assert "fault" in process.told()
+    assert "fault" in process.told()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there, the pipe closes with the parent")
