@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary, finalize
 
 from PySide6.QtCore import QCoreApplication, QObject, QTimer, Signal
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Changes
+
+if TYPE_CHECKING:
+    from nep_studio.blocks.editor import Editor
+    from nep_studio.ui.document_files import Files
+    from nep_studio.ui.documents import Document
+
 
 PAUSE_MS = 120
 """Nothing is edited for so long: the person looks at what comes of it."""
@@ -67,3 +74,29 @@ def edits_of(editor: Editor) -> Edits:
         # garbage may be collected in any thread: a QObject must not go in another one than its own
         finalize(editor, found.deleteLater).atexit = False
     return found
+
+
+# The project that is open, whichever that is, for who wants to hear each of its changes.
+
+
+class OpenProject(QObject):
+    """``changed`` tells that the open project is another, or, soon after, that it was edited."""
+
+    changed = Signal()
+
+    def __init__(self, files: Files, parent: QObject) -> None:
+        super().__init__(parent)
+        self._edits: Edits | None = None
+        self.editor: Editor | None = None
+        """What edits the open project; None when there is none."""
+        files.document_changed.connect(self._on_document_changed)
+        self._on_document_changed(files.document)
+
+    def _on_document_changed(self, document: Document | None) -> None:
+        if self._edits is not None:
+            self._edits.settled.disconnect(self.changed)
+        self.editor = None if document is None else document.editor
+        self._edits = None if self.editor is None else edits_of(self.editor)
+        if self._edits is not None:
+            self._edits.settled.connect(self.changed)
+        self.changed.emit()

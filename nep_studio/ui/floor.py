@@ -10,8 +10,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from nep_core.wire.messages import SURROUNDINGS, Surroundings, Thing
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.project.surroundings import KEY, MOST_THINGS, kept_things, replaced, to_keep
+from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.host import Host
-from nep_studio.ui.open_project import OpenProject
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.words import tr
 

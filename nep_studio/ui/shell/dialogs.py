@@ -56,6 +56,6 @@ def offer_recovery(window: MainWindow) -> None:
 
     found = recover(folder, window.studio.language)
     if found:
-        from .recovery import RecoveryDialog
+        from .support import RecoveryDialog
 
         RecoveryDialog(found, window.studio, window.files.restore, window).open()

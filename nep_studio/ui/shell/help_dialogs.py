@@ -1,15 +1,18 @@
-"""The two dialogs of the Help menu: the keyboard shortcuts, and what this program is."""
+"""Dialogs of the menus: keyboard shortcuts, what this program is, and what changed since it was saved."""
 
 from __future__ import annotations
 
 import platform
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt, qVersion
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
     QLabel,
+    QListWidget,
+    QListWidgetItem,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
@@ -18,8 +21,16 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio import __version__
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.files import load
+from nep_studio.blocks.operations.finding import Difference, compare
+from nep_studio.blocks.program import Project
+from nep_studio.ui.documents import Document
 from nep_studio.ui.theme.icons import application_icon
 from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from .main_window import MainWindow
 
 
 class ShortcutsDialog(QDialog):
@@ -89,3 +100,97 @@ def _closer(dialog: QDialog) -> QPushButton:
     button.clicked.connect(dialog.accept)
     button.setDefault(True)
     return button
+
+
+# A list of what is different from the saved version; a click on a line shows the block.
+
+WIDTH_LINES, HEIGHT_LINES = 30, 20
+
+
+class ComparingDialog(QDialog):
+    """Stays open beside the blocks, so that one difference after the other can be looked at."""
+
+    def __init__(
+        self,
+        document: Document,
+        saved: Project,
+        show_block: Callable[[str], object],
+        parent: QWidget,
+    ) -> None:
+        super().__init__(parent)
+        self._document, self._show_block = document, show_block
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(tr("Compare with the saved version"))
+        self.differences = compare(saved, document.project, document.editor.language)
+        self.list = QListWidget()
+        self.list.setWordWrap(True)
+        self.list.setAccessibleName(tr("What is different"))
+        for difference in self.differences:
+            self.list.addItem(_item(difference))
+        self.list.itemClicked.connect(self._on_item_chosen)
+        self.list.itemActivated.connect(self._on_item_chosen)
+        self._lay_out()
+        document.destroyed.connect(self.close)
+
+    def _lay_out(self) -> None:
+        line = self.fontMetrics().height()
+        box = QVBoxLayout(self)
+        box.setContentsMargins(line, line, line, line)
+        box.setSpacing(line // 2)
+        self.words = QLabel(self._told())
+        self.words.setWordWrap(True)
+        box.addWidget(self.words)
+        self.list.setVisible(bool(self.differences))
+        box.addWidget(self.list, 1)
+        close = QPushButton(tr("Close"))
+        close.setAutoDefault(False)  # Enter shows the block of a line
+        close.clicked.connect(self.close)
+        box.addWidget(close, 0, Qt.AlignmentFlag.AlignTrailing)
+        self.resize(line * WIDTH_LINES, line * (HEIGHT_LINES if self.differences else 6))
+
+    def _told(self) -> str:
+        if self.differences:
+            return tr("Since you saved, these blocks are different. Click one to see it.")
+        return tr("The blocks say the same as in the file. Only places, notes or names differ.")
+
+    def _on_item_chosen(self, item: QListWidgetItem) -> None:
+        block = item.data(Qt.ItemDataRole.UserRole)
+        if block in self._document.project.blocks:
+            self._show_block(block)
+
+
+def compare_with_saved(window: MainWindow) -> None:
+    """Show what is different between the project of a window and its file."""
+    document = window.files.document
+    if document is None or document.path is None:
+        return
+    try:
+        saved = load(document.path, document.editor.language)
+    except BlocksError as error:
+        window.messages.tell_error(error)
+        return
+
+    def show(block: str) -> None:
+        window.workbench.show_block(block)  # that of now: other words make another workbench
+
+    ComparingDialog(document, saved, show, window).show()
+
+
+def _item(difference: Difference) -> QListWidgetItem:
+    item = QListWidgetItem(_words(difference))
+    item.setData(Qt.ItemDataRole.UserRole, difference.block)
+    if difference.what == "removed":
+        item.setToolTip(tr("It is not there any more, so it cannot be shown."))
+    return item
+
+
+def _words(difference: Difference) -> str:
+    now, before = difference.sentence, difference.before
+    if difference.what == "changed" and before == now:
+        return tr("Changed in its comment or its state: “{now}”", now=now)
+    return {
+        "added": tr("New: “{now}”", now=now),
+        "removed": tr("Taken away: “{now}”", now=now),
+        "moved": tr("Moved: “{now}”", now=now),
+        "changed": tr("Changed: “{before}” is now “{now}”", before=before, now=now),
+    }[difference.what]

@@ -256,7 +256,7 @@ def add_file_menu(window: MainWindow) -> QMenu:
 
 
 def _compare(window: MainWindow) -> None:
-    from .comparing import compare_with_saved  # not at a start
+    from .help_dialogs import compare_with_saved
 
     compare_with_saved(window)
 

@@ -16,8 +16,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.words import tr
 
-from .indicators import figure_lines, figures, rate_words
-from .receiving import SILENT_S, WatchEar
+from .indicators import SILENT_S, WatchEar, figure_lines, figures, rate_words
 
 SIGNS: Mapping[str, tuple[str, str]] = {
     "none": ("circle-dashed", "muted"),

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio import settings
 from nep_studio.ui.shell.main_window import MainWindow
-from nep_studio.ui.shell.recovery import RecoveryDialog
+from nep_studio.ui.shell.support import RecoveryDialog
 from tests.nep_core.node_making import write_node
 
 GONE_S = 20

@@ -9,7 +9,7 @@ import json
 import pytest
 
 from nep_core.wire import messages as m
-from nep_studio.ui.network_words import ago_words, pretty, rate_words, short_rate
+from nep_studio.ui.node_style import ago_words, pretty, rate_words, short_rate
 from nep_studio.ui.plugins.network.saving import as_csv, as_json_lines, number_fields
 from nep_studio.ui.plugins.network.sending import EXAMPLES, NotAMessage, example_of, read_message
 from nep_studio.ui.running.tap import Heard

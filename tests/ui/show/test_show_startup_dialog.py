@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.support.startup import Place
-from nep_studio.ui.plugins.show.startup_dialog import StartupDialog
+from nep_studio.ui.plugins.show.window import StartupDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 

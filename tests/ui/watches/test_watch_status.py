@@ -17,8 +17,7 @@ from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.watch_view.indicators import figures
-from nep_studio.ui.watch_view.receiving import Flow, Receiving
+from nep_studio.ui.watch_view.indicators import Flow, Receiving, figures
 from nep_studio.ui.watch_view.status import WatchStatus
 
 STILL = (0.0, 0.0, 9.81)

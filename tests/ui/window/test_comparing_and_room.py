@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.edits.project import RenameProject
-from nep_studio.ui.shell.comparing import ComparingDialog
+from nep_studio.ui.shell.help_dialogs import ComparingDialog
 from nep_studio.ui.shell.main_window import MainWindow
 
 LEFT = Qt.MouseButton.LeftButton

@@ -15,7 +15,7 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.project.journal import recover
 from nep_studio.ui.documents import new_document
 from nep_studio.ui.shell.main_window import MainWindow
-from nep_studio.ui.shell.recovery import RecoveryDialog
+from nep_studio.ui.shell.support import RecoveryDialog
 
 WORK = """
 import sys

@@ -21,9 +21,8 @@ from nep_studio.study.sus import BROOKE
 from nep_studio.ui.plugins.help.help_controller import HelpDesk
 from nep_studio.ui.plugins.study import StudySign
 from nep_studio.ui.plugins.study.form import QuestionnaireDialog
-from nep_studio.ui.plugins.study.recorder import StudyRecorder
 from nep_studio.ui.plugins.study.results import ResultsDialog
-from nep_studio.ui.plugins.study.start import StartDialog
+from nep_studio.ui.plugins.study.start import StartDialog, StudyRecorder
 from nep_studio.ui.shell.main_window import MainWindow
 
 Click = Callable[[QWidget, str], None]

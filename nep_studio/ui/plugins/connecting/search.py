@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.jobs import Job, Tell
+from nep_studio.ui.background import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr

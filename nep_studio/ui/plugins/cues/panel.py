@@ -29,8 +29,8 @@ from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import KEY, Cue, arranged, cues_of, kept_cues, own_cue, to_keep
 from nep_studio.run.plan import VIRTUAL_WATCH
+from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.messages import announce
-from nep_studio.ui.open_project import OpenProject
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look

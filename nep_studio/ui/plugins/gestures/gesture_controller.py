@@ -22,7 +22,7 @@ from nep_studio.blocks.own_gestures import (
     own_recordings,
     training_digest,
 )
-from nep_studio.ui.open_project import OpenProject
+from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.running.tap import Heard, Tap
 from nep_studio.ui.words import tr
 

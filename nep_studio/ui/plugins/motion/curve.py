@@ -13,8 +13,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
 from . import editing
-from .joint_words import joint_words, limb_of_joint_words
-from .motion_controller import MotionDesk
+from .motion_controller import MotionDesk, joint_words, limb_of_joint_words
 from .timeline import Timeline, shift_of
 from .timeline_painter import Scale, snapped
 

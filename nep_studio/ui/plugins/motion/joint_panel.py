@@ -22,8 +22,7 @@ from nep_studio.ui.words import tr
 from robots.body.body import Joint
 
 from .editing import pose_at
-from .joint_words import joint_words
-from .motion_controller import MotionDesk
+from .motion_controller import MotionDesk, joint_words
 from .timeline_painter import limb_words
 
 STEPS = 10

@@ -29,20 +29,39 @@ from nep_studio.blocks.own_animations import (
 )
 from nep_studio.ui.words import tr
 from robots.body.animations import Animation, load_animation
-from robots.body.body import Angles, Body
+from robots.body.body import Angles, Body, part_of
 from robots.body.inverse import mirrored_pose
 from robots.body.keyframes import Handle, Keyframes
 from robots.body.kinematics import Skeleton
 from robots.body.limbs import Limb
 
 from . import editing
-from .joint_words import joint_words, limb_of_joint_words
 from .rehearsal import Rehearsal, TooFast, falling, given_time
-from .timeline_painter import Fault
+from .timeline_painter import Fault, limb_words
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor
     from nep_studio.ui.document_files import Files
+
+
+def joint_words(language: Language, body: Body, name: str) -> str:
+    """What a joint does, such as "elbow, bent"; its own name where nobody has said it."""
+    if name.endswith("Hand"):
+        return tr("hand, open")
+    part = part_of(body, name)
+    words = language.choices.get(f"joints.{part}", {}).get(name, name)
+    if not name.startswith(("L", "R")):
+        return words
+    if part.endswith("_leg") and name not in body.same_motor.values():
+        side = tr("left") if name.startswith("L") else tr("right")
+        return f"{side}: {words}"
+    return words
+
+
+def limb_of_joint_words(body: Body, name: str) -> str:
+    """The limb that a joint is in, in words."""
+    limb = body.joints[body.index[name]].limb
+    return limb_words().get(limb, str(limb))
 
 
 FIRST_POSE_S = 1.0

@@ -12,8 +12,14 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPixmap
 
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.network_feed import Seen
-from nep_studio.ui.network_words import short_rate
-from nep_studio.ui.node_style import OTHER_ICON, TYPE_COLOURS, icon_of, state_look, type_words
+from nep_studio.ui.node_style import (
+    OTHER_ICON,
+    TYPE_COLOURS,
+    icon_of,
+    short_rate,
+    state_look,
+    type_words,
+)
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.words import count_words

@@ -23,8 +23,7 @@ from PySide6.QtWidgets import QToolTip, QWidget
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.messages import announce
 from nep_studio.ui.network_feed import Seen
-from nep_studio.ui.network_words import node_words, topic_words
-from nep_studio.ui.node_style import type_words
+from nep_studio.ui.node_style import node_words, topic_words, type_words
 from nep_studio.ui.theme.look import Look as StudioLook
 from nep_studio.ui.words import is_right_to_left, tr
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from nep_studio.ui.network_words import as_json
+from nep_studio.ui.node_style import as_json
 from nep_studio.ui.running.tap import Heard
 
 

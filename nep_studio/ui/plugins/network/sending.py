@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from faults import FaultError, Words, text_of
 from nep_core.wire import messages as m
 from nep_studio.ui.messages import announce
-from nep_studio.ui.network_words import one_line, pretty
+from nep_studio.ui.node_style import one_line, pretty
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, base_point_size, code_font
 from nep_studio.ui.words import tr

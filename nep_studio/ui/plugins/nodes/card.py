@@ -23,8 +23,14 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.run.session import PROGRAM
 from nep_studio.ui.network_feed import NodeSeen
-from nep_studio.ui.network_words import rate_words
-from nep_studio.ui.node_style import icon_of, is_running, manifest_of, state_look, type_words
+from nep_studio.ui.node_style import (
+    icon_of,
+    is_running,
+    manifest_of,
+    rate_words,
+    state_look,
+    type_words,
+)
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import ElidedLabel

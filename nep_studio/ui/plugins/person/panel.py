@@ -24,20 +24,18 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.blocks.slots import why_not_line
 from nep_studio.project.triggers import Happening, happenings_of
+from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.messages import announce
-from nep_studio.ui.open_project import OpenProject
 from nep_studio.ui.running.tap import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Columns, FlowLayout
 from nep_studio.ui.words import tr
 
-from .buttons import HappeningButton, Section, WordsButton
-from .person_box import PersonBox
+from .person_box import HappeningButton, PersonBox, Section, WordsButton
 from .senses import BodyBox, GestureBox, SensorBox, ThingsBox, TouchBox
-from .stimuli import KINDS, Hands, Visitors
-from .words import words_of
+from .stimuli import KINDS, Hands, Visitors, words_of
 
 if TYPE_CHECKING:
     from nep_studio.ui.host import Host

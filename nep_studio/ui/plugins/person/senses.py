@@ -27,7 +27,7 @@ from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
-from .buttons import HappeningButton, WordsButton
+from .person_box import HappeningButton, WordsButton
 from .stimuli import Hands
 
 SLIDERS = {"sonar_left": (5, 255, 255), "sonar_right": (5, 255, 255), "battery": (1, 100, 100)}

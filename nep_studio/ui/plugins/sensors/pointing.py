@@ -10,8 +10,7 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QWheelEvent
 
 from .curves_view import CurvesView
 from .measuring import ZOOM_STEP
-from .plot_row import PlotRow
-from .plots import Plots
+from .plots import PlotRow, Plots
 
 _NOTCH = 120
 """What Qt gives for one notch of a wheel."""

@@ -28,14 +28,12 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
 
-from .chooser import FieldChooser
-from .curve_list import CurveList
+from .curve_list import CurveList, FieldChooser
 from .exporting import SensorFiles, export_csv, export_picture
 from .feed import Field, SensorFeed
 from .plots import Plots
 from .pointing import Hand
-from .recorder import RecordBar, Recorder
-from .replay_bar import RECORDING, ReplayBar
+from .recorder import RECORDING, RecordBar, Recorder, ReplayBar
 from .tools import Tools
 
 # What the panel says while nothing is measured: what belongs there, and the first steps.

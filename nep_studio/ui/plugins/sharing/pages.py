@@ -27,7 +27,7 @@ from nep_core.networks import discovery
 from nep_core.networks.security.keys import Computer, Keys
 from nep_core.networks.security.opening import DOOR_PORT
 from nep_studio.sharing import Refusal, Sharing
-from nep_studio.ui.jobs import Job, Tell
+from nep_studio.ui.background import Job, Tell
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look

@@ -90,7 +90,7 @@ def make(host: Host) -> Parts:
 
 
 def _open_startup(host: Host) -> None:
-    from .startup_dialog import StartupDialog
+    from .window import StartupDialog
 
     StartupDialog(host).open()
 

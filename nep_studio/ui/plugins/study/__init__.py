@@ -18,7 +18,7 @@ from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import count_words, tr
 
-from .recorder import StudyRecorder
+from .start import StudyRecorder
 
 if TYPE_CHECKING:
     from .results import ResultsDialog

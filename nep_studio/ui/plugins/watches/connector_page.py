@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QVBoxLayout, QWidge
 from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.watch_view.receiving import WatchEar
+from nep_studio.ui.watch_view.indicators import WatchEar
 from nep_studio.ui.widgets.forms import UNKNOWN, hint
 from nep_studio.ui.words import tr
 

@@ -12,8 +12,15 @@ from nep_studio.problems import Problem
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.watch_view.indicators import Figure, LittleCurve, MoveDot, Moving, figures
-from nep_studio.ui.watch_view.receiving import SILENT_S, WatchEar
+from nep_studio.ui.watch_view.indicators import (
+    SILENT_S,
+    Figure,
+    LittleCurve,
+    MoveDot,
+    Moving,
+    WatchEar,
+    figures,
+)
 from nep_studio.ui.watch_view.status import SIGNS
 from nep_studio.ui.widgets.forms import quiet_button
 from nep_studio.ui.words import tr
