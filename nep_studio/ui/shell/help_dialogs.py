@@ -1,4 +1,4 @@
-"""Dialogs of the menus: keyboard shortcuts, what this program is, and what changed since it was saved."""
+"""Dialogs of the menus: keyboard shortcuts, this program, and what changed since it was saved."""
 
 from __future__ import annotations
 
