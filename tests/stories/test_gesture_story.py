@@ -124,7 +124,7 @@ def connect(teacher: Newcomer, page: TrainerPage, port: int) -> None:
     qtbot.waitUntil(dialog.use_button.isEnabled, timeout=WAIT_MS)
     teacher.step("connect-phone")
     qtbot.mouseClick(dialog.use_button, LEFT)
-    qtbot.waitUntil(lambda: page.desk.is_hearing, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: page.controller.is_hearing, timeout=WAIT_MS)
 
 
 def record(teacher: Newcomer, page: TrainerPage, phone: Phone, title: str) -> None:
@@ -182,9 +182,9 @@ def test_a_teacher_teaches_two_gestures_and_nao_answers(
     for title in TITLES:
         record(teacher, page, phone, title)
 
-    if not page.desk.is_up_to_date and page.results.bar.button.isEnabled():
+    if not page.controller.is_up_to_date and page.results.bar.button.isEnabled():
         qtbot.mouseClick(page.results.bar.button, LEFT)
-    qtbot.waitUntil(lambda: page.desk.is_up_to_date, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: page.controller.is_up_to_date, timeout=WAIT_MS)
     assert list(trained_gestures(teacher.project)) == list(TITLES)
     page.tabs.setCurrentWidget(page.results)
     teacher.step("results")

@@ -30,7 +30,7 @@ class Shortcuts:
         settings.language = language
         studio = Studio(self._app, settings)
         window = MainWindow(studio)
-        assert window.later.is_done  # it comes last: then all actions are there
+        assert window.lazy.is_done  # it comes last: then all actions are there
         rows = [*shortcuts_of(window.actions_by_name.by_name.values()), *on_the_canvas()]
         window.workbench.retire()
         window.deleteLater()

@@ -215,7 +215,7 @@ class RunState(QWidget):
             self._sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
 
 
-def dress_buttons(bar: QToolBar, look: Look) -> None:
+def style_buttons(bar: QToolBar, look: Look) -> None:
     """Give Run and Stop their colours; in a menu, their icons are like the others."""
     for action in bar.actions():
         name, button = action.objectName(), bar.widgetForAction(action)

@@ -85,8 +85,8 @@ def main(arguments: list[str]) -> int:
         last_resort.watch(window)
         stop_signals.came.connect(lambda: _end_at_once(window))
         once = Qt.ConnectionType.SingleShotConnection
-        window.later.completed.connect(_collect_from_now_on, once)
-        window.later.completed.connect(lambda: _begin_later(window, note), once)
+        window.lazy.completed.connect(_collect_from_now_on, once)
+        window.lazy.completed.connect(lambda: _begin_later(window, note), once)
         window.show()
         window.start(Path(arguments[0]) if arguments else None)
         app.file_asked_for.connect(lambda file: window.files.open(Path(file)))

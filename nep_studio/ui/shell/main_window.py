@@ -20,7 +20,7 @@ from nep_studio.ui.running.actions import fill_run_menu, follow_running
 from nep_studio.ui.services import Services, Studio
 from nep_studio.ui.theme.icons import fit_icons
 from nep_studio.ui.words import is_right_to_left, tr
-from nep_studio.ui.workbench.problem_style import dress_check
+from nep_studio.ui.workbench.problem_style import style_check
 
 from .dialogs import offer_recovery, open_settings
 from .menus import (
@@ -72,7 +72,7 @@ MODULES = (
 """What the workbench is made of, in an order in which none of them takes long to load."""
 
 
-class Later(QObject):
+class LazyInitialiser(QObject):
     """The workbench and what stands around it, made by one step after the other.
 
     It is made again each time that the window is made anew.
@@ -230,16 +230,16 @@ class MainWindow(QMainWindow):
         self._opening_message: Message | None = None
         self._may_close = False
         self._shown_problems: tuple[object, ...] = ()
-        self.later = Later(self)
+        self.lazy = LazyInitialiser(self)
         self.setAcceptDrops(True)
         self.resize(*FIRST_SIZE)
         self.restoreGeometry(self.settings.state("geometry"))
         self._build()
         if is_gradual:
             self.start_page.gallery.wait_with_pictures()
-            self.later.go_on_after_paint()
+            self.lazy.go_on_after_paint()
         else:
-            self.later.finish()
+            self.lazy.finish()
         self.files.document_changed.connect(self._on_document_changed)
         self.files.opening_changed.connect(self._on_opening_changed)
         studio.words_changed.connect(self._on_words_changed)
@@ -249,7 +249,7 @@ class MainWindow(QMainWindow):
     @property
     def workbench(self) -> Workbench:
         """Where the project is worked on; made when it is first asked for."""
-        return self.later.workbench
+        return self.lazy.workbench
 
     @property
     def running(self) -> RunControl:
@@ -269,7 +269,7 @@ class MainWindow(QMainWindow):
         self.start_page = StartPage(self.studio, self.files)
         self.pages.addWidget(self.start_page)
         self.start_page.try_requested.connect(lambda path: self.running.try_example(path))
-        self.start_page.tour_requested.connect(lambda: self.later.trigger("tour"))
+        self.start_page.tour_requested.connect(lambda: self.lazy.trigger("tour"))
         self.message_area = MessageArea(self.look, self.pages)
         self.messages.show_in(self.message_area)
         self.actions_by_name = Actions(self, self.look)
@@ -284,7 +284,7 @@ class MainWindow(QMainWindow):
         self.menus["help"] = add_help_menu(self)
         self.toolbar: QToolBar = add_toolbar(self)
         self.host.begin()
-        self.later.begin()
+        self.lazy.begin()
         self._on_problems_found([])
         self.update_actions()
         fit_icons(self.pages)
@@ -301,8 +301,8 @@ class MainWindow(QMainWindow):
 
     def start(self, path: Path | None) -> None:
         """Begin with a project, or with the start page; offer what was lost the last time."""
-        self.later.is_laid_out = True
-        if self.later.is_done:
+        self.lazy.is_laid_out = True
+        if self.lazy.is_done:
             self.workbench.restore(self.fontMetrics().height())
         if path is not None:
             self.files.open(path)
@@ -338,13 +338,13 @@ class MainWindow(QMainWindow):
         is_open = self.files.document is not None
         names = ("save", "save_as", "close", "check", "zoom_in", "zoom_out", "zoom_100", "zoom_fit")
         self.actions_by_name.enable(is_open, *names)
-        self.later.enable(is_open)
+        self.lazy.enable(is_open)
         update_edit_actions(self)
 
     # What happens
 
     def _on_document_changed(self, document: Document | None) -> None:
-        self.later.finish()
+        self.lazy.finish()
         self.running.follow(document)
         self.pages.setCurrentIndex(0 if document is None else 1)  # first: it needs its size
         self.workbench.show_document(document)
@@ -371,7 +371,7 @@ class MainWindow(QMainWindow):
         if shown == self._shown_problems:
             return  # as after most keys: nothing has changed on the toolbar
         self._shown_problems = shown
-        dress_check(self.actions_by_name["check"], problems, self.look.theme, is_open=is_open)
+        style_check(self.actions_by_name["check"], problems, self.look.theme, is_open=is_open)
         size_toolbar(self.toolbar)
 
     def _on_opening_changed(self, opening: Opening | None) -> None:
@@ -387,7 +387,7 @@ class MainWindow(QMainWindow):
     def _on_theme_changed(self) -> None:
         size_toolbar(self.toolbar)
         fit_icons(self.pages)
-        self._on_problems_found(self.workbench.checks.problems if self.later.is_done else [])
+        self._on_problems_found(self.workbench.checks.problems if self.lazy.is_done else [])
 
     def _on_words_changed(self) -> None:
         if self.files.document is not None:
@@ -445,8 +445,8 @@ class MainWindow(QMainWindow):
 
     def _remember(self) -> None:
         self.settings.set_state("geometry", self.saveGeometry())
-        is_complete = self.later.is_done
-        self.later.stop()
+        is_complete = self.lazy.is_done
+        self.lazy.stop()
         if is_complete:
             self.workbench.panels.remember()
         self.settings.write()

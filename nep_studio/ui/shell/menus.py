@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 
 from faults import Words
 from nep_studio.settings import SYSTEM
-from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, dress_buttons, keep_width
+from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.words import available_languages, tr
@@ -435,7 +435,7 @@ def add_toolbar(window: MainWindow) -> QToolBar:
     bar.addWidget(RunState(window.look, bar))
     bar.addActions([window.actions_by_name[name] for name in LAST_BUTTONS])
     window.addToolBar(bar)
-    dress_buttons(bar, window.look)
+    style_buttons(bar, window.look)
     size_toolbar(bar)
     return bar
 

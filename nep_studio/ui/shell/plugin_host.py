@@ -68,7 +68,7 @@ class WindowHost:
     def ask(self, command: str, *values: Any) -> Any:
         """Do what a plugin offers by this name; all plugins are made now if it is not known yet."""
         if command not in self._commands:
-            self._window.later.finish()
+            self._window.lazy.finish()
         do = self._commands.get(command)
         return None if do is None else do(*values)
 

@@ -52,7 +52,7 @@ class _Onlooker(QTimer):
         self.start()
 
     def _look(self) -> None:
-        if not self._window.later.is_done:
+        if not self._window.lazy.is_done:
             return
         seen = self._window.grab().toImage()
         self._same = self._same + 1 if seen == self.picture else 0

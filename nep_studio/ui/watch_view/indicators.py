@@ -134,7 +134,7 @@ FORGOTTEN_S = 60.0
 """A watch that was silent for so long is not spoken of any more."""
 
 
-class WatchEar(QObject):
+class WatchListener(QObject):
     """Hears ``/imu`` between ``start`` and ``stop``; of one node when ``node`` names it.
 
     ``changed`` tells 4 times a second how it is; ``heard`` gives the batches (Imu) of the watch

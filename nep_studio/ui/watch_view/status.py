@@ -16,7 +16,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import ElidedLabel
 from nep_studio.ui.words import tr
 
-from .indicators import SILENT_S, WatchEar, figure_lines, figures, rate_words
+from .indicators import SILENT_S, WatchListener, figure_lines, figures, rate_words
 
 SIGNS: Mapping[str, tuple[str, str]] = {
     "none": ("circle-dashed", "muted"),
@@ -56,18 +56,18 @@ def device_words(planned: PlannedNode | None) -> str:
     return names.get(str(planned.parameters.get("through", "")), tr("Watch or phone"))
 
 
-def watch_state(ear: WatchEar, awaited: PlannedNode | None = None) -> WatchState:
+def watch_state(listener: WatchListener, awaited: PlannedNode | None = None) -> WatchState:
     """How the watch is that an ear hears; ``awaited`` is a node that waits for one."""
-    if not ear.source or (ear.node and ear.silent_s == float("inf")):
+    if not listener.source or (listener.node and listener.silent_s == float("inf")):
         if awaited is not None:
             words = tr("{device}: nothing has come yet", device=device_words(awaited))
             return WatchState("waiting", words, tr("Is its screen on? Is it still sending?"))
         return WatchState("none", tr("No watch or phone sends"))
-    device = device_words(ear.planned)
-    if ear.silent_s >= SILENT_S:
+    device = device_words(listener.planned)
+    if listener.silent_s >= SILENT_S:
         words = tr("{device} is silent", device=device)
         return WatchState("silent", words, tr("Is its screen on? Is it still sending?"))
-    flow = ear.flow
+    flow = listener.flow
     worst = max((one.grade for one in figures(flow)), key=("good", "fair", "poor").index)
     words = tr("{device}, {rate}", device=device, rate=rate_words(flow.rate_hz))
     return WatchState(worst, words, figure_lines(flow))
@@ -83,7 +83,7 @@ class WatchStatus(QWidget):
 
     def __init__(self, runner: Runner, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.ear = WatchEar(runner, self)
+        self.listener = WatchListener(runner, self)
         self.state = WatchState("", "")
         self._look = look
         self.sign, self.words = QLabel(), ElidedLabel()
@@ -98,14 +98,14 @@ class WatchStatus(QWidget):
         row.addWidget(self.sign)
         row.addWidget(self.words, 1, Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(self.button)
-        self.ear.changed.connect(self.refresh)
+        self.listener.changed.connect(self.refresh)
         self.button.clicked.connect(self.connect_asked)
         look.theme_changed.connect(self._on_theme_changed)
         self.refresh()
 
     def refresh(self) -> None:
         """Show how the watch is now."""
-        state = watch_state(self.ear, self.ear.awaited)
+        state = watch_state(self.listener, self.listener.awaited)
         if state == self.state:
             return
         self.state = state
@@ -125,12 +125,12 @@ class WatchStatus(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Hear."""
         super().showEvent(event)
-        self.ear.start()
+        self.listener.start()
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Hear no more: nobody looks."""
         super().hideEvent(event)
-        self.ear.stop()
+        self.listener.stop()
 
     def _on_theme_changed(self) -> None:
         self._draw_sign()

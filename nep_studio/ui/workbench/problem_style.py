@@ -28,7 +28,7 @@ def summary(problems: Sequence[Problem]) -> str:
     return count_words(len(problems), "1 problem", "{n} problems")
 
 
-def dress_check(
+def style_check(
     check: QAction, problems: Sequence[Problem], theme: Theme, *, is_open: bool
 ) -> None:
     """Let the action that checks say how many problems there are, and how bad they are."""

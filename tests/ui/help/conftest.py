@@ -13,7 +13,7 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.help.help_controller import HelpDesk
+from nep_studio.ui.plugins.help.help_controller import HelpController
 from nep_studio.ui.plugins.help.panel import HelpPanel
 from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.services import Studio
@@ -43,16 +43,16 @@ def window(studio: Studio, qtbot: QtBot) -> MainWindow:
 
 
 @pytest.fixture
-def desk(window: MainWindow) -> HelpDesk:
+def desk(window: MainWindow) -> HelpController:
     """The help of the window."""
-    made = window.findChild(HelpDesk)
+    made = window.findChild(HelpController)
     yield made
     if made._window is not None:
         made._window.close()
 
 
 @pytest.fixture
-def karate(window: MainWindow, desk: HelpDesk, qtbot: QtBot) -> MainWindow:
+def karate(window: MainWindow, desk: HelpController, qtbot: QtBot) -> MainWindow:
     """The window with the karate example, and with help."""
     window.files.open_example(paths.examples() / "karate_greeting.nep")
     qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())

@@ -47,13 +47,13 @@ def test_the_menu_of_a_block_makes_a_motion_that_it_plays(
     assert "change_motion" not in entries(kit, window, block)
 
     entries(kit, window, block)["new_motion"]()
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
     assert motion.project.save()
 
     project = window.files.document.project
     assert project.blocks[block].fields["animation"] == "my_motion"
     entries(kit, window, block)["change_motion"]()
-    assert motion.desk.name == "my_motion"
+    assert motion.controller.name == "my_motion"
     assert window.files.document.editor.history.undo()
     assert own_animations(project) == {}
 
@@ -71,7 +71,7 @@ def test_a_motion_that_is_deleted_says_how_many_blocks_play_it(
 ) -> None:
     open_program([B("event.started"), B("robot.play")])
     entries(kit, window, block_of(window, "robot.play"))["new_motion"]()
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
     motion.project.save()
 
     motion.actions_by_name["delete_motion"].trigger()
@@ -93,12 +93,12 @@ def test_a_text_of_choregraphe_becomes_a_motion(motion: MotionWindow, qtbot: QtB
     dialog.text.setPlainText(NODS)
     qtbot.mouseClick(dialog.use_button, Qt.MouseButton.LeftButton)
 
-    assert editing.key_times(motion.desk.motion) == [0.8, 1.6]
+    assert editing.key_times(motion.controller.motion) == [0.8, 1.6]
     assert motion.isWindowModified()
 
 
 def test_a_file_that_cannot_be_read_is_told(motion: MotionWindow, tmp_path: Path) -> None:
-    dialog = ImportDialog(motion.desk.body, motion)
+    dialog = ImportDialog(motion.controller.body, motion)
     (tmp_path / "odd.py").write_bytes(b"\xff\xfe\xff")
 
     dialog.read_file(tmp_path / "missing.py")
@@ -127,10 +127,10 @@ def test_the_pose_of_a_robot_that_was_moved_by_hand_becomes_a_key(
     joints = robots.states["NAO"].joints
     touch = m.SenseRequest(robot="NAO", sense="head_middle", value=1.0)
     window.running.runner.send(m.SENSE_REQUEST, touch)
-    qtbot.waitUntil(lambda: len(editing.key_times(motion.desk.motion)) == 2, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: len(editing.key_times(motion.controller.motion)) == 2, timeout=WAIT_MS)
 
-    assert editing.key_times(motion.desk.motion) == [1.0, 2.0]
-    pose = editing.pose_at(motion.desk.motion, 1.0)
+    assert editing.key_times(motion.controller.motion) == [1.0, 2.0]
+    pose = editing.pose_at(motion.controller.motion, 1.0)
     assert pose == pytest.approx(joints, abs=1e-3)
 
 
@@ -141,7 +141,7 @@ def test_a_robot_plays_a_motion_that_is_not_kept(
     robots = motion.robots
     window.running.runner.start_node(window.running.runner.planned()[0])
     qtbot.waitUntil(lambda: "NAO" in robots.states, timeout=WAIT_MS)
-    motion.desk.set_joints({"HeadYaw": math.radians(40)}, "pose")
+    motion.controller.set_joints({"HeadYaw": math.radians(40)}, "pose")
 
     robots.play("NAO")
 
@@ -149,11 +149,11 @@ def test_a_robot_plays_a_motion_that_is_not_kept(
 
 
 def test_a_new_motion_asks_for_the_changes_of_the_old_one(motion: MotionWindow) -> None:
-    motion.desk.open(OwnAnimation("Old", {}), is_kept=True)
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.open(OwnAnimation("Old", {}), is_kept=True)
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
 
     motion.actions_by_name["new_motion"].trigger()
 
     [question] = motion.findChildren(QuestionDialog)
     question.reject()
-    assert motion.desk.motion.title == "Old"
+    assert motion.controller.motion.title == "Old"

@@ -15,7 +15,7 @@ from nep_studio.ui.plugins.motion.window import MotionWindow
 
 @pytest.fixture
 def curve(motion: MotionWindow, qtbot: QtBot) -> CurveView:
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
     motion.actions_by_name["show_curve"].trigger()
     qtbot.waitUntil(lambda: motion.curve.curve.isVisible())
     motion.curve.show_joint("HeadYaw")
@@ -29,12 +29,12 @@ def test_a_key_is_dragged_in_time_and_angle_alone(
 
     drag(curve, start, end)
 
-    head = motion.desk.motion.joints["HeadYaw"]
+    head = motion.controller.motion.joints["HeadYaw"]
     assert head.times == pytest.approx((1.5,), abs=0.051)
     assert head.keys == pytest.approx((-0.4,), abs=0.1)
-    assert motion.desk.motion.joints["HeadPitch"].times == (1.0,)
-    motion.desk.undo()
-    assert motion.desk.motion.joints["HeadYaw"].times == (1.0,)
+    assert motion.controller.motion.joints["HeadPitch"].times == (1.0,)
+    motion.controller.undo()
+    assert motion.controller.motion.joints["HeadYaw"].times == (1.0,)
 
 
 def test_a_double_click_sets_a_key_of_this_joint(
@@ -44,31 +44,31 @@ def test_a_double_click_sets_a_key_of_this_joint(
 
     qtbot.mouseDClick(curve, Qt.MouseButton.LeftButton, pos=place)
 
-    assert len(motion.desk.motion.joints["HeadYaw"].times) == 2
-    assert motion.desk.motion.joints["HeadPitch"].times == (1.0,)
+    assert len(motion.controller.motion.joints["HeadYaw"].times) == 2
+    assert motion.controller.motion.joints["HeadPitch"].times == (1.0,)
 
 
 def test_keys_turn_it_and_take_it_away(
     motion: MotionWindow, curve: CurveView, qtbot: QtBot
 ) -> None:
-    motion.desk.show(0.0)
+    motion.controller.show(0.0)
     curve.setFocus()
 
     qtbot.keyClick(curve, Qt.Key.Key_PageDown)
     qtbot.keyClick(curve, Qt.Key.Key_Up)
 
-    turned = motion.desk.motion.joints["HeadYaw"].keys[0]
+    turned = motion.controller.motion.joints["HeadYaw"].keys[0]
     assert turned == pytest.approx(0.5 + math.radians(1), abs=1e-3)
     qtbot.keyClick(curve, Qt.Key.Key_Delete)
-    assert "HeadYaw" not in motion.desk.motion.joints
-    assert editing.key_times(motion.desk.motion) == [1.0]
+    assert "HeadYaw" not in motion.controller.motion.joints
+    assert editing.key_times(motion.controller.motion) == [1.0]
 
 
 def test_a_key_does_not_push_another_one_of_its_joint_away(
     motion: MotionWindow, curve: CurveView, drag
 ) -> None:
-    motion.desk.set_key("HeadYaw", 2.0, 0.0, "key")
+    motion.controller.set_key("HeadYaw", 2.0, 0.0, "key")
 
     drag(curve, curve.place_of(1.0, 0.5), curve.place_of(2.0, 0.5) + QPointF(0, 1))
 
-    assert len(motion.desk.motion.joints["HeadYaw"].times) == 2
+    assert len(motion.controller.motion.joints["HeadYaw"].times) == 2

@@ -36,12 +36,12 @@ def test_a_dragged_hand_goes_with_the_mouse_and_makes_a_key(motion: MotionWindow
 
     drag(motion.view, start, start + QPointF(-10, -60))
 
-    assert editing.key_times(motion.desk.motion) == [1.0]
-    assert motion.desk.motion.joints.keys() >= {"RShoulderPitch", "RElbowRoll"}
+    assert editing.key_times(motion.controller.motion) == [1.0]
+    assert motion.controller.motion.joints.keys() >= {"RShoulderPitch", "RElbowRoll"}
     motion.stage.refresh()
     end = place_of(motion, "R_wrist")
     assert end.y() < start.y() - 30
-    assert motion.desk.undo_label
+    assert motion.controller.undo_label
 
 
 def test_one_drag_is_one_step_back(motion: MotionWindow, drag) -> None:
@@ -50,7 +50,7 @@ def test_one_drag_is_one_step_back(motion: MotionWindow, drag) -> None:
 
     motion.actions_by_name["undo_motion"].trigger()
 
-    assert motion.desk.motion.joints == {}
+    assert motion.controller.motion.joints == {}
 
 
 def test_a_slider_turns_its_joint(motion: MotionWindow, qtbot: QtBot) -> None:
@@ -60,41 +60,41 @@ def test_a_slider_turns_its_joint(motion: MotionWindow, qtbot: QtBot) -> None:
     for _ in range(3):
         qtbot.keyClick(row.slider, Qt.Key.Key_PageUp)
 
-    assert motion.desk.motion.joints["HeadYaw"].keys[0] > 0.02
+    assert motion.controller.motion.joints["HeadYaw"].keys[0] > 0.02
     assert row.box.value() == pytest.approx(row.slider.value() / 10)
 
 
 def test_keys_are_added_and_moved_on_the_timeline(motion: MotionWindow, drag, qtbot: QtBot) -> None:
-    motion.desk.set_joints({"RShoulderPitch": -0.5}, "pose")
+    motion.controller.set_joints({"RShoulderPitch": -0.5}, "pose")
     timeline = motion.timeline
     qtbot.mouseClick(timeline, Qt.MouseButton.LeftButton, pos=timeline.row(0).center().toPoint())
-    shown = motion.desk.cursor_s
+    shown = motion.controller.cursor_s
     qtbot.keyClick(timeline, Qt.Key.Key_K)
-    assert editing.key_times(motion.desk.motion) == [1.0, pytest.approx(shown)]
+    assert editing.key_times(motion.controller.motion) == [1.0, pytest.approx(shown)]
 
     drag(timeline, timeline.place_of(1.0), timeline.place_of(1.5))
 
-    assert editing.key_times(motion.desk.motion)[0] == pytest.approx(1.5, abs=0.051)
-    assert motion.desk.chosen == pytest.approx((1.5,), abs=0.051)
+    assert editing.key_times(motion.controller.motion)[0] == pytest.approx(1.5, abs=0.051)
+    assert motion.controller.chosen == pytest.approx((1.5,), abs=0.051)
 
 
 def test_with_shift_all_later_keys_go_along(motion: MotionWindow, drag) -> None:
-    motion.desk.set_joints({"RShoulderPitch": -0.5}, "pose")
-    motion.desk.show(2.0)
-    motion.desk.add_key("key")
+    motion.controller.set_joints({"RShoulderPitch": -0.5}, "pose")
+    motion.controller.show(2.0)
+    motion.controller.add_key("key")
     timeline = motion.timeline
 
     shift = Qt.KeyboardModifier.ShiftModifier
     drag(timeline, timeline.place_of(1.0), timeline.place_of(1.5), modifier=shift)
 
-    first, second = editing.key_times(motion.desk.motion)
+    first, second = editing.key_times(motion.controller.motion)
     assert second - first == pytest.approx(1.0)
     assert first == pytest.approx(1.5, abs=0.051)
 
 
 def test_space_plays_it_to_its_end(motion: MotionWindow, qtbot: QtBot) -> None:
-    motion.desk.set_joints({"RShoulderPitch": -0.5}, "pose")
-    motion.desk.show(0.0)
+    motion.controller.set_joints({"RShoulderPitch": -0.5}, "pose")
+    motion.controller.show(0.0)
     motion.player.speed = 4.0
 
     motion.timeline.setFocus()
@@ -102,12 +102,12 @@ def test_space_plays_it_to_its_end(motion: MotionWindow, qtbot: QtBot) -> None:
 
     assert motion.player.is_playing
     qtbot.waitUntil(lambda: not motion.player.is_playing)
-    assert motion.desk.cursor_s == motion.desk.motion.duration_s
+    assert motion.controller.cursor_s == motion.controller.motion.duration_s
 
 
 def test_posing_pauses_the_play(motion: MotionWindow, drag, qtbot: QtBot) -> None:
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
-    motion.desk.show(0.0)
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.show(0.0)
     motion.player.play()
     start = place_of(motion, "R_wrist")
 
@@ -117,8 +117,8 @@ def test_posing_pauses_the_play(motion: MotionWindow, drag, qtbot: QtBot) -> Non
 
 
 def test_too_fast_is_told_and_gets_its_time(motion: MotionWindow, qtbot: QtBot) -> None:
-    motion.desk.set_joints({"RShoulderPitch": -1.9}, "pose")
-    motion.desk.move_chosen(-0.9, "move")
+    motion.controller.set_joints({"RShoulderPitch": -1.9}, "pose")
+    motion.controller.move_chosen(-0.9, "move")
     qtbot.waitUntil(lambda: motion.faults.has_too_fast)
     assert "Too fast" in motion.notes.words.text()
 
@@ -130,9 +130,9 @@ def test_too_fast_is_told_and_gets_its_time(motion: MotionWindow, qtbot: QtBot) 
 
 
 def test_a_motion_that_would_fall_is_told(motion: MotionWindow, qtbot: QtBot) -> None:
-    motion.desk.set_joints({"LHipPitch": -1.3, "LKneePitch": 1.9}, "pose")
-    motion.desk.show(2.5)
-    motion.desk.add_key("hold")
+    motion.controller.set_joints({"LHipPitch": -1.3, "LKneePitch": 1.9}, "pose")
+    motion.controller.show(2.5)
+    motion.controller.add_key("hold")
 
     qtbot.waitUntil(lambda: motion.faults.is_sure)
 
@@ -144,7 +144,7 @@ def test_the_window_asks_before_it_throws_a_motion_away(
     window: MainWindow, motion: MotionWindow, qtbot: QtBot
 ) -> None:
     project = window.files.document.project
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
 
     motion.close()
 
@@ -161,11 +161,11 @@ def test_a_shipped_motion_is_a_start_and_is_kept_as_one_of_the_project(
     motion: MotionWindow,
 ) -> None:
     motion.project.open("wave")
-    motion.desk.change("title", title="Wave twice")
+    motion.controller.change("title", title="Wave twice")
 
     motion.actions_by_name["save_motion"].trigger()
 
-    assert motion.desk.name == "wave_twice"
+    assert motion.controller.name == "wave_twice"
     assert not motion.isWindowModified()
     assert "Wave twice" in [action.text() for action in motion.project.open_menu().actions()]
 
@@ -188,9 +188,9 @@ def test_another_title_renames_it_in_the_blocks_too(
     motion: MotionWindow, window: MainWindow
 ) -> None:
     motion.project.open("wave")
-    motion.desk.change("title", title="Hop")
+    motion.controller.change("title", title="Hop")
     assert motion.project.save()
-    motion.desk.change("title", title="Jump")
+    motion.controller.change("title", title="Jump")
 
     assert motion.project.save()
 
@@ -205,7 +205,7 @@ def test_a_kept_motion_is_played_by_a_block_in_a_run(
     drag(motion.view, start, start + QPointF(-10, -60))
     assert motion.project.save()
     editor = window.files.document.editor
-    editor.apply(SetField(block_of(window, "robot.play"), "animation", motion.desk.name))
+    editor.apply(SetField(block_of(window, "robot.play"), "animation", motion.controller.name))
 
     press(window, qtbot, "run")
     state_is(window, qtbot, "running")
@@ -220,7 +220,7 @@ def test_a_kept_motion_is_played_by_a_block_in_a_run(
 def test_the_program_is_not_closed_over_a_motion_that_is_not_kept(
     window: MainWindow, motion: MotionWindow, qtbot: QtBot
 ) -> None:
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
 
     window.close()
 
@@ -232,10 +232,10 @@ def test_the_program_is_not_closed_over_a_motion_that_is_not_kept(
 
 
 def test_a_motion_is_new_to_another_project(window: MainWindow, motion: MotionWindow) -> None:
-    motion.desk.set_joints({"HeadYaw": 0.5}, "pose")
+    motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
     assert motion.project.save()
 
     window.files.document.editor.history.seal()
     window.files.document_changed.emit(window.files.document)
 
-    assert motion.desk.name == ""
+    assert motion.controller.name == ""

@@ -7,7 +7,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.own_animations import OwnAnimation
-from nep_studio.ui.plugins.motion.motion_controller import MotionDesk
+from nep_studio.ui.plugins.motion.motion_controller import MotionController
 from nep_studio.ui.plugins.motion.stage import ROBOT, PosingStage
 from nep_studio.ui.robot_view.view import RobotView, nao_folder
 from nep_studio.ui.services import Studio
@@ -19,7 +19,7 @@ __all__ = ["home", "studio"]
 
 @pytest.fixture
 def stage(studio: Studio, qtbot: QtBot) -> PosingStage:
-    desk = MotionDesk(load_body(nao_folder()))
+    desk = MotionController(load_body(nao_folder()))
     desk.open(OwnAnimation("New", {}, starts_from="StandInit"))
     view = RobotView(studio.look)
     qtbot.addWidget(view)
@@ -29,12 +29,12 @@ def stage(studio: Studio, qtbot: QtBot) -> PosingStage:
 
 def place(stage: PosingStage, link: str) -> np.ndarray:
     """Where a link is in the room, in the pose that is shown."""
-    pose = stage.desk.rehearsal.pose(stage.desk.cursor_s)
+    pose = stage.controller.rehearsal.pose(stage.controller.cursor_s)
     return (stage._frame(pose) @ stage.skeleton.frames(pose)[link])[:3, 3]
 
 
 def turn(stage: PosingStage, link: str) -> np.ndarray:
-    pose = stage.desk.rehearsal.pose(stage.desk.cursor_s)
+    pose = stage.controller.rehearsal.pose(stage.controller.cursor_s)
     return (stage._frame(pose) @ stage.skeleton.frames(pose)[link])[:3, :3]
 
 
@@ -73,11 +73,11 @@ def test_the_head_looks_where_it_is_dragged(stage: PosingStage) -> None:
 
     stage.view.limb_dragged.emit(ROBOT, "Head", tuple(start + np.array([-0.02, 0.05, 0.0])))
 
-    assert stage.desk.motion.joints["HeadYaw"].keys[0] > 0.4
+    assert stage.controller.motion.joints["HeadYaw"].keys[0] > 0.4
 
 
 def test_with_both_sides_alike_the_other_hand_mirrors_the_drag(stage: PosingStage) -> None:
-    stage.desk.is_mirrored = True
+    stage.controller.is_mirrored = True
 
     drag(stage, "L_wrist", (0.05, 0.02, 0.12))
 
@@ -88,4 +88,4 @@ def test_with_both_sides_alike_the_other_hand_mirrors_the_drag(stage: PosingStag
 def test_a_drag_without_a_press_does_nothing(stage: PosingStage) -> None:
     stage.view.limb_dragged.emit(ROBOT, "L_wrist", (0.2, 0.2, 0.4))
 
-    assert stage.desk.motion.joints == {}
+    assert stage.controller.motion.joints == {}

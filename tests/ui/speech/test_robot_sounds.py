@@ -45,7 +45,7 @@ def sounds(qapp: QObject, heard: Path) -> Iterator[RobotSounds]:
     owner = QObject()
     made = RobotSounds(owner)
     yield made
-    made.hush()
+    made.stop_speaking()
     owner.deleteLater()
 
 
@@ -87,7 +87,7 @@ def test_two_robots_are_heard_at_once_and_hushed_together(
         sounds.hear_state(state(str(file), robot))
     playing = sounds.playing
 
-    sounds.hush()
+    sounds.stop_speaking()
 
     assert playing == ["NAO", "Pepper"]
     assert sounds.playing == []

@@ -90,7 +90,7 @@ def voice(ears: Ears, owner: QObject) -> Iterator[ChildVoice]:
 def voices(ears: Ears, owner: QObject) -> Iterator[RobotVoices]:
     made = RobotVoices(find_voice, owner)
     yield made
-    made.hush()
+    made.stop_speaking()
 
 
 def state(saying: str, robot: str = "NAO", **settings: bool | float | str) -> m.RobotState:
@@ -138,7 +138,7 @@ def test_a_computer_without_a_voice_is_silent(owner: QObject) -> None:
     voices = RobotVoices(lambda parent: None, owner)
 
     voices.hear_state(state("Hello"))
-    voices.hush()
+    voices.stop_speaking()
 
     assert voices.speaking == []
     assert find_system_voice("linux", lambda name: None) is None
@@ -239,7 +239,7 @@ def runner(owner: QObject, tmp_path: Path) -> Iterator[Runner]:
 def sound(ears: Ears, runner: Runner, tmp_path: Path) -> Iterator[Sound]:
     made = Sound(runner, Settings(tmp_path / "home"), runner)
     yield made
-    made.voices.hush()
+    made.voices.stop_speaking()
 
 
 @pytest.fixture

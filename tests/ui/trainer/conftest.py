@@ -10,17 +10,17 @@ import pytest
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QApplication, QSplitter, QWidget
 from pytestqt.qtbot import QtBot
+from tests.ui.trainer.results_controller import OpenProject
 
 from nep_core.wire.messages import Imu
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.messages import Messages
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage
 from nep_studio.ui.plugins.gestures.results.training import Training
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard, Tap
 from nep_studio.ui.theme.look import Look
-from tests.ui.trainer.results_desk import OpenProject
 from tests.ui.window.conftest import answer, chooser, home, studio, window
 
 __all__ = ["answer", "chooser", "home", "studio", "window"]
@@ -58,24 +58,24 @@ def look(qapp: QApplication) -> Iterator[Look]:
 
 
 @pytest.fixture
-def desk(look: Look, clock: Clock, qtbot: QtBot) -> Iterator[TrainerDesk]:
+def desk(look: Look, clock: Clock, qtbot: QtBot) -> Iterator[GestureController]:
     """A desk over a project of its own, without the whole window around it."""
     owner = QWidget()
     qtbot.addWidget(owner)
-    made = TrainerDesk(OpenProject(), Silence(owner), Messages(owner), look, owner, now=clock)
+    made = GestureController(OpenProject(), Silence(owner), Messages(owner), look, owner, now=clock)
     yield made
     made.deleteLater()
 
 
 @pytest.fixture
-def canvas(desk: TrainerDesk) -> Canvas:
+def canvas(desk: GestureController) -> Canvas:
     """The page of blocks, which the page of the trainer stands below."""
     return Canvas(desk.editor, desk.look.theme)
 
 
 @pytest.fixture
 def page(
-    desk: TrainerDesk,
+    desk: GestureController,
     canvas: Canvas,
     qtbot: QtBot,
     monkeypatch: pytest.MonkeyPatch,
@@ -105,7 +105,7 @@ Push = Callable[..., None]
 
 
 @pytest.fixture
-def push(desk: TrainerDesk, clock: Clock) -> Push:
+def push(desk: GestureController, clock: Clock) -> Push:
     """Lets the desk hear samples as the network would bring them, in batches of a tenth of a s."""
 
     def do(

@@ -14,7 +14,7 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.messages import Messages
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.theme.look import Look
 
 
@@ -42,9 +42,9 @@ def look(qapp: QApplication) -> Iterator[Look]:
 
 
 @pytest.fixture
-def desk(look: Look, qtbot: QtBot) -> Iterator[TrainerDesk]:
+def desk(look: Look, qtbot: QtBot) -> Iterator[GestureController]:
     owner = QWidget()
     qtbot.addWidget(owner)
-    made = TrainerDesk(OpenProject(), None, Messages(owner), look, owner)
+    made = GestureController(OpenProject(), None, Messages(owner), look, owner)
     yield made
     made.deleteLater()

@@ -16,7 +16,7 @@ from nep_studio.blocks.own_gestures import (
     keep_recogniser,
     keep_recording,
 )
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.plugins.gestures.packed_arrays import packed
 from nodes.perceptual.recognition.validation import CERTAINTIES
@@ -45,7 +45,7 @@ def spans_of(recording: Recording) -> list[tuple[str, float, float]]:
 
 
 def put_session(
-    desk: TrainerDesk, recording: Recording, key: str = "s1", *, has_rotation: bool = True
+    desk: GestureController, recording: Recording, key: str = "s1", *, has_rotation: bool = True
 ) -> None:
     """Let the project have a recorded session, with a take for each label."""
     measured = Samples(recording.t, recording.acc, recording.gyr if has_rotation else None)
@@ -67,7 +67,7 @@ def put_session(
     desk.change("record takes", edits)
 
 
-def put_gestures(desk: TrainerDesk, report: dict[str, Any], titles: dict[str, str]) -> None:
+def put_gestures(desk: GestureController, report: dict[str, Any], titles: dict[str, str]) -> None:
     """Let the project have gestures without recordings, and a recogniser with this report."""
     edits = [
         keep_gesture(name, OwnGesture(title, number, takes=takes_of(name, 10)))

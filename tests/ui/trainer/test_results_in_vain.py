@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
+from tests.ui.trainer.results_controller import desk, look
 
 from nep_studio.blocks.own_gestures import keep_gesture
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
-from tests.ui.trainer.results_desk import desk, look
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from tests.ui.trainer.test_results_training import LEARNS, MakeTraining, make_training, recorded
 
 __all__ = ["desk", "look", "make_training", "recorded"]
 
 
 def test_a_step_that_is_undone_while_it_trains_can_be_redone(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot
 ) -> None:
     training = make_training("    pass\n")
     karate = recorded.gestures["karate"]
@@ -31,7 +31,7 @@ def test_a_step_that_is_undone_while_it_trains_can_be_redone(
 
 
 def test_what_is_too_large_for_the_project_is_not_told_as_learned(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot
 ) -> None:
     training = make_training(LEARNS.replace('b"a model"', "bytes(7_000_000)"))
 

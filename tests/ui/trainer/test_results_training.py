@@ -11,16 +11,16 @@ import msgspec
 import pytest
 from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
+from tests.ui.trainer.results_controller import desk, look
 
 from faults import Fault, Text
 from nep_studio.blocks.own_gestures import keep_gesture, own_recogniser
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.results.findings import findings_of
 from nep_studio.ui.plugins.gestures.results.training import Training, TrainingFolder
 from nep_studio.ui.plugins.gestures.results.worker import Done, Failed, Progress, Ready, read_line
 from nodes.perceptual.recognition.streams import UNKNOWN
 from nodes.recordings import read_recordings
-from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import put_session, report, session, spans_of
 
 __all__ = ["desk", "look"]
@@ -41,7 +41,7 @@ MakeTraining = Callable[..., Training]
 
 
 @pytest.fixture
-def make_training(desk: TrainerDesk) -> Iterator[MakeTraining]:
+def make_training(desk: GestureController) -> Iterator[MakeTraining]:
     made: list[Training] = []
 
     def make(what_it_does: str = LEARNS) -> Training:
@@ -56,14 +56,14 @@ def make_training(desk: TrainerDesk) -> Iterator[MakeTraining]:
 
 
 @pytest.fixture
-def recorded(desk: TrainerDesk) -> TrainerDesk:
+def recorded(desk: GestureController) -> GestureController:
     """The desk of a project in which karate was recorded three times."""
     put_session(desk, session(["karate"], 3))
     return desk
 
 
 def test_the_real_process_learns_two_gestures_and_the_project_keeps_them(
-    desk: TrainerDesk, qtbot: QtBot
+    desk: GestureController, qtbot: QtBot
 ) -> None:
     put_session(desk, session(["karate", "katana"], 3), has_rotation=False)
     training = Training(desk)
@@ -84,7 +84,7 @@ def test_the_real_process_learns_two_gestures_and_the_project_keeps_them(
 
 
 def test_what_was_learned_is_one_step_and_stale_after_a_change(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot
 ) -> None:
     training = make_training()
 
@@ -103,7 +103,7 @@ def test_what_was_learned_is_one_step_and_stale_after_a_change(
 
 
 def test_a_cancelled_training_keeps_nothing_and_a_new_process_gets_warm(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot
 ) -> None:
     training = make_training("    print('{\"progress\": 0.4}', flush=True)\n")
     training.train()
@@ -132,7 +132,7 @@ def test_a_cancelled_training_keeps_nothing_and_a_new_process_gets_warm(
     ids=["crash", "memory", "killed", "told", "no file"],
 )
 def test_a_training_that_does_not_go_says_why_and_can_be_tried_again(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot, does: str, says: str
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot, does: str, says: str
 ) -> None:
     training = make_training(does)
 
@@ -145,7 +145,7 @@ def test_a_training_that_does_not_go_says_why_and_can_be_tried_again(
     assert not training.why_not
 
 
-def test_a_program_that_is_not_there_is_told(recorded: TrainerDesk, qtbot: QtBot) -> None:
+def test_a_program_that_is_not_there_is_told(recorded: GestureController, qtbot: QtBot) -> None:
     training = Training(recorded, command=lambda: ["/no/such/program"])
 
     training.train()
@@ -155,7 +155,7 @@ def test_a_program_that_is_not_there_is_told(recorded: TrainerDesk, qtbot: QtBot
 
 
 def test_a_process_that_ends_while_it_waits_is_started_again_by_the_next_training(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot
 ) -> None:
     training = make_training(LEARNS)
     training.warm()
@@ -169,7 +169,7 @@ def test_a_process_that_ends_while_it_waits_is_started_again_by_the_next_trainin
 
 
 def test_a_full_disk_is_told(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot, monkeypatch
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot, monkeypatch
 ) -> None:
     def no_room(path: Path, recording: object) -> None:
         raise OSError(28, "No space left on device")
@@ -184,7 +184,7 @@ def test_a_full_disk_is_told(
 
 
 def test_it_trains_by_itself_after_a_change_but_not_after_undo(
-    recorded: TrainerDesk, make_training: MakeTraining, qtbot: QtBot
+    recorded: GestureController, make_training: MakeTraining, qtbot: QtBot
 ) -> None:
     training = make_training()
     training._soon.setInterval(0)
@@ -200,7 +200,7 @@ def test_it_trains_by_itself_after_a_change_but_not_after_undo(
 
 
 def test_what_takes_long_is_not_done_by_itself(
-    recorded: TrainerDesk, make_training: MakeTraining
+    recorded: GestureController, make_training: MakeTraining
 ) -> None:
     training = make_training()
     training.seconds = 10.0
@@ -212,7 +212,7 @@ def test_what_takes_long_is_not_done_by_itself(
 
 
 def test_another_project_gets_nothing_of_a_training(
-    recorded: TrainerDesk, make_training: MakeTraining
+    recorded: GestureController, make_training: MakeTraining
 ) -> None:
     training = make_training("    pass\n")
     training.train()
@@ -224,7 +224,7 @@ def test_another_project_gets_nothing_of_a_training(
 
 
 def test_an_empty_project_says_what_is_missing(
-    desk: TrainerDesk, make_training: MakeTraining
+    desk: GestureController, make_training: MakeTraining
 ) -> None:
     training = make_training()
 
@@ -234,7 +234,7 @@ def test_an_empty_project_says_what_is_missing(
     assert "Add a gesture" in training.why_not
 
 
-def test_the_folder_marks_takes_and_what_is_unknown(recorded: TrainerDesk) -> None:
+def test_the_folder_marks_takes_and_what_is_unknown(recorded: GestureController) -> None:
     gesture, recording = recorded.gestures["karate"], recorded.recordings["s1"]
     takes = (replace(gesture.takes[0], left_out=True), *gesture.takes[1:])
     folder = TrainingFolder()
@@ -258,7 +258,7 @@ def test_the_folder_marks_takes_and_what_is_unknown(recorded: TrainerDesk) -> No
     assert not folder.path.exists()
 
 
-def test_only_what_is_different_is_written_again(recorded: TrainerDesk) -> None:
+def test_only_what_is_different_is_written_again(recorded: GestureController) -> None:
     folder = TrainingFolder()
     first = {"s1": recorded.recordings["s1"], "s2": recorded.recordings["s1"]}
     list(folder.update(recorded.gestures, first))

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
+from tests.ui.trainer.results_controller import desk, look
 
 from nep_core.wire.messages import Imu
 from nep_studio.blocks.own_gestures import OwnGesture, keep_gesture, keep_recogniser
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.results.band import band_of, in_words
 from nep_studio.ui.plugins.gestures.results.certainties import LookedAt, Looks
 from nep_studio.ui.plugins.gestures.results.training import Training
@@ -20,7 +21,6 @@ from nep_studio.ui.plugins.gestures.results.try_out import TryOut
 from nep_studio.ui.running.tap import Heard
 from nodes.recordings import Recording
 from nodes.sensory.arm.people import perform
-from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import samples_of, spans_of
 from tests.ui.trainer.results_model import GESTURES, small_model, small_recogniser
 
@@ -30,7 +30,7 @@ Play = Callable[..., None]
 
 
 @pytest.fixture
-def trained(desk: TrainerDesk) -> TrainerDesk:
+def trained(desk: GestureController) -> GestureController:
     """The desk of a project that has learned two gestures."""
     edits = [
         keep_gesture(name, OwnGesture(name.capitalize(), at)) for at, name in enumerate(GESTURES)
@@ -40,7 +40,7 @@ def trained(desk: TrainerDesk) -> TrainerDesk:
 
 
 @pytest.fixture
-def play(desk: TrainerDesk) -> Play:
+def play(desk: GestureController) -> Play:
     """Lets the desk hear a recording, in batches of a tenth of a second."""
 
     def do(recording: Recording, begin_s: float = 0.0) -> None:
@@ -60,7 +60,9 @@ def play(desk: TrainerDesk) -> Play:
 
 
 @pytest.fixture
-def try_out(desk: TrainerDesk, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[TryOut]:
+def try_out(
+    desk: GestureController, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[TryOut]:
     """What flashes is not over before a busy computer has looked at it."""
     monkeypatch.setattr("nep_studio.ui.plugins.gestures.results.try_out.FLASH_MS", 60_000)
     training = Training(desk, command=lambda: ["/no/such/program"])
@@ -74,7 +76,7 @@ def try_out(desk: TrainerDesk, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.fixture
-def tried(trained: TrainerDesk, try_out: TryOut, play: Play, qtbot: QtBot) -> TryOut:
+def tried(trained: GestureController, try_out: TryOut, play: Play, qtbot: QtBot) -> TryOut:
     """Somebody has made the gesture karate."""
     qtbot.waitUntil(lambda: try_out.model is not None)
     with qtbot.waitSignal(try_out.recognised):
@@ -89,7 +91,7 @@ def test_nothing_trained_says_what_to_do(try_out: TryOut) -> None:
 
 
 def test_a_trained_project_waits_for_a_sensor(
-    trained: TrainerDesk, try_out: TryOut, qtbot: QtBot
+    trained: GestureController, try_out: TryOut, qtbot: QtBot
 ) -> None:
     qtbot.waitUntil(lambda: list(try_out.bars) == GESTURES)
 
@@ -107,7 +109,7 @@ def test_a_gesture_that_is_made_flashes_and_is_on_the_timeline(tried: TryOut) ->
 
 
 def test_a_mark_that_is_dragged_shows_its_effect_at_once_and_is_one_step(
-    tried: TryOut, trained: TrainerDesk, qtbot: QtBot
+    tried: TryOut, trained: GestureController, qtbot: QtBot
 ) -> None:
     bar, groove = tried.bars["karate"], tried.bars["karate"].groove()
     steps = trained.editor.history.steps
@@ -138,7 +140,7 @@ def test_a_mark_that_is_dragged_shows_its_effect_at_once_and_is_one_step(
 
 
 def test_keys_move_the_point_and_steps_that_follow_each_other_are_one(
-    tried: TryOut, trained: TrainerDesk, qtbot: QtBot
+    tried: TryOut, trained: GestureController, qtbot: QtBot
 ) -> None:
     bar = tried.bars["katana"]
     steps = trained.editor.history.steps
@@ -152,7 +154,7 @@ def test_keys_move_the_point_and_steps_that_follow_each_other_are_one(
 
 
 def test_what_was_missed_becomes_a_take_and_nothing_else_of_it_is_learned(
-    tried: TryOut, trained: TrainerDesk
+    tried: TryOut, trained: GestureController
 ) -> None:
     tried.corrections.fill_menu()
     [_, katana] = tried.corrections.menu.actions()
@@ -167,7 +169,7 @@ def test_what_was_missed_becomes_a_take_and_nothing_else_of_it_is_learned(
     assert trained.editor.history.undo_label == "add what was missed"
 
 
-def test_a_false_alarm_becomes_everyday_movement(tried: TryOut, trained: TrainerDesk) -> None:
+def test_a_false_alarm_becomes_everyday_movement(tried: TryOut, trained: GestureController) -> None:
     trigger = tried.looks.triggers[-1]
 
     tried.corrections.false_alarm.click()
@@ -178,7 +180,7 @@ def test_a_false_alarm_becomes_everyday_movement(tried: TryOut, trained: Trainer
 
 
 def test_a_new_recogniser_looks_at_the_last_half_minute_too(
-    tried: TryOut, trained: TrainerDesk, qtbot: QtBot
+    tried: TryOut, trained: GestureController, qtbot: QtBot
 ) -> None:
     before = tried.looks
 
@@ -193,7 +195,9 @@ def test_nobody_listens_while_nobody_looks(tried: TryOut) -> None:
     assert not tried.listening.is_listening
 
 
-def test_a_damaged_recogniser_is_told(trained: TrainerDesk, try_out: TryOut, qtbot: QtBot) -> None:
+def test_a_damaged_recogniser_is_told(
+    trained: GestureController, try_out: TryOut, qtbot: QtBot
+) -> None:
     from msgspec.structs import replace
 
     trained.change("train", [keep_recogniser(replace(small_recogniser(), file="bm9uZQ=="))])

@@ -9,9 +9,10 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QAccessible, QColor
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
+from tests.ui.trainer.results_controller import desk, look
 
 from faults import Fault, Text
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.results.confusion import ConfusionView
 from nep_studio.ui.plugins.gestures.results.labels import contrast, legible, mixed
 from nep_studio.ui.plugins.gestures.results.training import Training, worker_ended
@@ -19,7 +20,6 @@ from nep_studio.ui.plugins.gestures.results.view import ResultsView
 from nep_studio.ui.plugins.gestures.results.worker import Ended
 from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.words import use_language
-from tests.ui.trainer.results_desk import desk, look
 from tests.ui.trainer.results_material import put_gestures, report
 
 __all__ = ["desk", "look"]
@@ -40,7 +40,7 @@ REPORT = report(
 
 
 @pytest.fixture
-def view(desk: TrainerDesk, qtbot: QtBot) -> Iterator[ResultsView]:
+def view(desk: GestureController, qtbot: QtBot) -> Iterator[ResultsView]:
     training = Training(desk, command=lambda: ["/no/such/program"])
     training.trains_by_itself = False
     made = ResultsView(desk, training)
@@ -54,7 +54,7 @@ def view(desk: TrainerDesk, qtbot: QtBot) -> Iterator[ResultsView]:
 
 
 @pytest.fixture
-def shown(view: ResultsView, desk: TrainerDesk) -> ResultsView:
+def shown(view: ResultsView, desk: GestureController) -> ResultsView:
     """The results of two gestures, one of which is mistaken for the other."""
     put_gestures(desk, {"trees": REPORT, "gmr": {**REPORT, "confusion": []}}, NAMES)
     return view
@@ -141,7 +141,7 @@ def test_the_other_recogniser_has_its_own_table(shown: ResultsView) -> None:
 
 
 def test_dragging_on_the_curves_shows_both_sides_and_is_one_step(
-    shown: ResultsView, desk: TrainerDesk, qtbot: QtBot
+    shown: ResultsView, desk: GestureController, qtbot: QtBot
 ) -> None:
     curve, words = shown.points.curve, shown.points.sentence
     middle = round(curve.area().center().y())
@@ -166,7 +166,7 @@ def test_dragging_on_the_curves_shows_both_sides_and_is_one_step(
     assert desk.gestures["karate"].certainty == 0.75
 
 
-def test_a_point_that_is_not_dragged_stays(shown: ResultsView, desk: TrainerDesk) -> None:
+def test_a_point_that_is_not_dragged_stays(shown: ResultsView, desk: GestureController) -> None:
     steps = desk.editor.history.steps
 
     shown.points.choose("katana")
@@ -206,7 +206,9 @@ def test_a_remark_that_the_advice_tells_too_is_left_out_in_any_language(
     assert "Zu wenige Durchgänge." not in told
 
 
-def test_a_recogniser_without_a_report_shows_no_table(view: ResultsView, desk: TrainerDesk) -> None:
+def test_a_recogniser_without_a_report_shows_no_table(
+    view: ResultsView, desk: GestureController
+) -> None:
     put_gestures(desk, {}, NAMES)
 
     assert not view.found.isVisible()
@@ -227,7 +229,7 @@ def test_numbers_can_be_read_on_every_shade(theme: str, look) -> None:
 
 
 def test_twenty_gestures_in_every_look_and_from_the_right(
-    view: ResultsView, desk: TrainerDesk, look, qapp: QApplication
+    view: ResultsView, desk: GestureController, look, qapp: QApplication
 ) -> None:
     names = {f"g{at}": f"Donaudampfschifffahrt number {at}" for at in range(20)}
     pairs = [(name, name, 8) for name in names]

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject
 from faults import Fault, fault_of
 from nep_core.wire.messages import Imu, NodeState, described
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.running.tap import Heard
@@ -37,7 +37,7 @@ class AskedRunner(Runner):
 
 
 @pytest.fixture
-def asked(page: TrainerPage, desk: TrainerDesk, tmp_path: Path) -> AskedRunner:
+def asked(page: TrainerPage, desk: GestureController, tmp_path: Path) -> AskedRunner:
     """The simulated person rests, and is heard."""
     made = AskedRunner(desk.parent(), tmp_path / "logs")
     desk.runner.close()
@@ -82,7 +82,7 @@ def test_for_a_name_that_it_does_not_know_it_makes_a_movement_that_is_free(
 
 
 def test_what_it_does_between_the_gestures_is_no_take(
-    page: TrainerPage, desk: TrainerDesk, asked: AskedRunner
+    page: TrainerPage, desk: GestureController, asked: AskedRunner
 ) -> None:
     page.record(page.keeping.new_gesture("karate"))
     page.session.skip_countdown()

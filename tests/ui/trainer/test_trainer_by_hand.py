@@ -9,10 +9,10 @@ from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage
 from nep_studio.ui.plugins.gestures.samples import TAKES_MIME
-from tests.ui.trainer.test_trainer_desk import samples
+from tests.ui.trainer.test_gesture_controller import samples
 
 
 def with_takes(page: TrainerPage, title: str, count: int = 3) -> str:
@@ -32,7 +32,7 @@ def choose(menu: QMenu, words: str) -> None:
 
 
 def test_a_take_is_looked_at_trimmed_by_mouse_and_keys_and_played(
-    page: TrainerPage, desk: TrainerDesk, qtbot: QtBot
+    page: TrainerPage, desk: GestureController, qtbot: QtBot
 ) -> None:
     name = with_takes(page, "Wave")
     card, strip = page.cards.cards[name], page.strip
@@ -71,7 +71,7 @@ def test_a_take_is_looked_at_trimmed_by_mouse_and_keys_and_played(
 
 
 def test_takes_are_chosen_and_deleted_by_keys(
-    page: TrainerPage, desk: TrainerDesk, qtbot: QtBot
+    page: TrainerPage, desk: GestureController, qtbot: QtBot
 ) -> None:
     name = with_takes(page, "Wave")
     listed, ids = page.cards.cards[name].takes, [t.id for t in desk.gestures[name].takes]
@@ -88,7 +88,7 @@ def test_takes_are_chosen_and_deleted_by_keys(
     assert not desk.chosen_take
 
 
-def test_menus_leave_out_relabel_and_delete(page: TrainerPage, desk: TrainerDesk) -> None:
+def test_menus_leave_out_relabel_and_delete(page: TrainerPage, desk: GestureController) -> None:
     wave, blow = with_takes(page, "Wave"), with_takes(page, "Blow", 1)
     listed = page.cards.cards[wave].takes
     listed._go_to(0)
@@ -104,7 +104,9 @@ def test_menus_leave_out_relabel_and_delete(page: TrainerPage, desk: TrainerDesk
     assert list(page.cards.cards) == [blow]
 
 
-def test_takes_dropped_on_a_card_are_of_its_gesture(page: TrainerPage, desk: TrainerDesk) -> None:
+def test_takes_dropped_on_a_card_are_of_its_gesture(
+    page: TrainerPage, desk: GestureController
+) -> None:
     wave, blow = with_takes(page, "Wave"), with_takes(page, "Blow", 1)
     take, card = desk.gestures[wave].takes[0].id, page.cards.cards[blow]
     data = QMimeData()
@@ -123,7 +125,9 @@ def test_takes_dropped_on_a_card_are_of_its_gesture(page: TrainerPage, desk: Tra
     assert desk.find_take(take)[0] == blow
 
 
-def test_a_name_is_typed_on_the_card(page: TrainerPage, desk: TrainerDesk, qtbot: QtBot) -> None:
+def test_a_name_is_typed_on_the_card(
+    page: TrainerPage, desk: GestureController, qtbot: QtBot
+) -> None:
     name = with_takes(page, "Wave")
     title = page.cards.cards[name].title
 
@@ -162,7 +166,7 @@ def test_the_chip_is_dragged_onto_the_canvas_and_a_click_adds_the_block(
 
 
 def test_people_are_added_renamed_and_deleted(
-    page: TrainerPage, desk: TrainerDesk, qtbot: QtBot
+    page: TrainerPage, desk: GestureController, qtbot: QtBot
 ) -> None:
     with_takes(page, "Wave")
     wearer = page.bar.wearer

@@ -11,12 +11,12 @@ from nep_core.errors import RecordingError
 from nep_studio.ui.messages import Message
 from nep_studio.ui.plugins.gestures.exchange import add_imported, read_csv, write_csv
 from nep_studio.ui.plugins.gestures.exchange_mcap import read_mcap, write_mcap
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.menus import Exchange
 from nep_studio.ui.plugins.gestures.packed_arrays import unpacked
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
 from nodes.recordings import read_recordings
-from tests.ui.trainer.test_trainer_desk import samples
+from tests.ui.trainer.test_gesture_controller import samples
 
 
 class Told:
@@ -30,14 +30,14 @@ class Told:
 
 
 @pytest.fixture
-def told(desk: TrainerDesk) -> list[Message]:
+def told(desk: GestureController) -> list[Message]:
     place = Told()
     desk.messages.show_in(place)
     return place.messages
 
 
 @pytest.fixture
-def filled(desk: TrainerDesk) -> TrainerDesk:
+def filled(desk: GestureController) -> GestureController:
     """Two gestures of two people, a deleted and a left out take, and everyday movement."""
     keeping = Keeping(desk)
     wave, blow = keeping.new_gesture("Big wave"), keeping.new_gesture("Blow")
@@ -51,7 +51,7 @@ def filled(desk: TrainerDesk) -> TrainerDesk:
     return desk
 
 
-def takes_of(desk: TrainerDesk) -> dict[str, list[tuple[float, float, bool, str, str]]]:
+def takes_of(desk: GestureController) -> dict[str, list[tuple[float, float, bool, str, str]]]:
     """All that is known of the takes but their ids."""
     return {
         gesture.title: [
@@ -68,7 +68,7 @@ def takes_of(desk: TrainerDesk) -> dict[str, list[tuple[float, float, bool, str,
     }
 
 
-def emptied(desk: TrainerDesk) -> None:
+def emptied(desk: GestureController) -> None:
     for name in list(desk.gestures):
         Keeping(desk).delete_gesture(name)
     for key in list(desk.recordings):
@@ -77,7 +77,9 @@ def emptied(desk: TrainerDesk) -> None:
     assert not desk.recordings
 
 
-def test_mcap_brings_back_exactly_what_was_written(filled: TrainerDesk, tmp_path: Path) -> None:
+def test_mcap_brings_back_exactly_what_was_written(
+    filled: GestureController, tmp_path: Path
+) -> None:
     before, kept = takes_of(filled), sorted(map(repr, filled.recordings.values()))
     measured = [unpacked(one) for one in filled.recordings.values()]
     path = tmp_path / "mine.mcap"
@@ -98,7 +100,9 @@ def test_mcap_brings_back_exactly_what_was_written(filled: TrainerDesk, tmp_path
         assert np.allclose(other.gyr, one.gyr, atol=1e-6)
 
 
-def test_an_mcap_file_is_one_that_other_programs_read(filled: TrainerDesk, tmp_path: Path) -> None:
+def test_an_mcap_file_is_one_that_other_programs_read(
+    filled: GestureController, tmp_path: Path
+) -> None:
     from mcap.reader import make_reader
 
     path = tmp_path / "mine.mcap"
@@ -114,7 +118,7 @@ def test_an_mcap_file_is_one_that_other_programs_read(filled: TrainerDesk, tmp_p
 
 @pytest.mark.parametrize("share", [0.98, 0.6, 0.3])
 def test_a_cut_mcap_file_gives_what_is_there_or_a_sentence(
-    share: float, filled: TrainerDesk, tmp_path: Path, told: list[Message]
+    share: float, filled: GestureController, tmp_path: Path, told: list[Message]
 ) -> None:
     path = tmp_path / "mine.mcap"
     keeping = Keeping(filled)
@@ -136,7 +140,7 @@ def test_a_cut_mcap_file_gives_what_is_there_or_a_sentence(
     "data", [b"", b"hello", b"\x89MCAP0\r\n", b"\x89MCAP0\r\n" + b"\x01" * 500, b"\0" * 5000]
 )
 def test_what_is_no_mcap_file_is_told_in_a_sentence(
-    data: bytes, desk: TrainerDesk, tmp_path: Path, told: list[Message]
+    data: bytes, desk: GestureController, tmp_path: Path, told: list[Message]
 ) -> None:
     path = tmp_path / "bad.mcap"
     path.write_bytes(data)
@@ -149,7 +153,7 @@ def test_what_is_no_mcap_file_is_told_in_a_sentence(
 
 
 def test_csv_files_bring_takes_back_and_train_on_the_command_line(
-    filled: TrainerDesk, tmp_path: Path
+    filled: GestureController, tmp_path: Path
 ) -> None:
     before = takes_of(filled)
 
@@ -168,7 +172,9 @@ def test_csv_files_bring_takes_back_and_train_on_the_command_line(
     assert sum(len(one.forgotten) for one in filled.recordings.values()) == 2
 
 
-def test_a_known_gesture_gets_the_takes_of_a_file(filled: TrainerDesk, tmp_path: Path) -> None:
+def test_a_known_gesture_gets_the_takes_of_a_file(
+    filled: GestureController, tmp_path: Path
+) -> None:
     write_csv(tmp_path, filled.gestures, filled.recordings)
 
     Exchange(filled, None).import_from(tmp_path)
@@ -179,7 +185,7 @@ def test_a_known_gesture_gets_the_takes_of_a_file(filled: TrainerDesk, tmp_path:
 
 
 def test_real_csv_files_are_imported(
-    desk: TrainerDesk, shared_data: Path, told: list[Message]
+    desk: GestureController, shared_data: Path, told: list[Message]
 ) -> None:
     Exchange(desk, None).import_from(shared_data / "uhh_gestures" / "j_left.csv")
 
@@ -191,7 +197,7 @@ def test_real_csv_files_are_imported(
 
 @pytest.mark.parametrize("words", ["hello", "t,ax\n1,2\n", "t_s,ax,ay,az,gesture\n0,1,1,x,0\n"])
 def test_a_bad_csv_file_is_told_in_a_sentence(
-    words: str, desk: TrainerDesk, tmp_path: Path, told: list[Message]
+    words: str, desk: GestureController, tmp_path: Path, told: list[Message]
 ) -> None:
     path = tmp_path / "bad.csv"
     path.write_text(words, encoding="utf-8")
@@ -204,7 +210,7 @@ def test_a_bad_csv_file_is_told_in_a_sentence(
 
 
 def test_a_place_that_cannot_be_written_is_told(
-    filled: TrainerDesk, tmp_path: Path, told: list[Message]
+    filled: GestureController, tmp_path: Path, told: list[Message]
 ) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
 
@@ -216,7 +222,7 @@ def test_a_place_that_cannot_be_written_is_told(
 
 
 def test_a_huge_mcap_file_is_refused(
-    tmp_path: Path, desk: TrainerDesk, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, desk: GestureController, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("nep_studio.ui.plugins.gestures.exchange_mcap.LARGEST_BYTES", 10)
     path = tmp_path / "huge.mcap"

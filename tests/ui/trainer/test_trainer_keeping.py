@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
 from nep_studio.ui.plugins.gestures.samples import Badges
-from tests.ui.trainer.test_trainer_desk import samples
+from tests.ui.trainer.test_gesture_controller import samples
 from tests.ui.trainer.trainer_data import stroke
 
 
 @pytest.fixture
-def keeping(desk: TrainerDesk) -> Keeping:
+def keeping(desk: GestureController) -> Keeping:
     return Keeping(desk)
 
 
@@ -23,7 +23,7 @@ def keep(keeping: Keeping, name: str, *spans: tuple[float, float]) -> list[str]:
     return keeping.keep_session(name, samples(8.0), spans)
 
 
-def undone(desk: TrainerDesk) -> str:
+def undone(desk: GestureController) -> str:
     """Take the last step back; gives its name."""
     label = desk.editor.history.undo_label
     desk.editor.history.undo()
@@ -31,7 +31,7 @@ def undone(desk: TrainerDesk) -> str:
     return label
 
 
-def test_a_gesture_is_made_renamed_and_deleted(desk: TrainerDesk, keeping: Keeping) -> None:
+def test_a_gesture_is_made_renamed_and_deleted(desk: GestureController, keeping: Keeping) -> None:
     name = keeping.new_gesture(" Karate ")
     again = keeping.new_gesture("Karate")
     keeping.rename_gesture(name, "Blow")
@@ -50,7 +50,7 @@ def test_a_gesture_is_made_renamed_and_deleted(desk: TrainerDesk, keeping: Keepi
 
 
 def test_a_deleted_take_is_forgotten_not_learned_as_nothing(
-    desk: TrainerDesk, keeping: Keeping
+    desk: GestureController, keeping: Keeping
 ) -> None:
     name = keeping.new_gesture("Wave")
     first, second = keep(keeping, name, (1, 2), (4, 5))
@@ -67,7 +67,7 @@ def test_a_deleted_take_is_forgotten_not_learned_as_nothing(
     assert not next(iter(desk.recordings.values())).forgotten
 
 
-def test_a_take_is_given_to_another_gesture(desk: TrainerDesk, keeping: Keeping) -> None:
+def test_a_take_is_given_to_another_gesture(desk: GestureController, keeping: Keeping) -> None:
     wave, blow = keeping.new_gesture("Wave"), keeping.new_gesture("Blow")
     ids = keep(keeping, wave, (1, 2), (4, 5))
 
@@ -82,7 +82,7 @@ def test_a_take_is_given_to_another_gesture(desk: TrainerDesk, keeping: Keeping)
 
 
 def test_a_take_is_left_out_trimmed_and_both_can_be_undone(
-    desk: TrainerDesk, keeping: Keeping
+    desk: GestureController, keeping: Keeping
 ) -> None:
     name = keeping.new_gesture("Wave")
     (take,) = keep(keeping, name, (1, 2))
@@ -99,7 +99,7 @@ def test_a_take_is_left_out_trimmed_and_both_can_be_undone(
 
 
 def test_a_take_is_never_trimmed_into_the_one_beside_it(
-    desk: TrainerDesk, keeping: Keeping
+    desk: GestureController, keeping: Keeping
 ) -> None:
     name = keeping.new_gesture("Wave")
     first, second, third = keep(keeping, name, (1, 2), (3, 4), (5, 6))
@@ -114,7 +114,7 @@ def test_a_take_is_never_trimmed_into_the_one_beside_it(
 
 
 def test_people_are_renamed_and_deleted_with_what_they_recorded(
-    desk: TrainerDesk, keeping: Keeping
+    desk: GestureController, keeping: Keeping
 ) -> None:
     name = keeping.new_gesture("Wave")
     desk.set_wearer("Ana", "left")
@@ -134,7 +134,7 @@ def test_people_are_renamed_and_deleted_with_what_they_recorded(
     assert {one.wrist for one in desk.recordings.values()} == {"left"}
 
 
-def test_remarkable_takes_have_a_badge(desk: TrainerDesk, keeping: Keeping) -> None:
+def test_remarkable_takes_have_a_badge(desk: GestureController, keeping: Keeping) -> None:
     name = keeping.new_gesture("Wave")
     usual, weak = stroke(0.8), stroke(0.8, strength=1.0)
     parts = [*[usual] * 4, weak]

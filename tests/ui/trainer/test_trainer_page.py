@@ -9,15 +9,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage, hint_words, next_step, shape_for
+from tests.ui.trainer.test_gesture_controller import samples
 from tests.ui.trainer.test_trainer_by_hand import choose, with_takes
-from tests.ui.trainer.test_trainer_desk import samples
 from tests.ui.trainer.trainer_data import rest, takes
 
 
 def test_from_the_name_to_five_takes_with_keys_alone(
-    page: TrainerPage, desk: TrainerDesk, push, qtbot: QtBot
+    page: TrainerPage, desk: GestureController, push, qtbot: QtBot
 ) -> None:
     assert next_step(desk) == ("connect", "")
     push(*rest(2.0))
@@ -61,7 +61,7 @@ def test_the_connect_button_asks_for_a_watch(page: TrainerPage, qtbot: QtBot) ->
 
 
 def test_everyday_movement_is_recorded_from_its_menu(
-    page: TrainerPage, desk: TrainerDesk, push
+    page: TrainerPage, desk: GestureController, push
 ) -> None:
     push(*rest(1.0))
 
@@ -75,7 +75,7 @@ def test_everyday_movement_is_recorded_from_its_menu(
     assert [one.everyday for one in desk.recordings.values()] == [True]
 
 
-def test_what_the_results_ask_for_is_done(page: TrainerPage, desk: TrainerDesk, push) -> None:
+def test_what_the_results_ask_for_is_done(page: TrainerPage, desk: GestureController, push) -> None:
     name = with_takes(page, "Wave")
     take = desk.gestures[name].takes[1].id
 
@@ -123,7 +123,7 @@ def test_the_page_can_be_made_narrow_and_wide(page: TrainerPage, qtbot: QtBot) -
 
 
 def test_forty_gestures_with_twenty_takes_are_shown_at_once(
-    page: TrainerPage, desk: TrainerDesk, qtbot: QtBot
+    page: TrainerPage, desk: GestureController, qtbot: QtBot
 ) -> None:
     spans = [(0.5 + at, 1.2 + at) for at in range(20)]
     with desk.editor.transaction("many"):
@@ -139,7 +139,7 @@ def test_forty_gestures_with_twenty_takes_are_shown_at_once(
 
 
 def test_a_recording_ends_with_its_project_and_says_when_its_gesture_is_gone(
-    page: TrainerPage, desk: TrainerDesk, push
+    page: TrainerPage, desk: GestureController, push
 ) -> None:
     name = page.keeping.new_gesture("Wave")
     push(*rest(2.0))
@@ -176,7 +176,7 @@ def test_the_menu_with_more_imports_exports_and_beeps(page: TrainerPage) -> None
             self.asked.append("place")
 
     page.exchange.files = Asked()
-    page.desk.files.document.folder, page.desk.files.document.title = "", "Mine"
+    page.controller.files.document.folder, page.controller.files.document.title = "", "Mine"
     page.exchange._folder = lambda: Path()
     assert [is_possible for *_, is_possible in page.exchange.entries()] == [
         True,

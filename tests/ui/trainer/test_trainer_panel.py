@@ -36,7 +36,7 @@ def test_the_panel_is_made_when_it_is_shown_and_follows_the_project(
 
     page = panel.page
     assert page is not None
-    assert next_step(page.desk)[0] == "connect"
+    assert next_step(page.controller)[0] == "connect"
     page.keeping.new_gesture("Wave")
     page.cards.refresh()
     page.cards.cards["wave"].chip.add_block()
@@ -45,10 +45,10 @@ def test_the_panel_is_made_when_it_is_shown_and_follows_the_project(
     assert window.files.document.editor.history.steps == 2
 
     window.files.document.editor.history.drop(0)
-    with qtbot.waitSignal(page.desk.changed):
+    with qtbot.waitSignal(page.controller.changed):
         window.files.close()
     page.cards.refresh()
-    assert next_step(page.desk) == ("project", "")
+    assert next_step(page.controller) == ("project", "")
     assert not page.cards.new_button.isEnabled()
     assert not page.bar.everyday.isEnabled()
 
@@ -58,7 +58,7 @@ def test_in_another_language_the_panel_goes_on_with_what_was_heard(
 ) -> None:
     window.files.new()
     window.workbench.panels.show(panel)
-    desk = panel.page.desk
+    desk = panel.page.controller
     panel.page.keeping.new_gesture("Wave")
     message = Imu(source="watch", rate_hz=50, t=[0.0, 0.02], acc=[(0, 0, 9.8)] * 2)
 
@@ -68,7 +68,7 @@ def test_in_another_language_the_panel_goes_on_with_what_was_heard(
     desk.hear([Heard(0.0, message, "node")])
 
     assert made is not panel
-    assert made.page.desk is desk
+    assert made.page.controller is desk
     assert list(made.page.cards.cards) == ["wave"]
     assert made.page.strip.samples.t.size == 2
     made.page.grab()

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.plugins.gestures.gesture_controller import SILENT_S, TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import SILENT_S, GestureController
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
 from nep_studio.ui.plugins.gestures.recording import (
     COUNT_MS,
-    Session,
+    RecordingSession,
     TakeSession,
     keep_session,
     session_words,
@@ -20,21 +20,21 @@ from tests.ui.trainer.trainer_data import joined, real, rest, stroke, takes
 
 
 @pytest.fixture
-def keeping(desk: TrainerDesk) -> Keeping:
+def keeping(desk: GestureController) -> Keeping:
     return Keeping(desk)
 
 
 @pytest.fixture
-def session(desk: TrainerDesk) -> TakeSession:
+def session(desk: GestureController) -> TakeSession:
     return TakeSession(desk, desk)
 
 
 @pytest.fixture
-def ended(session: TakeSession, keeping: Keeping) -> list[Session]:
+def ended(session: TakeSession, keeping: Keeping) -> list[RecordingSession]:
     """The sessions that ended; each is kept as the page keeps it."""
-    found: list[Session] = []
+    found: list[RecordingSession] = []
 
-    def keep(one: Session) -> None:
+    def keep(one: RecordingSession) -> None:
         found.append(one)
         keep_session(keeping, one)
 
@@ -52,7 +52,11 @@ def begin(session: TakeSession, keeping: Keeping, push, wanted: int = 5) -> str:
 
 
 def test_five_takes_in_a_row_are_found_counted_and_kept_as_one_step(
-    session: TakeSession, keeping: Keeping, ended: list[Session], push, desk: TrainerDesk
+    session: TakeSession,
+    keeping: Keeping,
+    ended: list[RecordingSession],
+    push,
+    desk: GestureController,
 ) -> None:
     name = begin(session, keeping, push)
     counts: list[int] = []
@@ -76,7 +80,7 @@ def test_five_takes_in_a_row_are_found_counted_and_kept_as_one_step(
 
 
 def test_the_countdown_goes_from_three_and_can_be_called_off(
-    session: TakeSession, keeping: Keeping, push, qtbot: QtBot, ended: list[Session]
+    session: TakeSession, keeping: Keeping, push, qtbot: QtBot, ended: list[RecordingSession]
 ) -> None:
     name = keeping.new_gesture("Wave")
     push(*rest(1.0))
@@ -103,7 +107,11 @@ def test_without_a_sensor_nothing_is_recorded(session: TakeSession, keeping: Kee
 
 
 def test_a_weak_take_is_shown_with_its_reason_and_does_not_count(
-    session: TakeSession, keeping: Keeping, ended: list[Session], push, desk: TrainerDesk
+    session: TakeSession,
+    keeping: Keeping,
+    ended: list[RecordingSession],
+    push,
+    desk: GestureController,
 ) -> None:
     name = begin(session, keeping, push, wanted=4)
 
@@ -117,7 +125,11 @@ def test_a_weak_take_is_shown_with_its_reason_and_does_not_count(
 
 
 def test_a_person_stops_and_what_is_there_is_kept_without_reaching_for_the_key(
-    session: TakeSession, keeping: Keeping, ended: list[Session], push, desk: TrainerDesk
+    session: TakeSession,
+    keeping: Keeping,
+    ended: list[RecordingSession],
+    push,
+    desk: GestureController,
 ) -> None:
     name = begin(session, keeping, push)
 
@@ -131,11 +143,11 @@ def test_a_person_stops_and_what_is_there_is_kept_without_reaching_for_the_key(
 def test_nothing_is_lost_when_the_watch_falls_silent(
     session: TakeSession,
     keeping: Keeping,
-    ended: list[Session],
+    ended: list[RecordingSession],
     push,
     clock,
     qtbot: QtBot,
-    desk: TrainerDesk,
+    desk: GestureController,
 ) -> None:
     name = begin(session, keeping, push)
     push(*takes(3))
@@ -149,7 +161,11 @@ def test_nothing_is_lost_when_the_watch_falls_silent(
 
 
 def test_a_recording_without_takes_leaves_nothing_and_says_what_to_do(
-    session: TakeSession, keeping: Keeping, ended: list[Session], push, desk: TrainerDesk
+    session: TakeSession,
+    keeping: Keeping,
+    ended: list[RecordingSession],
+    push,
+    desk: GestureController,
 ) -> None:
     begin(session, keeping, push)
 
@@ -161,7 +177,11 @@ def test_a_recording_without_takes_leaves_nothing_and_says_what_to_do(
 
 
 def test_who_begins_a_moment_early_is_recorded_whole(
-    session: TakeSession, keeping: Keeping, ended: list[Session], push, desk: TrainerDesk
+    session: TakeSession,
+    keeping: Keeping,
+    ended: list[RecordingSession],
+    push,
+    desk: GestureController,
 ) -> None:
     name = keeping.new_gesture("Wave")
     push(*rest(2.0))
@@ -183,8 +203,8 @@ def test_real_people_record_five_takes_in_a_row(
     session: TakeSession,
     keeping: Keeping,
     push,
-    desk: TrainerDesk,
-    ended: list[Session],
+    desk: GestureController,
+    ended: list[RecordingSession],
 ) -> None:
     acc, gyr, rate_hz = real(shared_data, name)
     gesture = keeping.new_gesture("Mine")
@@ -200,7 +220,7 @@ def test_real_people_record_five_takes_in_a_row(
 
 
 def test_everyday_movement_ends_by_itself_and_is_kept(
-    session: TakeSession, keeping: Keeping, push, desk: TrainerDesk
+    session: TakeSession, keeping: Keeping, push, desk: GestureController
 ) -> None:
     push(*rest(1.0))
     session.everyday_ended.connect(keeping.keep_everyday)
@@ -220,7 +240,11 @@ def test_everyday_movement_ends_by_itself_and_is_kept(
 
 
 def test_a_cancelled_recording_keeps_nothing(
-    session: TakeSession, keeping: Keeping, push, desk: TrainerDesk, ended: list[Session]
+    session: TakeSession,
+    keeping: Keeping,
+    push,
+    desk: GestureController,
+    ended: list[RecordingSession],
 ) -> None:
     begin(session, keeping, push)
     push(*takes(2))

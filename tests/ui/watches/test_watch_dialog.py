@@ -8,8 +8,8 @@ from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.plugins.watches.choosing import offers
-from nep_studio.ui.plugins.watches.connectors import WAYS
-from nodes.sensory.connectors import WAYS as WAYS_OF_THE_NODE
+from nep_studio.ui.plugins.watches.connectors import CONNECTORS
+from nodes.sensory.connectors import CONNECTORS as WAYS_OF_THE_NODE
 from nodes.sensory.phone_page.server import page_urls
 from tests.ui.watches.watch_stage import (
     ADDRESS,
@@ -31,7 +31,7 @@ __all__ = ["open_dialog", "runner", "settles_at_once"]
 def test_it_asks_what_one_has_the_easiest_first(open_dialog: Open) -> None:
     dialog = open_dialog()
 
-    ways = [one.way for one in offers()]
+    ways = [one.connector for one in offers()]
 
     assert ways == list(dialog.choosing.cards)
     assert ways[:2] == ["phone_page", "sensor_logger"]
@@ -42,12 +42,12 @@ def test_it_asks_what_one_has_the_easiest_first(open_dialog: Open) -> None:
 
 def test_every_way_of_the_node_can_be_reached_and_has_its_usual_port() -> None:
     for name, kind in WAYS_OF_THE_NODE.items():
-        assert name in WAYS
-        assert not WAYS[name].listens or WAYS[name].port == kind.port
-        assert WAYS[name].needs_address == (kind.needs_address and name != "bluetooth")
+        assert name in CONNECTORS
+        assert not CONNECTORS[name].listens or CONNECTORS[name].port == kind.port
+        assert CONNECTORS[name].needs_address == (kind.needs_address and name != "bluetooth")
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("way", CONNECTORS)
 def test_the_steps_of_every_way_fit_in_plain_words(
     way: str, open_dialog: Open, qtbot: QtBot
 ) -> None:
@@ -58,7 +58,7 @@ def test_the_steps_of_every_way_fit_in_plain_words(
     steps = dialog.page.steps
     assert 1 <= len(steps.words) <= 4
     assert all(label.text() for label in steps.words)
-    if WAYS[way].listens:
+    if CONNECTORS[way].listens:
         copied = "".join(line.text.text() for line in steps.copy_lines if line is not None)
         assert ADDRESS in copied
 

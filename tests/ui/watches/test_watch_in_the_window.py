@@ -64,7 +64,7 @@ def test_a_watch_is_connected_moved_and_used_and_run_takes_it_over(
     runner = karate.running.runner
 
     qtbot.waitUntil(lambda: dialog.page.live.dot.state == "moved")
-    qtbot.waitUntil(lambda: dialog.ear.flow.rate_hz > 20)
+    qtbot.waitUntil(lambda: dialog.listener.flow.rate_hz > 20)
     qtbot.waitUntil(dialog.use_button.isEnabled)
     launched = runner.local.launcher.nodes["watch"]
     pid = launched.pid

@@ -105,7 +105,7 @@ def status(runner: Runner, qapp: QApplication, qtbot: QtBot) -> WatchStatus:
 
 
 def send(status: WatchStatus, node: str, message: Imu) -> None:
-    status.ear.hear([Heard(time.time(), message, node)])
+    status.listener.hear([Heard(time.time(), message, node)])
     status.refresh()
 
 
@@ -159,7 +159,7 @@ def test_a_watch_that_is_waited_for_is_named(status: WatchStatus, runner: Runner
 def test_a_watch_that_falls_silent_is_said_to_be(status: WatchStatus) -> None:
     send(status, "watch", batch(0))
 
-    status.ear.receiving.heard_s -= 3.0
+    status.listener.receiving.heard_s -= 3.0
     status.refresh()
 
     assert status.state.sign == "silent"
@@ -171,5 +171,5 @@ def test_it_hears_only_while_it_is_shown(status: WatchStatus, runner: Runner) ->
 
     status.hide()
 
-    assert not math.isfinite(status.ear.silent_s)
+    assert not math.isfinite(status.listener.silent_s)
     assert all(tap._is_closed for tap in runner._taps)

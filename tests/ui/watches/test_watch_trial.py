@@ -102,7 +102,7 @@ def test_a_watch_that_ran_before_comes_back_when_another_is_not_used(
     runner.local.launcher.nodes["watch"] = LaunchedNode("watch", None, [])
     runner.tell("connected", pid=3)
     dialog = open_dialog(Plan("watch", before.parameters))
-    assert dialog.page.way.name == "tcp"  # what is used is shown at once
+    assert dialog.page.connector.name == "tcp"  # what is used is shown at once
     choose_other(dialog, "udp", qtbot)
     runner.tell("ready", pid=8)
     assert runner.started[-1].parameters["through"] == "udp"

@@ -106,7 +106,7 @@ def choose(dialog: WatchDialog, way: str, qtbot: QtBot) -> None:
 def send(dialog: WatchDialog, *, moves: bool) -> None:
     acc = [(0.0, 0.0, 9.8), (8.0 if moves else 0.1, 0.0, 9.8)]
     message = Imu(source="192.168.1.7", rate_hz=50.0, t=[1.0, 1.02], acc=acc)
-    dialog.ear.hear([Heard(time.time(), message, "watch")])
+    dialog.listener.hear([Heard(time.time(), message, "watch")])
     dialog._update()
 
 

@@ -21,10 +21,10 @@ def gradual(studio: Studio, qtbot: QtBot) -> Iterator[MainWindow]:
     made = MainWindow(studio, is_gradual=True)
     qtbot.addWidget(made)
     yield made
-    made.later.stop()
+    made.lazy.stop()
     if made.services.made_running is not None:
         made.running.close()
-    if made.later.made_workbench is not None:
+    if made.lazy.made_workbench is not None:
         made.workbench.retire()
     if made.files.document is not None:
         made.files.document.close()
@@ -35,7 +35,7 @@ def test_the_first_page_needs_no_workbench(gradual: MainWindow) -> None:
     shown = gradual.pages.currentWidget()
 
     assert shown is gradual.start_page
-    assert gradual.later.made_workbench is None
+    assert gradual.lazy.made_workbench is None
     assert gradual.services.made_running is None
 
 
@@ -45,7 +45,7 @@ def test_the_rest_comes_by_itself_once_the_window_is_painted(
     gradual.show()
     gradual.start(None)
 
-    qtbot.waitUntil(lambda: gradual.later.is_done, timeout=30_000)
+    qtbot.waitUntil(lambda: gradual.lazy.is_done, timeout=30_000)
 
     assert gradual.pages.currentWidget() is gradual.start_page
     assert "palette" in gradual.actions_by_name.by_name
@@ -54,13 +54,13 @@ def test_the_rest_comes_by_itself_once_the_window_is_painted(
 
 def test_the_rest_is_there_once(gradual: MainWindow, qtbot: QtBot) -> None:
     told: list[bool] = []
-    gradual.later.completed.connect(lambda: told.append(True))
-    gradual.later.finish()
+    gradual.lazy.completed.connect(lambda: told.append(True))
+    gradual.lazy.finish()
 
     gradual.show()
     gradual.start(None)
     qtbot.waitExposed(gradual)
-    qtbot.waitUntil(lambda: not gradual.later.is_waiting)
+    qtbot.waitUntil(lambda: not gradual.lazy.is_waiting)
 
     assert told == [True]
     assert gradual.pages.count() == 2
@@ -96,11 +96,11 @@ def test_the_language_can_change_while_the_rest_is_made(gradual: MainWindow, ste
     gradual.show()
     gradual.start(None)
     for _ in range(steps):
-        gradual.later.step()
+        gradual.lazy.step()
 
     gradual.studio.choose_language("es")
 
-    assert gradual.later.is_done
+    assert gradual.lazy.is_done
     assert gradual.menus["file"].title() == "&Archivo"
     assert gradual.pages.count() == 2
 
@@ -112,7 +112,7 @@ def test_a_window_closed_before_the_rest_is_there_makes_no_more(gradual: MainWin
     gradual.close()
     gradual.update_actions()  # as the clipboard asks for it
 
-    assert gradual.later.made_workbench is None
+    assert gradual.lazy.made_workbench is None
 
 
 def test_a_step_that_fails_ends_the_steps(
@@ -121,9 +121,9 @@ def test_a_step_that_fails_ends_the_steps(
     monkeypatch.setitem(sys.modules, MODULES[0], None)  # as if it could not be imported
 
     with pytest.raises(ImportError):
-        gradual.later.finish()
+        gradual.lazy.finish()
 
-    assert not gradual.later.is_done
+    assert not gradual.lazy.is_done
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -137,7 +137,7 @@ def test_pictures_of_examples_wait_for_what_paints_blocks(
     gradual.show()
     gradual.start(None)
 
-    qtbot.waitUntil(lambda: gradual.later.is_done, timeout=30_000)
+    qtbot.waitUntil(lambda: gradual.lazy.is_done, timeout=30_000)
 
     cards = gradual.start_page.gallery.cards
     qtbot.waitUntil(lambda: all(card.is_painted() for card in cards.values()), timeout=30_000)

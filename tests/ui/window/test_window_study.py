@@ -18,7 +18,7 @@ from nep_studio.run.controller import Ended
 from nep_studio.run.session import Ending
 from nep_studio.study.records import Reply, Sitting, StudyFolder
 from nep_studio.study.sus import BROOKE
-from nep_studio.ui.plugins.help.help_controller import HelpDesk
+from nep_studio.ui.plugins.help.help_controller import HelpController
 from nep_studio.ui.plugins.study import StudySign
 from nep_studio.ui.plugins.study.form import QuestionnaireDialog
 from nep_studio.ui.plugins.study.results import ResultsDialog
@@ -152,7 +152,7 @@ def test_the_pages_of_the_help_that_are_read_are_kept(
 ) -> None:
     window.files.new()
     recorder.start(Sitting("P01"))
-    [desk] = window.findChildren(HelpDesk)
+    [desk] = window.findChildren(HelpController)
 
     desk.open(block_page("robot.say"))
     desk.open(block_page("robot.say"))

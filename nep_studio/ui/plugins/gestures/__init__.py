@@ -13,7 +13,7 @@ from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from .gesture_controller import TrainerDesk
+    from .gesture_controller import GestureController
     from .page import TrainerPage
 
 LEAST_SHARE = 0.55
@@ -61,32 +61,32 @@ def make(host: Host) -> Parts:
     return Parts(NewPanel(panel, tr("Gestures"), "hand", "bottom", least_share=LEAST_SHARE))
 
 
-def desk_of(host: Host) -> TrainerDesk:
-    """The one desk; what it heard stays when the panel is made anew."""
-    from .gesture_controller import TrainerDesk
+def desk_of(host: Host) -> GestureController:
+    """The one controller; what it heard stays when the panel is made anew."""
+    from .gesture_controller import GestureController
 
     services = host.services
 
-    def make_desk() -> TrainerDesk:
-        return TrainerDesk(
+    def make_desk() -> GestureController:
+        return GestureController(
             services.files, services.runner, services.messages, services.look, services.running
         )
 
-    return host.keep(TrainerDesk, make_desk)
+    return host.keep(GestureController, make_desk)
 
 
 def _page(host: Host) -> TrainerPage:
     from .page import TrainerPage
     from .results.training import Training
 
-    desk = desk_of(host)
+    controller = desk_of(host)
 
     def make_training() -> Training:
-        training = Training(desk, desk)
-        desk.runner.closing.connect(training.close)
+        training = Training(controller, controller)
+        controller.runner.closing.connect(training.close)
         return training
 
-    page = TrainerPage(desk, host.keep(Training, make_training), host.workbench.canvas)
+    page = TrainerPage(controller, host.keep(Training, make_training), host.workbench.canvas)
     page.connect_asked.connect(lambda: host.ask("watches.open"))
     return page
 

@@ -38,7 +38,7 @@ from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import count_words, tr
 from nep_studio.ui.workbench.placing import insert_clip
 
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .project_gestures import Keeping
 from .recording import TakeSession
 from .samples import TAKES_MIME, Badges, TakePictures, TakesList, takes_in
@@ -173,17 +173,17 @@ class GestureCard(QFrame):
     takes_dropped = Signal(list)
 
     def __init__(
-        self, name: str, desk: TrainerDesk, canvas: Canvas, pictures: TakePictures
+        self, name: str, controller: GestureController, canvas: Canvas, pictures: TakePictures
     ) -> None:
         super().__init__()
-        self.name, self._desk = name, desk
+        self.name, self._controller = name, controller
         self._is_current = self._is_target = self._is_recording = False
         self.title = QLineEdit()
         self.count = QLabel()
         self.record = QPushButton(tr("Record"))
         self.chip = GestureChip(canvas)
         self.menu = QToolButton()
-        self.takes = TakesList(desk, pictures)
+        self.takes = TakesList(controller, pictures)
         self.setProperty("kind", "card")
         self.setAcceptDrops(True)
         self._lay_out()
@@ -247,7 +247,7 @@ class GestureCard(QFrame):
 
     def dress(self) -> None:
         """Take the theme."""
-        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        theme, line = self._controller.look.theme, self.fontMetrics().height()
         name = "square" if self._is_recording else "circle-dot"
         self.record.setIcon(icon(name, theme.colour("stop")))
         self.record.setIconSize(icon_room(line))
@@ -262,7 +262,7 @@ class GestureCard(QFrame):
             with QPainter(self) as painter:
                 painter.setRenderHint(QPainter.RenderHint.Antialiasing)
                 colour = "focus" if self._is_target else "accent"
-                painter.setPen(QPen(self._desk.look.theme.colour(colour), 2))
+                painter.setPen(QPen(self._controller.look.theme.colour(colour), 2))
                 corner = self.fontMetrics().height() * 0.42
                 painter.drawRoundedRect(self.rect().adjusted(1, 1, -1, -1), corner, corner)
 
@@ -285,7 +285,7 @@ class GestureCard(QFrame):
         self.title.setModified(False)
         if text:
             self.renamed.emit(text)
-        gesture = self._desk.gestures.get(self.name)
+        gesture = self._controller.gestures.get(self.name)
         if gesture is not None:
             self._show_title(gesture.title)
 
@@ -323,12 +323,12 @@ class Cards(QScrollArea):
     current_changed = Signal(str)
 
     def __init__(
-        self, desk: TrainerDesk, keeping: Keeping, session: TakeSession, canvas: Canvas
+        self, controller: GestureController, keeping: Keeping, session: TakeSession, canvas: Canvas
     ) -> None:
         super().__init__()
-        self._desk, self._keeping, self._session = desk, keeping, session
+        self._controller, self._keeping, self._session = controller, keeping, session
         self._canvas = canvas
-        self._pictures, self._badges = TakePictures(desk), Badges(desk)
+        self._pictures, self._badges = TakePictures(controller), Badges(controller)
         self.cards: dict[str, GestureCard] = {}
         self.current = ""
         self.empty = QLabel()
@@ -337,9 +337,9 @@ class Cards(QScrollArea):
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.refresh)
         self._lay_out()
-        desk.changed.connect(self._on_changed)
+        controller.changed.connect(self._on_changed)
         session.changed.connect(self._show_states)
-        desk.look.theme_changed.connect(self._dress)
+        controller.look.theme_changed.connect(self._dress)
         self.new_button.clicked.connect(self.make_gesture)
         self.new_name.returnPressed.connect(self.make_gesture)
         self._dress()
@@ -383,7 +383,7 @@ class Cards(QScrollArea):
 
     def refresh(self) -> None:
         """Show the gestures as they are now; cards that stay are not made anew."""
-        gestures = self._desk.gestures
+        gestures = self._controller.gestures
         for name in [name for name in self.cards if name not in gestures]:
             card = self.cards.pop(name)
             self._box.removeWidget(card)
@@ -398,8 +398,8 @@ class Cards(QScrollArea):
             card.show_gesture(gesture, badges)
         self._box.update()
         self.cards = {name: self.cards[name] for name in gestures}
-        self.new_name.setEnabled(self._desk.editor is not None)
-        self.new_button.setEnabled(self._desk.editor is not None)
+        self.new_name.setEnabled(self._controller.editor is not None)
+        self.new_button.setEnabled(self._controller.editor is not None)
         self._show_empty()
         if self.current not in gestures:
             self.choose(next(iter(gestures), ""))
@@ -438,16 +438,16 @@ class Cards(QScrollArea):
             QTimer.singleShot(0, card, lambda: self.ensureWidgetVisible(card))
 
     def _show_empty(self) -> None:
-        self.empty.setVisible(not self._desk.gestures)
+        self.empty.setVisible(not self._controller.gestures)
         words = tr(
             "A gesture is a movement that your program waits for, such as a wave. "
             "Give it a name here, then make it five times: the program learns it."
         )
         no_project = tr("Gestures belong to a project. Open one, or make a new one.")
-        self.empty.setText(words if self._desk.editor is not None else no_project)
+        self.empty.setText(words if self._controller.editor is not None else no_project)
 
     def _make_card(self, name: str) -> GestureCard:
-        card = self.cards[name] = GestureCard(name, self._desk, self._canvas, self._pictures)
+        card = self.cards[name] = GestureCard(name, self._controller, self._canvas, self._pictures)
         card.renamed.connect(lambda title: self._keeping.rename_gesture(name, title))
         card.record_asked.connect(lambda: self.record_asked.emit(name))
         card.activated.connect(lambda: self.choose(name))
@@ -465,12 +465,12 @@ class Cards(QScrollArea):
             card.record.setEnabled(not self._session.is_on or is_recording)
 
     def _on_opened(self, take: str) -> None:
-        self._desk.choose_take("" if take == self._desk.chosen_take else take)
+        self._controller.choose_take("" if take == self._controller.chosen_take else take)
 
     def _on_changed(self) -> None:
         self._soon.start()
 
     def _dress(self) -> None:
-        self.new_button.setIcon(icon("plus", self._desk.look.theme))
+        self.new_button.setIcon(icon("plus", self._controller.look.theme))
         for card in self.cards.values():
             card.dress()

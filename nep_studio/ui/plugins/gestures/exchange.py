@@ -23,7 +23,7 @@ from nep_studio.blocks.own_gestures import (
 from nep_studio.project.kept_files import EVERYDAY, NEITHER, spans_of
 from nodes.recordings import Recording, read_recording, read_recordings, write_recording
 
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .live import Samples
 from .packed_arrays import packed, thinned
 from .project_gestures import LONGEST_TAKE_S, SHORTEST_TAKE_S, new_id
@@ -51,9 +51,9 @@ class Imported:
     takes: tuple[ImportedTake, ...]
 
 
-def add_imported(desk: TrainerDesk, imported: Sequence[Imported]) -> bool:
+def add_imported(controller: GestureController, imported: Sequence[Imported]) -> bool:
     """Keep all of it as one step; a gesture that is known gets more takes."""
-    gestures = dict(desk.gestures)
+    gestures = dict(controller.gestures)
     edits: list[SetExtra] = []
     changed: dict[str, None] = {}
     for one in imported:
@@ -67,7 +67,7 @@ def add_imported(desk: TrainerDesk, imported: Sequence[Imported]) -> bool:
             gestures[name] = replace(gestures[name], takes=(*gestures[name].takes, kept))
             changed[name] = None
     edits += [keep_gesture(name, gestures[name]) for name in changed]
-    return bool(edits) and desk.change("import takes", edits)
+    return bool(edits) and controller.change("import takes", edits)
 
 
 def _gesture(take: ImportedTake, gestures: dict[str, OwnGesture]) -> str:

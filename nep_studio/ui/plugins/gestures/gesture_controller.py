@@ -42,7 +42,7 @@ MOST_SOURCES = 8
 _KEYS = (GESTURE, RECORDING)
 
 
-class TrainerDesk(QObject):
+class GestureController(QObject):
     """The model behind the panel; it asks the project's editor for every change.
 
     ``changed``: the project, its gestures or recordings are others. ``heard`` gives the Samples
@@ -80,8 +80,8 @@ class TrainerDesk(QObject):
         self._seen: dict[str, Any] = {}
         self._digest = ""
         self._read()
-        self._ear = OpenProject(files, self)
-        self._ear.changed.connect(self.refresh)
+        self._listener = OpenProject(files, self)
+        self._listener.changed.connect(self.refresh)
         self.refresh()
 
     # The project

@@ -18,7 +18,7 @@ from nep_studio.ui.words import count_words, tr
 from .cards import Cards
 from .exchange import Imported, add_imported, read_csv, write_csv
 from .exchange_mcap import read_mcap, write_mcap
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .project_gestures import Keeping
 
 EVERYDAY_S = (30, 120)
@@ -27,8 +27,8 @@ EVERYDAY_S = (30, 120)
 class Menus:
     """Makes menus; ``cards`` has the gesture that is meant."""
 
-    def __init__(self, desk: TrainerDesk, keeping: Keeping, cards: Cards) -> None:
-        self._desk, self._keeping, self._cards = desk, keeping, cards
+    def __init__(self, controller: GestureController, keeping: Keeping, cards: Cards) -> None:
+        self._controller, self._keeping, self._cards = controller, keeping, cards
 
     def of_gesture(self, name: str) -> QMenu:
         """What can be done with a gesture."""
@@ -47,16 +47,16 @@ class Menus:
         """What can be done with the take at the keyboard; None when there is none."""
         card = self._cards.cards[name]
         ids = card.takes.chosen
-        found = self._desk.find_take(ids[0]) if ids else None
+        found = self._controller.find_take(ids[0]) if ids else None
         if found is None:
             return None
         take, menu = found[1], QMenu(self._cards)
-        self._add(menu, "maximize", tr("Look at it"), lambda: self._desk.choose_take(take.id))
+        self._add(menu, "maximize", tr("Look at it"), lambda: self._controller.choose_take(take.id))
         is_out = take.left_out
         words = tr("Learn from it again") if is_out else tr("Do not learn from it")
         sign = "eye" if is_out else "eye-off"
         self._add(menu, sign, words, lambda: self._keeping.leave_out(ids, not is_out))
-        others = {key: one.title for key, one in self._desk.gestures.items() if key != name}
+        others = {key: one.title for key, one in self._controller.gestures.items() if key != name}
         if others:
             add_title(menu, tr("It is a take of"))
             for key, title in others.items():
@@ -78,7 +78,7 @@ class Menus:
                 else tr("Record {minutes} minutes", minutes=seconds // 60)
             )
             self._add(menu, "circle-dot", words, partial(record, float(seconds)))
-        kept = {key: one for key, one in self._desk.recordings.items() if one.everyday}
+        kept = {key: one for key, one in self._controller.recordings.items() if one.everyday}
         if kept:
             add_title(menu, tr("Delete a recording"))
         for key, one in kept.items():
@@ -108,7 +108,7 @@ class Menus:
         *,
         is_possible: bool = True,
     ) -> None:
-        action = menu.addAction(icon(sign, self._desk.look.theme), words)
+        action = menu.addAction(icon(sign, self._controller.look.theme), words)
         action.triggered.connect(lambda _is_on=False: do())
         action.setEnabled(is_possible)
 
@@ -156,13 +156,13 @@ class GestureFiles:
 class Exchange:
     """Takes from files, takes to files; ``files`` asks which."""
 
-    def __init__(self, desk: TrainerDesk, over: QWidget) -> None:
-        self._desk, self._over = desk, over
+    def __init__(self, controller: GestureController, over: QWidget) -> None:
+        self._controller, self._over = controller, over
         self.files = GestureFiles()
 
     def entries(self) -> list[tuple[str, str, Callable[[], object], bool]]:
         """The entries of a menu: sign, words, what it does, whether it can be done now."""
-        is_open, has_some = self._desk.editor is not None, bool(self._desk.recordings)
+        is_open, has_some = self._controller.editor is not None, bool(self._controller.recordings)
         return [
             ("upload", tr("Import a file…"), self.ask_for_file, is_open),
             ("folder-open", tr("Import a folder of CSV files…"), self.ask_for_folder, is_open),
@@ -188,13 +188,13 @@ class Exchange:
 
     def ask_to_export_mcap(self) -> None:
         """Ask where the MCAP file is to be."""
-        document = self._desk.files.document
+        document = self._controller.files.document
         stem = document.title if document is not None else tr("gestures")
         suggested = self._folder() / f"{stem}{MCAP_SUFFIX}"
         self.files.choose_place(self._over, suggested, self.export_mcap)
 
     def _folder(self) -> Path:
-        document = self._desk.files.document
+        document = self._controller.files.document
         return document.folder if document is not None else Path.home()
 
     # What is done
@@ -207,26 +207,26 @@ class Exchange:
             else:
                 imported, is_whole = read_csv(path), True
         except RecordingError as error:
-            self._desk.messages.tell_error(error)
+            self._controller.messages.tell_error(error)
             return
-        if add_imported(self._desk, imported):
+        if add_imported(self._controller, imported):
             self._tell_imported(imported, is_whole)
 
     def export_csv(self, folder: Path) -> None:
         """Write CSV files into a folder, or say why not."""
         try:
-            written = write_csv(folder, self._desk.gestures, self._desk.recordings)
+            written = write_csv(folder, self._controller.gestures, self._controller.recordings)
         except RecordingError as error:
-            self._desk.messages.tell_error(error)
+            self._controller.messages.tell_error(error)
             return
         self._confirm(count_words(len(written), "1 file was written.", "{n} files were written."))
 
     def export_mcap(self, path: Path) -> None:
         """Write an MCAP file, or say why not."""
         try:
-            write_mcap(path, self._desk.gestures, self._desk.recordings)
+            write_mcap(path, self._controller.gestures, self._controller.recordings)
         except RecordingError as error:
-            self._desk.messages.tell_error(error)
+            self._controller.messages.tell_error(error)
             return
         self._confirm(tr("“{file}” was written.", file=path.name))
 
@@ -248,10 +248,10 @@ class Exchange:
         said.append(tr("What is before its end was imported."))
         checklist = (tr("Copy or download the file once more, and import it again."),)
         title = tr("The file ends in the middle")
-        self._desk.messages.tell(Message("warning", title, " ".join(said), checklist))
+        self._controller.messages.tell(Message("warning", title, " ".join(said), checklist))
 
     def _confirm(self, words: str) -> None:
-        self._desk.messages.tell(Message("success", words, passes=True))
+        self._controller.messages.tell(Message("success", words, passes=True))
 
 
 def _open(dialog: QFileDialog, on_chosen: OnChosen) -> None:

@@ -29,13 +29,13 @@ from nep_studio.ui.watch_view.status import WatchStatus
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .live import Samples
 from .menus import Exchange, Menus, show_menu
 from .project_gestures import Keeping
 from .record_bar import RecordBar
 from .recording import (
-    Session,
+    RecordingSession,
     SimulatedWearer,
     TakeSession,
     everyday_words,
@@ -81,26 +81,26 @@ Step = Literal["project", "connect", "name", "record", "more", "another", "train
 ENOUGH_TAKES = 3
 
 
-def next_step(desk: TrainerDesk) -> tuple[Step, str]:
+def next_step(controller: GestureController) -> tuple[Step, str]:
     """The step, and the name of the gesture that it is about."""
-    if desk.editor is None:
+    if controller.editor is None:
         return "project", ""
-    lacking = _lacking(desk)
-    if not desk.is_hearing and (lacking or len(desk.gestures) < 2):
+    lacking = _lacking(controller)
+    if not controller.is_hearing and (lacking or len(controller.gestures) < 2):
         return "connect", ""
-    if not desk.gestures:
+    if not controller.gestures:
         return "name", ""
     if lacking:
-        return ("more" if desk.gestures[lacking].takes else "record"), lacking
-    if len(desk.gestures) < 2:
+        return ("more" if controller.gestures[lacking].takes else "record"), lacking
+    if len(controller.gestures) < 2:
         return "another", ""
-    return ("try" if desk.is_up_to_date else "train"), ""
+    return ("try" if controller.is_up_to_date else "train"), ""
 
 
-def hint_words(desk: TrainerDesk) -> str:
+def hint_words(controller: GestureController) -> str:
     """The next step in words."""
-    step, name = next_step(desk)
-    gesture = desk.gestures.get(name, OwnGesture(""))
+    step, name = next_step(controller)
+    gesture = controller.gestures.get(name, OwnGesture(""))
     said = {
         "project": tr("Open a project first, or make a new one: gestures belong to a project."),
         "connect": tr("Connect a watch or phone, so that movements can be recorded."),
@@ -134,9 +134,9 @@ def button_words(step: Step) -> str:
     }.get(step, "")
 
 
-def _lacking(desk: TrainerDesk) -> str:
+def _lacking(controller: GestureController) -> str:
     """The first gesture with too few takes."""
-    few = (name for name, one in desk.gestures.items() if _used(one) < ENOUGH_TAKES)
+    few = (name for name, one in controller.gestures.items() if _used(one) < ENOUGH_TAKES)
     return next(few, "")
 
 
@@ -154,9 +154,9 @@ class HintLine(QWidget):
 
     asked = Signal(str, str)
 
-    def __init__(self, desk: TrainerDesk) -> None:
+    def __init__(self, controller: GestureController) -> None:
         super().__init__()
-        self._desk = desk
+        self._controller = controller
         self._sign, self.words, self.button = QLabel(), QLabel(), QPushButton()
         self.words.setWordWrap(True)
         self.words.setTextFormat(Qt.TextFormat.PlainText)
@@ -167,21 +167,21 @@ class HintLine(QWidget):
         row.addWidget(self._sign, 0, Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(self.words, 1)
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignVCenter)
-        self.button.clicked.connect(lambda: self.asked.emit(*next_step(desk)))
+        self.button.clicked.connect(lambda: self.asked.emit(*next_step(controller)))
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self.refresh)
-        desk.changed.connect(self.refresh)
-        desk.sources_changed.connect(self.refresh)
-        desk.look.theme_changed.connect(self._dress)
+        controller.changed.connect(self.refresh)
+        controller.sources_changed.connect(self.refresh)
+        controller.look.theme_changed.connect(self._dress)
         self._dress()
         self.refresh()
 
     def refresh(self) -> None:
         """Show the step that is next now."""
-        words = hint_words(self._desk)
+        words = hint_words(self._controller)
         if words != self.words.text():
             self.words.setText(words)
-        pressed = button_words(next_step(self._desk)[0])
+        pressed = button_words(next_step(self._controller)[0])
         if pressed != self.button.text():
             self.button.setText(pressed)
         self.button.setVisible(bool(pressed))
@@ -198,7 +198,7 @@ class HintLine(QWidget):
         self._looking.stop()
 
     def _dress(self) -> None:
-        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        theme, line = self._controller.look.theme, self.fontMetrics().height()
         picture = icon("lightbulb", theme.colour("info"))
         self._sign.setPixmap(picture.pixmap(QSize(line, line), self.devicePixelRatioF()))
 
@@ -208,11 +208,11 @@ class Head(QWidget):
 
     more_asked = Signal()
 
-    def __init__(self, desk: TrainerDesk) -> None:
+    def __init__(self, controller: GestureController) -> None:
         super().__init__()
-        self._desk = desk
-        self.watch, self.more = WatchStatus(desk.runner, desk.look), QToolButton()
-        self.hint = HintLine(desk)
+        self._controller = controller
+        self.watch, self.more = WatchStatus(controller.runner, controller.look), QToolButton()
+        self.hint = HintLine(controller)
         self.more.setAccessibleName(tr("Import, export and more"))
         self.more.setToolTip(tr("Import, export and more"))
         self.more.clicked.connect(self.more_asked)
@@ -224,12 +224,12 @@ class Head(QWidget):
         box.setSpacing(self.fontMetrics().height() // 3)
         box.addLayout(row)
         box.addWidget(self.hint)
-        desk.look.theme_changed.connect(self._dress)
+        controller.look.theme_changed.connect(self._dress)
         self._dress()
 
     def _dress(self) -> None:
         line = self.fontMetrics().height()
-        self.more.setIcon(icon("ellipsis", self._desk.look.theme))
+        self.more.setIcon(icon("ellipsis", self._controller.look.theme))
         self.more.setIconSize(QSize(line, line))
 
 
@@ -238,20 +238,20 @@ class TrainerPage(QWidget):
 
     connect_asked = Signal()
 
-    def __init__(self, desk: TrainerDesk, training: Training, canvas: Canvas) -> None:
+    def __init__(self, controller: GestureController, training: Training, canvas: Canvas) -> None:
         super().__init__()
-        self.desk, self.training = desk, training
-        self.keeping = Keeping(desk)
-        self.session = TakeSession(desk, self)
-        self.simulated = SimulatedWearer(desk, self.session)
-        self.take = TakeView(desk, self.keeping, self)
-        self.head = Head(desk)
-        self.strip = Strip(desk, self.session, self.take)
-        self.bar = RecordBar(desk, self.keeping, self.session, self.take)
-        self.cards = Cards(desk, self.keeping, self.session, canvas)
-        self.menus = Menus(desk, self.keeping, self.cards)
-        self.exchange = Exchange(desk, self)
-        self.results, self.trial = ResultsView(desk, training), TryOut(desk, training)
+        self.controller, self.training = controller, training
+        self.keeping = Keeping(controller)
+        self.session = TakeSession(controller, self)
+        self.simulated = SimulatedWearer(controller, self.session)
+        self.take = TakeView(controller, self.keeping, self)
+        self.head = Head(controller)
+        self.strip = Strip(controller, self.session, self.take)
+        self.bar = RecordBar(controller, self.keeping, self.session, self.take)
+        self.cards = Cards(controller, self.keeping, self.session, canvas)
+        self.menus = Menus(controller, self.keeping, self.cards)
+        self.exchange = Exchange(controller, self)
+        self.results, self.trial = ResultsView(controller, training), TryOut(controller, training)
         self.beeps = False
         self._lay_out()
         self._connect()
@@ -327,7 +327,7 @@ class TrainerPage(QWidget):
         if self.session.is_on:
             self.session.stop()
             return
-        if name not in self.desk.gestures:
+        if name not in self.controller.gestures:
             self.ask_for_gesture()
             return
         self.cards.choose(name)
@@ -342,7 +342,7 @@ class TrainerPage(QWidget):
         if not has_begun:
             self.bar.tell(tr("Nothing is heard yet. Connect a watch or phone, and move it."))
             return
-        self.desk.choose_take("")
+        self.controller.choose_take("")
         self.show_recording()
         self.bar.tell(self._what_to_do())
         self.strip.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -356,7 +356,7 @@ class TrainerPage(QWidget):
             return tr("The simulated person makes the movement {movement}.", movement=made)
         return tr("Hold still. After the countdown, make the gesture and rest, five times.")
 
-    def _on_ended(self, session: Session) -> None:
+    def _on_ended(self, session: RecordingSession) -> None:
         if session.takes and not keep_session(self.keeping, session):
             self.bar.tell(tr("The takes could not be kept. Is the gesture still there?"))
             return
@@ -371,7 +371,7 @@ class TrainerPage(QWidget):
         if self.head.isHidden() != is_on:
             self.head.setVisible(not is_on)  # the graph has its room meanwhile
         if not is_on and not self.isVisible():
-            self.desk.listen(False)
+            self.controller.listen(False)
         if self.beeps and self.session.state == "countdown":
             QApplication.beep()
 
@@ -413,10 +413,10 @@ class TrainerPage(QWidget):
         takes = (
             [one for one in ids if isinstance(one, str)] if isinstance(ids, (list, tuple)) else []
         )
-        found = self.desk.find_take(takes[0]) if takes else None
+        found = self.controller.find_take(takes[0]) if takes else None
         if found is not None:
             self.show_recording()
-            self.desk.choose_take(found[1].id)
+            self.controller.choose_take(found[1].id)
             self.cards.choose(found[0])
             self.cards.show_card(found[0])
 
@@ -445,8 +445,8 @@ class TrainerPage(QWidget):
             self.record_or_stop()
         elif event.key() == Qt.Key.Key_Escape and self.session.is_on:
             self.session.stop()
-        elif event.key() == Qt.Key.Key_Escape and self.desk.chosen_take:
-            self.desk.choose_take("")
+        elif event.key() == Qt.Key.Key_Escape and self.controller.chosen_take:
+            self.controller.choose_take("")
         else:
             super().keyPressEvent(event)
 
@@ -482,10 +482,10 @@ class TrainerPage(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Hear the sensors, and let the training be ready."""
         super().showEvent(event)
-        self.desk.listen(True)
+        self.controller.listen(True)
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Hear them no more, unless something is recorded."""
         super().hideEvent(event)
         if not self.session.is_on:
-            self.desk.listen(False)
+            self.controller.listen(False)

@@ -18,7 +18,7 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .live import Samples
 from .packed_arrays import packed, thinned
 
@@ -40,34 +40,34 @@ LABELS = {
 
 
 class Keeping:
-    """Asks the desk for changes; each is named in English, as all steps are."""
+    """Asks the controller for changes; each is named in English, as all steps are."""
 
-    def __init__(self, desk: TrainerDesk) -> None:
-        self._desk = desk
+    def __init__(self, controller: GestureController) -> None:
+        self._controller = controller
 
     # Gestures
 
     def new_gesture(self, title: str) -> str:
         """Make a gesture without takes; gives its name, "" when it cannot be."""
-        desk = self._desk
-        name = free_gesture_name(title, desk.gestures)
-        number = max((one.number for one in desk.gestures.values()), default=-1) + 1
+        controller = self._controller
+        name = free_gesture_name(title, controller.gestures)
+        number = max((one.number for one in controller.gestures.values()), default=-1) + 1
         edit = keep_gesture(name, OwnGesture(title.strip(), number))
-        return name if desk.change("make a gesture", [edit]) else ""
+        return name if controller.change("make a gesture", [edit]) else ""
 
     def rename_gesture(self, name: str, title: str) -> None:
         """Give a gesture another title; blocks that use it go on with it."""
-        gesture = self._desk.gestures.get(name)
+        gesture = self._controller.gestures.get(name)
         if gesture is not None and title.strip() and title.strip() != gesture.title:
             edit = keep_gesture(name, replace(gesture, title=title.strip()))
-            self._desk.change("rename a gesture", [edit])
+            self._controller.change("rename a gesture", [edit])
 
     def delete_gesture(self, name: str) -> None:
         """Delete a gesture with its takes; the recordings without any other take go too."""
-        gesture = self._desk.gestures.get(name)
+        gesture = self._controller.gestures.get(name)
         if gesture is not None:
             edits = [keep_gesture(name, None), *self._forget(gesture.takes)]
-            self._desk.change("delete a gesture", edits)
+            self._controller.change("delete a gesture", edits)
 
     # Takes
 
@@ -80,7 +80,7 @@ class Keeping:
         label: str = LABELS["record"],
     ) -> list[str]:
         """Keep a recording with the takes in it (spans on its clock); gives the takes' ids."""
-        kept = self._desk.gestures.get(gesture)
+        kept = self._controller.gestures.get(gesture)
         if kept is None or not len(samples):
             return []
         recording = self._recording(samples, forgotten=forgotten)
@@ -91,7 +91,7 @@ class Keeping:
             keep_recording(recording_id, recording),
             keep_gesture(gesture, replace(kept, takes=(*kept.takes, *made))),
         ]
-        return [take.id for take in made] if self._desk.change(label, edits) else []
+        return [take.id for take in made] if self._controller.change(label, edits) else []
 
     def keep_everyday(self, samples: Samples) -> bool:
         """Keep everyday movement, in which there is no gesture."""
@@ -99,19 +99,19 @@ class Keeping:
             return False
         recording = self._recording(samples, everyday=True)
         edit = keep_recording(new_id("r"), recording)
-        return self._desk.change("record everyday movement", [edit])
+        return self._controller.change("record everyday movement", [edit])
 
     def delete_recording(self, recording_id: str) -> None:
         """Delete a recording of everyday movement."""
-        if recording_id in self._desk.recordings:
+        if recording_id in self._controller.recordings:
             edit = keep_recording(recording_id, None)
-            self._desk.change("delete a recording", [edit])
+            self._controller.change("delete a recording", [edit])
 
     def delete_takes(self, take_ids: Collection[str]) -> None:
         """Delete takes; where they were, the recording is neither a gesture nor nothing."""
         edits: list[SetExtra] = []
         gone: list[OwnTake] = []
-        for name, gesture in self._desk.gestures.items():
+        for name, gesture in self._controller.gestures.items():
             here = [take for take in gesture.takes if take.id in take_ids]
             if here:
                 gone += here
@@ -119,11 +119,11 @@ class Keeping:
                 edits.append(keep_gesture(name, replace(gesture, takes=left)))
         if gone:
             label = LABELS["delete one" if len(gone) == 1 else "delete"]
-            self._desk.change(label, [*edits, *self._forget(gone)])
+            self._controller.change(label, [*edits, *self._forget(gone)])
 
     def relabel_takes(self, take_ids: Collection[str], to: str) -> None:
         """Say that takes are of another gesture."""
-        gestures = self._desk.gestures
+        gestures = self._controller.gestures
         moved = [
             take
             for name, gesture in gestures.items()
@@ -141,13 +141,13 @@ class Keeping:
         ]
         target = gestures[to]
         edits.append(keep_gesture(to, replace(target, takes=(*target.takes, *moved))))
-        self._desk.change("give a take to another gesture", edits)
+        self._controller.change("give a take to another gesture", edits)
 
     def leave_out(self, take_ids: Collection[str], is_out: bool) -> None:
         """Learn no more from takes, or learn from them again."""
         label = LABELS["leave out" if is_out else "use again"]
         edits = []
-        for name, gesture in self._desk.gestures.items():
+        for name, gesture in self._controller.gestures.items():
             takes = tuple(
                 replace(take, left_out=is_out) if take.id in take_ids else take
                 for take in gesture.takes
@@ -155,11 +155,11 @@ class Keeping:
             if takes != gesture.takes:
                 edits.append(keep_gesture(name, replace(gesture, takes=takes)))
         if edits:
-            self._desk.change(label, edits)
+            self._controller.change(label, edits)
 
     def trim_take(self, take_id: str, start_s: float, end_s: float) -> None:
         """Let a take begin and end elsewhere in its recording, as far as there is room."""
-        found = self._desk.find_take(take_id)
+        found = self._controller.find_take(take_id)
         if found is None:
             return
         name, old = found
@@ -168,17 +168,17 @@ class Keeping:
         if not SHORTEST_TAKE_S <= end_s - start_s <= LONGEST_TAKE_S:
             return
         new = replace(old, start_s=round(start_s, _DIGITS), end_s=round(end_s, _DIGITS))
-        gesture = self._desk.gestures[name]
+        gesture = self._controller.gestures[name]
         takes = tuple(new if take.id == take_id else take for take in gesture.takes)
         if new != old:
             edit = keep_gesture(name, replace(gesture, takes=takes))
-            self._desk.change("change where a take begins and ends", [edit])
+            self._controller.change("change where a take begins and ends", [edit])
 
     def room_of(self, take: OwnTake) -> Span:
         """From where to where a take may go: its recording, up to the takes beside it."""
-        recording = self._desk.recordings.get(take.recording)
+        recording = self._controller.recordings.get(take.recording)
         first_s, last_s = 0.0, recording.seconds if recording is not None else take.end_s
-        for gesture in self._desk.gestures.values():
+        for gesture in self._controller.gestures.values():
             for other in gesture.takes:
                 if other.recording != take.recording or other.id == take.id:
                     continue
@@ -195,27 +195,27 @@ class Keeping:
         new_name = new_name.strip()
         edits = [
             keep_recording(key, replace(one, person=new_name))
-            for key, one in self._desk.recordings.items()
+            for key, one in self._controller.recordings.items()
             if one.person == name
         ]
         if (
             new_name
             and new_name != name
-            and (not edits or self._desk.change("rename a person", edits))
+            and (not edits or self._controller.change("rename a person", edits))
         ):
-            self._desk.set_wearer(new_name)
+            self._controller.set_wearer(new_name)
 
     def delete_person(self, name: str) -> None:
         """Delete all recordings of a person, and the takes in them."""
-        gone = {key for key, one in self._desk.recordings.items() if one.person == name}
+        gone = {key for key, one in self._controller.recordings.items() if one.person == name}
         edits = [keep_recording(key, None) for key in sorted(gone)]
-        for key, gesture in self._desk.gestures.items():
+        for key, gesture in self._controller.gestures.items():
             takes = tuple(take for take in gesture.takes if take.recording not in gone)
             if takes != gesture.takes:
                 edits.append(keep_gesture(key, replace(gesture, takes=takes)))
-        if not edits or self._desk.change("delete a person", edits):
-            others = [person for person in self._desk.people if person != name]
-            self._desk.set_wearer(others[0] if others else "")
+        if not edits or self._controller.change("delete a person", edits):
+            others = [person for person in self._controller.people if person != name]
+            self._controller.set_wearer(others[0] if others else "")
 
     # Within
 
@@ -223,15 +223,15 @@ class Keeping:
         self, samples: Samples, *, everyday: bool = False, forgotten: Sequence[Span] = ()
     ) -> OwnRecording:
         """Samples as the project keeps them, with who wore the sensor and where."""
-        desk, live = self._desk, self._desk.live
+        controller, live = self._controller, self._controller.live
         samples, begin = thinned(samples), float(samples.t[0])
         spans = [(max(0.0, a - begin), min(samples.seconds, b - begin)) for a, b in forgotten]
         return OwnRecording(
             seconds=round(samples.seconds, _DIGITS),
             rate_hz=round(samples.rate_hz, 2),
             samples=packed(samples),
-            person=desk.person,
-            wrist=desk.wrist,
+            person=controller.person,
+            wrist=controller.wrist,
             source=live.source if live is not None else "",
             gravity_included=live.gravity_included if live is not None else True,
             has_rotation=samples.gyr is not None,
@@ -246,13 +246,13 @@ class Keeping:
         gone = {take.id: take for take in takes}
         left = {
             take.recording
-            for gesture in self._desk.gestures.values()
+            for gesture in self._controller.gestures.values()
             for take in gesture.takes
             if take.id not in gone
         }
         edits = []
         for key in dict.fromkeys(take.recording for take in gone.values()):
-            recording = self._desk.recordings.get(key)
+            recording = self._controller.recordings.get(key)
             if recording is None:
                 continue
             spans = [(one.start_s, one.end_s) for one in gone.values() if one.recording == key]

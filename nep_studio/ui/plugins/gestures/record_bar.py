@@ -24,7 +24,7 @@ from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
 
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .project_gestures import Keeping
 from .recording import TakeSession
 from .sample_view import TakeView
@@ -47,9 +47,9 @@ class WearerBox(QObject):
     ``who`` and ``where`` are the two widgets, which may stand apart.
     """
 
-    def __init__(self, desk: TrainerDesk, keeping: Keeping) -> None:
-        super().__init__(desk)
-        self._desk, self._keeping = desk, keeping
+    def __init__(self, controller: GestureController, keeping: Keeping) -> None:
+        super().__init__(controller)
+        self._controller, self._keeping = controller, keeping
         self.asking: Asking | None = None
         self.who, self.where = QWidget(), QWidget()
         self.sign = QLabel()
@@ -62,9 +62,9 @@ class WearerBox(QObject):
         self.wrist.activated.connect(self._on_wrist_chosen)
         self.source.activated.connect(self._on_source_chosen)
         self.more.clicked.connect(self.show_menu)
-        for signal in (desk.changed, desk.wearer_changed, desk.sources_changed):
+        for signal in (controller.changed, controller.wearer_changed, controller.sources_changed):
             signal.connect(self.refresh)
-        desk.look.theme_changed.connect(self._dress)
+        controller.look.theme_changed.connect(self._dress)
         self._dress()
         self.refresh()
 
@@ -91,23 +91,23 @@ class WearerBox(QObject):
 
     def refresh(self) -> None:
         """Show who is there."""
-        desk = self._desk
-        _fill(self.person, {name: name for name in desk.people}, desk.person)
+        controller = self._controller
+        _fill(self.person, {name: name for name in controller.people}, controller.person)
         with QSignalBlocker(self.wrist):
-            self.wrist.setCurrentIndex(WRISTS.index(desk.wrist))
-        in_use = desk.live.source if desk.live is not None else ""
-        _fill(self.source, {name: name for name in desk.streams}, in_use)
-        self.source.setVisible(len(desk.streams) > 1)
+            self.wrist.setCurrentIndex(WRISTS.index(controller.wrist))
+        in_use = controller.live.source if controller.live is not None else ""
+        _fill(self.source, {name: name for name in controller.streams}, in_use)
+        self.source.setVisible(len(controller.streams) > 1)
 
     # The menu
 
     def menu(self) -> QMenu:
         """New person, another name, delete."""
-        menu, theme = QMenu(self.who), self._desk.look.theme
+        menu, theme = QMenu(self.who), self._controller.look.theme
         menu.addAction(icon("plus", theme), tr("New person…"), self.ask_for_new)
-        words = tr("Another name for {person}…", person=self._desk.person)
+        words = tr("Another name for {person}…", person=self._controller.person)
         menu.addAction(icon("pencil", theme), words, self.ask_for_name)
-        words = tr("Delete {person} with all takes", person=self._desk.person)
+        words = tr("Delete {person} with all takes", person=self._controller.person)
         menu.addAction(icon("trash-2", theme), words, self.delete_person)
         return menu
 
@@ -124,39 +124,39 @@ class WearerBox(QObject):
     def ask_for_name(self) -> None:
         """Ask for another name."""
         self._ask(
-            tr("Another name for {person}", person=self._desk.person),
+            tr("Another name for {person}", person=self._controller.person),
             tr("Rename"),
-            lambda name: self._keeping.rename_person(self._desk.person, name),
-            self._desk.person,
+            lambda name: self._keeping.rename_person(self._controller.person, name),
+            self._controller.person,
         )
 
     def add_person(self, name: str) -> None:
         """Record for somebody else from now on."""
         if why_not_name(name.strip()) is None:
-            self._desk.set_wearer(name)
+            self._controller.set_wearer(name)
 
     def delete_person(self) -> None:
         """Delete all that the person in use recorded; it can be undone."""
-        self._keeping.delete_person(self._desk.person)
+        self._keeping.delete_person(self._controller.person)
 
     def _ask(self, words: str, yes: str, answer: object, name: str) -> None:
         assert callable(answer)
-        self.asking = Asking(self.who, self._desk.look.theme, words, yes, answer, name=name)
+        self.asking = Asking(self.who, self._controller.look.theme, words, yes, answer, name=name)
         self.asking.show_at(self.person.mapToGlobal(QPoint(0, self.person.height())))
 
     # What is chosen
 
     def _on_person_chosen(self, row: int) -> None:
-        self._desk.set_wearer(str(self.person.itemData(row)))
+        self._controller.set_wearer(str(self.person.itemData(row)))
 
     def _on_wrist_chosen(self, row: int) -> None:
-        self._desk.set_wearer(wrist=WRISTS[row])
+        self._controller.set_wearer(wrist=WRISTS[row])
 
     def _on_source_chosen(self, row: int) -> None:
-        self._desk.use_source(str(self.source.itemData(row)))
+        self._controller.use_source(str(self.source.itemData(row)))
 
     def _dress(self) -> None:
-        theme, line = self._desk.look.theme, self.who.fontMetrics().height()
+        theme, line = self._controller.look.theme, self.who.fontMetrics().height()
         self.sign.setPixmap(
             icon("user", theme).pixmap(QSize(line, line), self.who.devicePixelRatioF())
         )
@@ -178,24 +178,24 @@ class RecordBar(QWidget):
     """One button that records and stops, beside it who is recorded and what goes on."""
 
     def __init__(
-        self, desk: TrainerDesk, keeping: Keeping, session: TakeSession, take: TakeView
+        self, controller: GestureController, keeping: Keeping, session: TakeSession, take: TakeView
     ) -> None:
         super().__init__()
-        self._desk, self._session, self._take = desk, session, take
+        self._controller, self._session, self._take = controller, session, take
         self.gesture = ""
         self.button, self.cancel = QPushButton(), QPushButton(tr("Cancel"))
         self.play, self.back = QToolButton(), QPushButton(tr("Back to the live graph"))
         self.everyday = QPushButton(tr("Everyday movement"))
-        self.wearer = WearerBox(desk, keeping)
+        self.wearer = WearerBox(controller, keeping)
         self.wearer.setParent(self)
         self.words, self.progress = QLabel(), QProgressBar()
         self._lay_out()
         self.cancel.clicked.connect(session.cancel)
         self.play.clicked.connect(take.play)
-        self.back.clicked.connect(lambda: desk.choose_take(""))
-        for signal in (session.changed, desk.changed, take.changed, desk.take_chosen):
+        self.back.clicked.connect(lambda: controller.choose_take(""))
+        for signal in (session.changed, controller.changed, take.changed, controller.take_chosen):
             signal.connect(self.refresh)
-        desk.look.theme_changed.connect(self._dress)
+        controller.look.theme_changed.connect(self._dress)
         self._dress()
         self.refresh()
 
@@ -236,7 +236,7 @@ class RecordBar(QWidget):
         """Show what can be done now."""
         session, is_open = self._session, self._take.is_open
         is_everyday = session.state == "everyday"
-        gesture = self._desk.gestures.get(self.gesture)
+        gesture = self._controller.gestures.get(self.gesture)
         self.button.setVisible(session.is_on or not is_open)
         self.button.setEnabled(session.is_on or gesture is not None)
         if session.is_on:
@@ -251,7 +251,7 @@ class RecordBar(QWidget):
         self.back.setVisible(is_open and not session.is_on)
         for widget in (self.wearer.who, self.wearer.where, self.everyday):
             widget.setVisible(not session.is_on and not is_open)
-        self.everyday.setEnabled(self._desk.editor is not None)
+        self.everyday.setEnabled(self._controller.editor is not None)
         self.progress.setVisible(is_everyday)
         self.progress.setValue(round(session.share * 100))
         self._dress_play()
@@ -269,7 +269,7 @@ class RecordBar(QWidget):
             self._dress()
 
     def _dress(self) -> None:
-        theme = self._desk.look.theme
+        theme = self._controller.look.theme
         is_on = self._session.is_on
         name, colour = ("square", "stop_text") if is_on else ("circle-dot", "accent_text")
         self.button.setIcon(icon(name, theme.colour(colour)))
@@ -284,7 +284,7 @@ class RecordBar(QWidget):
         if words != self.play.accessibleName():
             self.play.setAccessibleName(words)
             self.play.setToolTip(words)
-        self.play.setIcon(icon("square" if is_playing else "play", self._desk.look.theme))
+        self.play.setIcon(icon("square" if is_playing else "play", self._controller.look.theme))
 
 
 def _short(title: str) -> str:

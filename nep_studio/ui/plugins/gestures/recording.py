@@ -17,7 +17,7 @@ from nodes.perceptual.recognition.segments import Movement, PerformanceFinder
 from nodes.sensory.arm.gestures import GESTURES, MAKES_GESTURE
 
 from .curves import fault_words
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .live import Samples, joined
 from .project_gestures import Keeping
 
@@ -41,7 +41,7 @@ _REACHING_S = 0.3
 
 
 @dataclass(frozen=True)
-class Session:
+class RecordingSession:
     """What was recorded: the samples, and the movements that were found in them."""
 
     gesture: str
@@ -83,7 +83,7 @@ class TakeSession(QObject):
     """Counts down, records, and ends by itself.
 
     ``changed``: its state, the count or the progress. ``movement_found`` gives a Movement, also
-    one that does not count. ``ended`` gives the Session; ``everyday_ended`` gives the Samples.
+    one that does not count. ``ended`` gives the RecordingSession; ``everyday_ended`` the Samples.
     """
 
     changed = Signal()
@@ -91,9 +91,9 @@ class TakeSession(QObject):
     ended = Signal(object)
     everyday_ended = Signal(object)
 
-    def __init__(self, desk: TrainerDesk, parent: QObject | None = None) -> None:
+    def __init__(self, controller: GestureController, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._desk = desk
+        self._controller = controller
         self.state: State = "idle"
         self.count = 0
         """What the countdown says."""
@@ -104,8 +104,8 @@ class TakeSession(QObject):
         """Whether a movement may be a take: of a simulated person it is known."""
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self._on_look)
-        desk.heard.connect(self._on_heard)
-        desk.changed.connect(self._on_project_changed)
+        controller.heard.connect(self._on_heard)
+        controller.changed.connect(self._on_project_changed)
 
     # What is going on
 
@@ -147,7 +147,7 @@ class TakeSession(QObject):
     @property
     def share(self) -> float:
         """How much of the everyday recording is there."""
-        live = self._desk.live
+        live = self._controller.live
         if self.state != "everyday" or live is None or self._run.wanted <= 0:
             return 0.0
         return min(1.0, max(0.0, (live.last_t - self._run.start_s) / self._run.wanted))
@@ -184,10 +184,10 @@ class TakeSession(QObject):
     # Within
 
     def _begin(self, gesture: str, wanted: float) -> bool:
-        live = self._desk.live
-        if self.is_on or live is None or not self._desk.is_hearing:
+        live = self._controller.live
+        if self.is_on or live is None or not self._controller.is_hearing:
             return False
-        self._run = _Run(gesture, live.source, wanted, editor=self._desk.editor)
+        self._run = _Run(gesture, live.source, wanted, editor=self._controller.editor)
         self.state, self.count = "countdown", COUNTED_FROM
         self._counting.start()
         self._looking.start()
@@ -204,7 +204,7 @@ class TakeSession(QObject):
     def _go(self) -> None:
         """Record from now on, and from a moment before."""
         self._counting.stop()
-        live, run = self._desk.live, self._run
+        live, run = self._controller.live, self._run
         if live is None:
             self._rest()
             return
@@ -247,15 +247,15 @@ class TakeSession(QObject):
 
     def _on_project_changed(self) -> None:
         """What is recorded for a project is nothing for another one."""
-        if self._desk.editor is not self._run.editor:
+        if self._controller.editor is not self._run.editor:
             self.cancel()
 
     def _is_another(self) -> bool:
-        return self._desk.live is None or self._desk.live.source != self._run.source
+        return self._controller.live is None or self._controller.live.source != self._run.source
 
     def _on_look(self) -> None:
         """End when the sensor has fallen silent; what is there is kept."""
-        if self._desk.is_hearing and not self._is_another():
+        if self._controller.is_hearing and not self._is_another():
             return
         if self.state == "takes":
             self._end("lost")
@@ -264,7 +264,7 @@ class TakeSession(QObject):
         else:
             run = self._run
             self._rest()
-            self.ended.emit(Session(run.gesture, Samples.none(), (), "lost"))
+            self.ended.emit(RecordingSession(run.gesture, Samples.none(), (), "lost"))
 
     def _end(self, ending: Ending) -> None:
         run, samples = self._run, joined(self._run.parts)
@@ -280,7 +280,7 @@ class TakeSession(QObject):
         ends = [one.end_s + CALM_S for one in run.movements]
         samples = samples.between(run.start_s, min(last_s, max(ends, default=last_s)))
         self._rest()
-        self.ended.emit(Session(run.gesture, samples, tuple(run.movements), ending))
+        self.ended.emit(RecordingSession(run.gesture, samples, tuple(run.movements), ending))
 
     def _end_everyday(self) -> None:
         samples = joined(self._run.parts)
@@ -297,7 +297,7 @@ class TakeSession(QObject):
 # What came of a recording, in words, and kept in the project.
 
 
-def keep_session(keeping: Keeping, session: Session) -> bool:
+def keep_session(keeping: Keeping, session: RecordingSession) -> bool:
     """Keep the takes of a recording; False when there are none."""
     if not session.takes:
         return False
@@ -306,7 +306,7 @@ def keep_session(keeping: Keeping, session: Session) -> bool:
     )
 
 
-def session_words(session: Session) -> str:
+def session_words(session: RecordingSession) -> str:
     """How many takes there are now, and why others do not count."""
     count = len(session.takes)
     said = [count_words(count, "1 take is kept.", "{n} takes are kept.")] if count else []
@@ -349,9 +349,9 @@ LATE_S = 0.3
 class SimulatedWearer(QObject):
     """Asks for a movement at each rest of a recording, as long as it hears the virtual watch."""
 
-    def __init__(self, desk: TrainerDesk, session: TakeSession) -> None:
+    def __init__(self, controller: GestureController, session: TakeSession) -> None:
         super().__init__(session)
-        self._desk, self._session = desk, session
+        self._controller, self._session = controller, session
         self._asked_s = self._moved_s = 0.0
         self._made: list[float] = []
         self._looking = QTimer(self, interval=SIMULATED_LOOK_MS)
@@ -362,12 +362,12 @@ class SimulatedWearer(QObject):
     @property
     def is_there(self) -> bool:
         """Whether what is heard is a simulated person, who does as they are asked."""
-        live = self._desk.live
+        live = self._controller.live
         return live is not None and live.simulated and self._watch is not None
 
     def movement_for(self, gesture: str) -> str:
         """What the person makes for a gesture: that of this name, else one that is free."""
-        own = self._desk.gestures
+        own = self._controller.gestures
         known = list(GESTURES)
         if gesture in known or gesture not in own:
             return gesture
@@ -376,7 +376,7 @@ class SimulatedWearer(QObject):
 
     @property
     def _watch(self) -> NodeStatus | None:
-        runner = self._desk.runner
+        runner = self._controller.runner
         planned = [node.name for node in runner.planned() if node.node == VIRTUAL_WATCH]
         nodes = runner.board.nodes
         return next(
@@ -402,7 +402,7 @@ class SimulatedWearer(QObject):
 
     def _look(self) -> None:
         """Note what the person makes, and ask once it is over."""
-        now_s, live, watch = self._desk.now(), self._desk.live, self._watch
+        now_s, live, watch = self._controller.now(), self._controller.live, self._watch
         movement = self.movement_for(self._session.gesture)
         if live is None or watch is None:
             return
@@ -413,4 +413,4 @@ class SimulatedWearer(QObject):
             self._moved_s = now_s
         elif now_s - self._moved_s >= REST_S and now_s - self._asked_s >= BEGUN_S:
             self._asked_s = now_s
-            self._desk.runner.send(GESTURE_REQUEST, GestureRequest(gesture=movement))
+            self._controller.runner.send(GESTURE_REQUEST, GestureRequest(gesture=movement))

@@ -10,7 +10,7 @@ from nep_studio.blocks.own_gestures import OwnTake
 from nep_studio.ui.words import tr
 
 from .curves import Mark, Window
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .live import Samples
 from .project_gestures import LONGEST_TAKE_S, SHORTEST_TAKE_S, Keeping
 
@@ -26,9 +26,11 @@ class TakeView(QObject):
 
     changed = Signal()
 
-    def __init__(self, desk: TrainerDesk, keeping: Keeping, parent: QObject | None = None) -> None:
+    def __init__(
+        self, controller: GestureController, keeping: Keeping, parent: QObject | None = None
+    ) -> None:
         super().__init__(parent)
-        self._desk, self._keeping = desk, keeping
+        self._controller, self._keeping = controller, keeping
         self.held: End = "start"
         self.is_dragged = False
         self.cursor_s: float | None = None
@@ -39,15 +41,15 @@ class TakeView(QObject):
         self._playing = QTimer(self, interval=FRAME_MS)
         self._playing.timeout.connect(self._on_played)
         self._clock = QElapsedTimer()
-        desk.take_chosen.connect(self._on_chosen)
-        desk.changed.connect(self._on_changed)
+        controller.take_chosen.connect(self._on_chosen)
+        controller.changed.connect(self._on_changed)
 
     # What it is
 
     @property
     def is_open(self) -> bool:
         """Whether a take is looked at."""
-        return bool(self._desk.chosen_take)
+        return bool(self._controller.chosen_take)
 
     @property
     def ends(self) -> dict[End, float]:
@@ -126,7 +128,7 @@ class TakeView(QObject):
         """Keep the ends as they are now, as one step."""
         if self.is_dragged:
             self.is_dragged = False
-            self._keeping.trim_take(self._desk.chosen_take, *self._ends)
+            self._keeping.trim_take(self._controller.chosen_take, *self._ends)
             self.changed.emit()
 
     def press_key(self, key: Qt.Key) -> bool:
@@ -147,7 +149,7 @@ class TakeView(QObject):
         elif key == Qt.Key.Key_Space:
             self.play()
         elif key == Qt.Key.Key_Escape:
-            self._desk.choose_take("")
+            self._controller.choose_take("")
         else:
             return False
         return True
@@ -155,7 +157,7 @@ class TakeView(QObject):
     # Within
 
     def _take(self) -> OwnTake | None:
-        found = self._desk.find_take(self._desk.chosen_take)
+        found = self._controller.find_take(self._controller.chosen_take)
         return found[1] if found is not None else None
 
     def _on_chosen(self, _take_id: str) -> None:
@@ -172,7 +174,7 @@ class TakeView(QObject):
             self._stop()
             self.samples = Samples.none()
         elif not self.is_dragged:
-            self.samples = self._desk.samples(take.recording)
+            self.samples = self._controller.samples(take.recording)
             self._ends = take.start_s, take.end_s
             first_s, last_s = self._shown
             self._shown = min(first_s, take.start_s), max(last_s, take.end_s)

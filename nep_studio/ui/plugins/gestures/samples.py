@@ -32,7 +32,7 @@ from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.palette.accessible_list import make_list_accessible, tell_current
 
 from .curves import Window, paint_lines, value_range
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .results.findings import Findings, findings_of, id_of_take
 
 # Where the takes of one gesture are: their places in rows, and the way of the arrow keys.
@@ -111,13 +111,13 @@ Key = tuple[str, float, float, int, int, float, str]
 class TakePictures:
     """The curves of takes as pixmaps; all takes of all cards share one store."""
 
-    def __init__(self, desk: TrainerDesk) -> None:
-        self._desk = desk
+    def __init__(self, controller: GestureController) -> None:
+        self._controller = controller
         self._kept: OrderedDict[Key, QPixmap] = OrderedDict()
 
     def picture(self, take: OwnTake, size: QSize, ratio: float, metrics: QFontMetricsF) -> QPixmap:
         """The curves of a take, this large in logical pixels."""
-        theme = self._desk.look.theme
+        theme = self._controller.look.theme
         key = (take.id, take.start_s, take.end_s, size.width(), size.height(), ratio, theme.name)
         if key in self._kept:
             self._kept.move_to_end(key)
@@ -133,7 +133,7 @@ class TakePictures:
         pixmap = QPixmap(size * ratio)
         pixmap.setDevicePixelRatio(ratio)
         pixmap.fill(Qt.GlobalColor.transparent)
-        samples = self._desk.take_samples(take)
+        samples = self._controller.take_samples(take)
         if not len(samples):
             return pixmap
         low, high = value_range(samples)
@@ -159,9 +159,9 @@ class TakesList(QWidget):
     delete_asked = Signal(list)
     current_changed = Signal()
 
-    def __init__(self, desk: TrainerDesk, pictures: TakePictures) -> None:
+    def __init__(self, controller: GestureController, pictures: TakePictures) -> None:
         super().__init__()
-        self._desk, self._pictures = desk, pictures
+        self._controller, self._pictures = controller, pictures
         self.takes: tuple[OwnTake, ...] = ()
         self._badges: Mapping[str, str] = {}
         self.current = -1
@@ -175,8 +175,8 @@ class TakesList(QWidget):
             tr("Arrow keys choose a take, Enter looks at it, Delete deletes it.")
         )
         make_list_accessible(self, self)
-        desk.take_chosen.connect(self._on_take_chosen)
-        desk.look.theme_changed.connect(self._on_take_chosen)
+        controller.take_chosen.connect(self._on_take_chosen)
+        controller.look.theme_changed.connect(self._on_take_chosen)
 
     # What is shown
 
@@ -245,9 +245,9 @@ class TakesList(QWidget):
                     self._paint(painter, rect, number, take)
 
     def _paint(self, painter: QPainter, rect: QRect, number: int, take: OwnTake) -> None:
-        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        theme, line = self._controller.look.theme, self.fontMetrics().height()
         remark = self._badges.get(take.id, "")
-        is_open = take.id == self._desk.chosen_take
+        is_open = take.id == self._controller.chosen_take
         has_keys = number == self.current and self.hasFocus()
         edge = "focus" if has_keys else "accent" if is_open else "warning" if remark else "line"
         painter.setPen(QPen(theme.colour(edge), 2 if has_keys or is_open else 1))
@@ -265,7 +265,7 @@ class TakesList(QWidget):
             self._paint_remark(painter, rect, tr("left out") if take.left_out else remark, take)
 
     def _paint_remark(self, painter: QPainter, rect: QRect, words: str, take: OwnTake) -> None:
-        theme, line = self._desk.look.theme, self.fontMetrics().height()
+        theme, line = self._controller.look.theme, self.fontMetrics().height()
         name, colour = ("eye-off", "muted") if take.left_out else ("triangle-alert", "warning")
         side = line * 0.72
         is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
@@ -389,7 +389,7 @@ class TakesList(QWidget):
         take = self.takes[number]
         seconds = f"{take.end_s - take.start_s:.1f}"
         said = [tr("Take {number}, {seconds} s", number=number + 1, seconds=seconds)]
-        recording = self._desk.recordings.get(take.recording)
+        recording = self._controller.recordings.get(take.recording)
         said += [recording.person] if recording is not None and recording.person else []
         said += [self._badges[take.id]] if take.id in self._badges else []
         said += [tr("left out")] if take.left_out else []
@@ -422,14 +422,14 @@ _METHODS = ("trees", "gmr")
 class Badges:
     """The remarks on takes by id; measured once for each stretch."""
 
-    def __init__(self, desk: TrainerDesk) -> None:
-        self._desk = desk
+    def __init__(self, controller: GestureController) -> None:
+        self._controller = controller
         self._strengths: dict[OwnTake, float] = {}
 
     def all(self) -> dict[str, str]:
         """The remark on each take that has one."""
         found: dict[str, str] = {}
-        for gesture in self._desk.gestures.values():
+        for gesture in self._controller.gestures.values():
             found |= self._measured(gesture.takes)
         return {**self._learned(), **found}
 
@@ -453,19 +453,19 @@ class Badges:
     def _strength(self, take: OwnTake) -> float:
         """How much the acceleration changes during a take, in m/s²."""
         if take not in self._strengths:
-            acc = self._desk.take_samples(take).acc
+            acc = self._controller.take_samples(take).acc
             spread = acc.std(axis=0) if len(acc) else np.zeros(3)
             self._strengths[take] = float(np.sqrt((spread**2).sum()))
         return self._strengths[take]
 
     def _learned(self) -> dict[str, str]:
         """What the recogniser took a take for when it had not learned from it."""
-        desk = self._desk
-        if desk.recogniser is None or not desk.is_up_to_date:
+        controller = self._controller
+        if controller.recogniser is None or not controller.is_up_to_date:
             return {}
-        by_method = findings_of(desk.recogniser.report)
+        by_method = findings_of(controller.recogniser.report)
         findings = next((by_method[name] for name in _METHODS if name in by_method), None)
-        return _remarks(findings, desk.gestures) if findings is not None else {}
+        return _remarks(findings, controller.gestures) if findings is not None else {}
 
 
 def _remarks(findings: Findings, gestures: Mapping[str, OwnGesture]) -> dict[str, str]:

@@ -35,7 +35,7 @@ from .curves import (
     paint_words,
     value_range,
 )
-from .gesture_controller import TrainerDesk
+from .gesture_controller import GestureController
 from .live import Samples
 from .recording import TakeSession
 from .sample_view import TakeView
@@ -53,9 +53,9 @@ _BIG, _SMALLER = 0.6, 0.32
 class Strip(QWidget):
     """Shows the last ten seconds; a chosen take in their place until nobody looks at it."""
 
-    def __init__(self, desk: TrainerDesk, session: TakeSession, take: TakeView) -> None:
+    def __init__(self, controller: GestureController, session: TakeSession, take: TakeView) -> None:
         super().__init__()
-        self._desk, self._session, self.take = desk, session, take
+        self._controller, self._session, self.take = controller, session, take
         self._range = value_range(Samples.none())
         self._is_due = True
         self._frames = QTimer(self, interval=FRAME_MS)
@@ -63,10 +63,10 @@ class Strip(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        desk.heard.connect(self._on_heard)
-        for signal in (session.changed, desk.changed, desk.take_chosen, take.changed):
+        controller.heard.connect(self._on_heard)
+        for signal in (session.changed, controller.changed, controller.take_chosen, take.changed):
             signal.connect(self._on_changed)
-        desk.look.theme_changed.connect(self._on_changed)
+        controller.look.theme_changed.connect(self._on_changed)
         self._name_it()
 
     # What is shown
@@ -76,7 +76,7 @@ class Strip(QWidget):
         """What is drawn."""
         if self.take.is_open:
             return self.take.samples
-        live = self._desk.live
+        live = self._controller.live
         return live.last(SHOWN_S + 0.2) if live is not None else Samples.none()
 
     @property
@@ -87,7 +87,7 @@ class Strip(QWidget):
         if self.take.is_open:
             low, high = value_range(self.take.samples.between(*self.take.shown_s))
             return Window(rect, *self.take.shown_s, low, high)
-        end_s = self._desk.live.last_t if self._desk.live is not None else 0.0
+        end_s = self._controller.live.last_t if self._controller.live is not None else 0.0
         return Window(rect, end_s - SHOWN_S, end_s, *self._range)
 
     @property
@@ -116,7 +116,7 @@ class Strip(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the curves, and what is known of them."""
-        theme, window = self._desk.look.theme, self.window_shown
+        theme, window = self._controller.look.theme, self.window_shown
         with QPainter(self) as painter:
             painter.fillRect(self.rect(), theme.colour("field"))
             samples = self.samples
@@ -135,7 +135,7 @@ class Strip(QWidget):
             self._paint_frame(painter)
 
     def _paint_over(self, painter: QPainter, window: Window) -> None:
-        theme, take = self._desk.look.theme, self.take
+        theme, take = self._controller.look.theme, self.take
         if take.is_open:
             line = self.fontMetrics().height()
             for end, time_s in take.ends.items():
@@ -151,12 +151,12 @@ class Strip(QWidget):
         elif self.big_words:
             share = _BIG if self._session.state == "countdown" else _SMALLER
             paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
-        elif self._desk.live is None or not self._desk.is_hearing:
+        elif self._controller.live is None or not self._controller.is_hearing:
             words = tr("No movement is heard. Connect a watch or phone, and move it.")
             paint_words(painter, window.rect, words, theme, self.font())
 
     def _paint_frame(self, painter: QPainter) -> None:
-        theme = self._desk.look.theme
+        theme = self._controller.look.theme
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         width = 2 if self.hasFocus() else 1
@@ -185,7 +185,11 @@ class Strip(QWidget):
 
     def _on_frame(self) -> None:
         if self.take.is_open or not self._is_due:
-            if self._desk.live is not None and not self._desk.is_hearing and not self._is_due:
+            if (
+                self._controller.live is not None
+                and not self._controller.is_hearing
+                and not self._is_due
+            ):
                 self.update()  # it says that nothing is heard any more
             return
         self._is_due = False

@@ -19,7 +19,7 @@ Listener = Callable[["HelpPanel", str], object]
 
 def make(host: Host) -> Parts:
     """The panel beside the canvas, and what the Help menu asks for."""
-    from .help_controller import HelpDesk, open_documentation
+    from .help_controller import HelpController, open_documentation
     from .panel import HelpPanel
 
     services, workbench = host.services, host.workbench
@@ -31,10 +31,10 @@ def make(host: Host) -> Parts:
         return HelpPanel(workbench.canvas, services.look, services.language, shortcuts)
 
     panel = new_panel()
-    desk = HelpDesk(panel, new_panel, workbench.panels, workbench.helpers.opening)
-    desk.try_requested.connect(services.running.try_project)
+    controller = HelpController(panel, new_panel, workbench.panels, workbench.helpers.opening)
+    controller.try_requested.connect(services.running.try_project)
     for menu in host.menus.values():
-        desk.listen(menu)
+        controller.listen(menu)
 
     def follow(listener: Listener) -> None:
         """Tell of each page that is shown, and in which panel."""
@@ -42,13 +42,13 @@ def make(host: Host) -> Parts:
         def follow_panel(shown: HelpPanel) -> None:
             shown.page_shown.connect(partial(listener, shown))
 
-        desk.panel_made.connect(follow_panel)
-        follow_panel(desk.panel)
+        controller.panel_made.connect(follow_panel)
+        follow_panel(controller.panel)
 
     commands: dict[str, Callable[..., object]] = {
-        "help.answer": desk.answer,
-        "help.open": desk.open,
-        "help.search": desk.search,
+        "help.answer": controller.answer,
+        "help.open": controller.open,
+        "help.search": controller.search,
         "help.documentation": lambda: open_documentation(services.messages),
         "help.follow": follow,
     }

@@ -196,7 +196,7 @@ class HelpWindow(QWidget):
         self.resize(52 * line, 40 * line)
 
 
-class HelpDesk(QObject):
+class HelpController(QObject):
     """Where help is asked for. ``try_requested`` brings an example that is to be run.
 
     ``panel_made`` brings the HelpPanel of a window of its own, when that is first needed.

@@ -44,7 +44,7 @@ class Line:
 
     elapsed_s: float
     part: str
-    who: str
+    source: str
     what: str
     count: int = 1
 
@@ -52,8 +52,8 @@ class Line:
     def words(self) -> str:
         """All of it, for the clipboard, files, and screen readers."""
         times = tr(" ({count} times)", count=self.count) if self.count > 1 else ""
-        who = f"{self.who}: " if self.who else ""
-        return f"{self.elapsed_s:.2f} s  {who}{self.what}{times}"
+        source = f"{self.source}: " if self.source else ""
+        return f"{self.elapsed_s:.2f} s  {source}{self.what}{times}"
 
 
 def part_of(message: object) -> str:
@@ -133,7 +133,7 @@ class LinesModel(QAbstractListModel):
     def _fits(self, line: Line) -> bool:
         if self._part and line.part not in (self._part, RUN):
             return False
-        return not self._words or self._words in f"{line.who} {line.what}".casefold()
+        return not self._words or self._words in f"{line.source} {line.what}".casefold()
 
     def _tell_counted(self) -> None:
         if self._shown:
@@ -159,7 +159,7 @@ class LinesModel(QAbstractListModel):
 
 
 def _is_same(last: Line, line: Line) -> bool:
-    return (last.part, last.who, last.what) == (line.part, line.who, line.what)
+    return (last.part, last.source, last.what) == (line.part, line.source, line.what)
 
 
 # Paints a line of what happens: when, the sign and name of who, and what.
@@ -204,9 +204,9 @@ class LinePainter(QStyledItemDelegate):
         numbers = Qt.AlignmentFlag.AlignRight
         _write(painter, font, muted, when, f"{line.elapsed_s:.2f}", numbers)
         self._draw_sign(painter, columns.take(option.fontMetrics.height()), line)
-        if line.who:
-            who = columns.take(option.fontMetrics.averageCharWidth() * WHO_LETTERS)
-            _write(painter, bold, text, who, line.who, end)
+        if line.source:
+            source = columns.take(option.fontMetrics.averageCharWidth() * WHO_LETTERS)
+            _write(painter, bold, text, source, line.source, end)
         if line.count > 1:
             times = f"×{line.count}"  # noqa: RUF001 the sign for times is meant
             room = columns.take(option.fontMetrics.horizontalAdvance(f"{times} "))

@@ -201,7 +201,7 @@ class WhatHappens(QWidget):
         for time_s, message in self._waiting:
             elapsed_s, part = max(0.0, time_s - self._started_s), part_of(message)
             told = self._timeline.lines(message)
-            lines += [Line(elapsed_s, part, who, what) for who, what in told]
+            lines += [Line(elapsed_s, part, source, what) for source, what in told]
         self._waiting.clear()
         self._add(lines)
 

@@ -24,7 +24,7 @@ from nep_studio.ui.words import count_words, tr
 from robots.body.body import Body, posture_name
 from robots.errors import ActionFailed
 
-from .motion_controller import MotionDesk, Player
+from .motion_controller import MotionController, Player
 from .timeline import Timeline
 from .timeline_painter import Fault
 
@@ -32,9 +32,11 @@ from .timeline_painter import Fault
 class Header(QWidget):
     """Three fields over the robot."""
 
-    def __init__(self, desk: MotionDesk, language: Language, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, controller: MotionController, language: Language, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
-        self.desk = desk
+        self.controller = controller
         self.title = QLineEdit()
         self.title.setMaxLength(100)
         self.title.setPlaceholderText(tr("Name of the motion"))
@@ -42,7 +44,7 @@ class Header(QWidget):
         self.start = QComboBox()
         self.start.setAccessibleName(tr("Starts from"))
         self.start.addItem(tr("any posture"), "")
-        for name, words in posture_words(language, desk.body).items():
+        for name, words in posture_words(language, controller.body).items():
             self.start.addItem(words, name)
         self.kind = QComboBox()
         self.kind.setAccessibleName(tr("Used to"))
@@ -50,15 +52,15 @@ class Header(QWidget):
             self.kind.addItem(words, kind)
         self._lay_out()
         self.title.textEdited.connect(self._on_title_edited)
-        self.title.editingFinished.connect(desk.seal)
+        self.title.editingFinished.connect(controller.seal)
         self.start.activated.connect(self._on_start_chosen)
         self.kind.activated.connect(self._on_kind_chosen)
-        desk.changed.connect(self.refresh)
+        controller.changed.connect(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
         """Show the motion as it is now."""
-        motion = self.desk.motion
+        motion = self.controller.motion
         if self.title.text() != motion.title:
             self.title.setText(motion.title)
         self.start.setCurrentIndex(max(0, self.start.findData(motion.starts_from)))
@@ -75,14 +77,14 @@ class Header(QWidget):
             row.addWidget(field)
 
     def _on_title_edited(self, title: str) -> None:
-        self.desk.change(tr("name the motion"), merge="title", title=title)
+        self.controller.change(tr("name the motion"), merge="title", title=title)
 
     def _on_start_chosen(self) -> None:
-        self.desk.set_start(self.start.currentData(), tr("choose the posture it starts from"))
+        self.controller.set_start(self.start.currentData(), tr("choose the posture it starts from"))
         self.refresh()
 
     def _on_kind_chosen(self) -> None:
-        self.desk.change(tr("choose what it is for"), kind=self.kind.currentData())
+        self.controller.change(tr("choose what it is for"), kind=self.kind.currentData())
 
 
 def kind_words() -> dict[AnimationKind, str]:
@@ -114,9 +116,11 @@ class NotesBar(QFrame):
     time_asked = Signal()
     open_asked = Signal()
 
-    def __init__(self, desk: MotionDesk, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, controller: MotionController, look: Look, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
-        self.desk, self.look = desk, look
+        self.controller, self.look = controller, look
         self.faults: list[Fault] = []
         self.sign, self.words = QLabel(), QLabel()
         self.words.setWordWrap(True)
@@ -129,7 +133,7 @@ class NotesBar(QFrame):
         self.give_time.clicked.connect(self.time_asked)
         self.open.clicked.connect(self.open_asked)
         self.show_place.clicked.connect(self._on_show_asked)
-        desk.changed.connect(self.refresh)
+        controller.changed.connect(self.refresh)
         look.theme_changed.connect(self.refresh)
         self.refresh()
 
@@ -142,7 +146,7 @@ class NotesBar(QFrame):
 
     def refresh(self) -> None:
         """Say what there is to say now."""
-        is_empty = not self.desk.motion.joints
+        is_empty = not self.controller.motion.joints
         self.open.setVisible(is_empty)
         self.give_time.setVisible(any(fault.kind == "fast" for fault in self.faults))
         self.show_place.setVisible(bool(self.faults))
@@ -184,7 +188,7 @@ class NotesBar(QFrame):
         if self.faults:
             fault = self.faults[0]
             is_fall = fault.kind == "fall"
-            self.desk.show(fault.from_s if is_fall else (fault.from_s + fault.to_s) / 2)
+            self.controller.show(fault.from_s if is_fall else (fault.from_s + fault.to_s) / 2)
 
 
 # Plays and pauses a motion, and says how fast and how often; a row of buttons.
@@ -201,14 +205,14 @@ class Transport(QWidget):
 
     def __init__(
         self,
-        desk: MotionDesk,
+        controller: MotionController,
         player: Player,
         timeline: Timeline,
         actions: Actions,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self.desk, self.player, self.timeline = desk, player, timeline
+        self.controller, self.player, self.timeline = controller, player, timeline
         self.time = QLabel()
         self.speed = QComboBox()
         self.speed.setAccessibleName(tr("Speed"))
@@ -228,13 +232,13 @@ class Transport(QWidget):
         self._lay_out(actions)
         self.speed.currentIndexChanged.connect(self._on_speed_changed)
         self.snap.currentIndexChanged.connect(self._on_snap_changed)
-        for signal in (desk.changed, desk.moved):
+        for signal in (controller.changed, controller.moved):
             signal.connect(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
         """Show the moment."""
-        place, whole = self.desk.cursor_s, self.desk.motion.duration_s
+        place, whole = self.controller.cursor_s, self.controller.motion.duration_s
         local = QLocale()
         words = (local.toString(place, "f", 2), local.toString(whole, "f", 2))
         self.time.setText(tr("{now} of {all} s", now=words[0], all=words[1]))

@@ -49,23 +49,23 @@ class Commands:
     """Adds the actions of a window, and does what they ask for."""
 
     def __init__(self, window: MotionWindow) -> None:
-        self.window, self.desk, self.player = window, window.desk, window.player
+        self.window, self.controller, self.player = window, window.controller, window.player
         self._add_edit()
         self._add_play()
         self._add_changes()
 
     def update(self) -> None:
         """Let those actions be used that have something to do."""
-        actions, desk = self.window.actions_by_name, self.desk
-        is_there = bool(desk.motion.joints)
-        actions.enable(bool(desk.undo_label), "undo_motion")
-        actions.enable(bool(desk.redo_label), "redo_motion")
-        actions.enable(bool(desk.chosen), "copy_pose", "delete_pose")
+        actions, controller = self.window.actions_by_name, self.controller
+        is_there = bool(controller.motion.joints)
+        actions.enable(bool(controller.undo_label), "undo_motion")
+        actions.enable(bool(controller.redo_label), "redo_motion")
+        actions.enable(bool(controller.chosen), "copy_pose", "delete_pose")
         names = ("first_pose", "play_motion", "mirror", "backwards", "stretch", "all_poses")
         actions.enable(is_there, *names)
         for name, label, words in (
-            ("undo_motion", desk.undo_label, tr("Undo")),
-            ("redo_motion", desk.redo_label, tr("Redo")),
+            ("undo_motion", controller.undo_label, tr("Undo")),
+            ("redo_motion", controller.redo_label, tr("Redo")),
         ):
             actions[name].setText(f"{words}: {label}" if label else words)
 
@@ -82,9 +82,15 @@ class Commands:
 
     def _add_edit(self) -> None:
         add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
-        desk = self.desk
-        add("undo_motion", tr("Undo"), desk.undo, icon_name="undo-2", keys=keys.Undo)
-        add("redo_motion", tr("Redo"), desk.redo, icon_name="redo-2", keys=(keys.Redo, "Ctrl+Y"))
+        controller = self.controller
+        add("undo_motion", tr("Undo"), controller.undo, icon_name="undo-2", keys=keys.Undo)
+        add(
+            "redo_motion",
+            tr("Redo"),
+            controller.redo,
+            icon_name="redo-2",
+            keys=(keys.Redo, "Ctrl+Y"),
+        )
         self._add_plain("add_pose", tr("Add a pose"), self.add_pose, "plus")
         self._add_plain("copy_pose", tr("Copy the poses to here"), self.copy, "copy-plus")
         self._add_plain("delete_pose", tr("Delete the poses"), self.delete, "trash-2")
@@ -92,7 +98,7 @@ class Commands:
 
     def _add_play(self) -> None:
         begin = tr("To the beginning")
-        self._add_plain("first_pose", begin, lambda: self.desk.show(0.0), "rotate-ccw")
+        self._add_plain("first_pose", begin, lambda: self.controller.show(0.0), "rotate-ccw")
         self._add_plain("play_motion", tr("Play"), self.player.toggle, "play")
         self._add_plain("loop_motion", tr("Again and again"), lambda: None, "repeat")
         loop = self.window.actions_by_name["loop_motion"]
@@ -136,32 +142,34 @@ class Commands:
     def add_pose(self) -> None:
         """Keep the pose that is shown."""
         self.player.pause()
-        self.desk.add_key(tr("add a key pose"))
+        self.controller.add_key(tr("add a key pose"))
 
     def copy(self) -> None:
         """Copy the chosen poses to the moment that is shown, or behind the last one."""
-        desk = self.desk
-        if not desk.chosen:
+        controller = self.controller
+        if not controller.chosen:
             return
-        first = desk.chosen[0]
-        is_away = all(abs(desk.cursor_s - time) > editing.SAME_S for time in desk.chosen)
-        end_s = desk.motion.duration_s + COPY_GAP_S
-        target = desk.cursor_s if is_away and desk.cursor_s > 0 else end_s
-        desk.copy_chosen(target - first, tr("copy key poses"))
-        desk.show(desk.chosen[0])
+        first = controller.chosen[0]
+        is_away = all(
+            abs(controller.cursor_s - time) > editing.SAME_S for time in controller.chosen
+        )
+        end_s = controller.motion.duration_s + COPY_GAP_S
+        target = controller.cursor_s if is_away and controller.cursor_s > 0 else end_s
+        controller.copy_chosen(target - first, tr("copy key poses"))
+        controller.show(controller.chosen[0])
 
     def delete(self) -> None:
         """Take the chosen poses away."""
-        self.desk.delete_chosen(tr("delete key poses"))
+        self.controller.delete_chosen(tr("delete key poses"))
 
     def choose_all(self) -> None:
         """Choose every pose."""
-        self.desk.choose(editing.key_times(self.desk.motion))
+        self.controller.choose(editing.key_times(self.controller.motion))
 
     def give_time(self) -> None:
         """Make it as slow as the robot needs, where it is too fast."""
         self.player.pause()
-        self.desk.give_time(tr("give it the time it needs"))
+        self.controller.give_time(tr("give it the time it needs"))
 
     def ask_stretch(self) -> None:
         """Ask how many percent of its time the motion is to take."""
@@ -176,9 +184,9 @@ class Commands:
 
     def stretch(self, percent: int) -> None:
         """Let it take so many percent of its time."""
-        motion = editing.stretched(self.desk.motion, percent / 100.0)
-        self.desk.choose(())
-        self.desk.do(tr("change how long it takes"), motion)
+        motion = editing.stretched(self.controller.motion, percent / 100.0)
+        self.controller.choose(())
+        self.controller.do(tr("change how long it takes"), motion)
 
     def show_menu(self, place: object) -> None:
         """The menu of the timeline."""
@@ -193,8 +201,8 @@ class Commands:
 
     def _do(self, label: str, change: Callable[[OwnAnimation], OwnAnimation]) -> None:
         self.player.pause()
-        self.desk.choose(())
-        self.desk.do(label, change(self.desk.motion))
+        self.controller.choose(())
+        self.controller.do(label, change(self.controller.motion))
 
     def _look_from(self, preset: str) -> None:
         self.window.view.look_from(preset)
@@ -216,7 +224,7 @@ class ProjectCommands:
     """The actions that reach beyond the window."""
 
     def __init__(self, window: MotionWindow) -> None:
-        self.window, self.desk, self.kept = window, window.desk, window.kept
+        self.window, self.controller, self.kept = window, window.controller, window.kept
         self._use: Use | None = None
         add, keys = window.actions_by_name.add, QKeySequence.StandardKey
         add("new_motion", tr("New"), self.new, icon_name="file-plus", keys=keys.New)
@@ -235,9 +243,9 @@ class ProjectCommands:
 
     def update(self) -> None:
         """Let those actions be used that have something to do."""
-        actions, is_there = self.window.actions_by_name, bool(self.desk.motion.joints)
-        is_kept = self.desk.name in self.kept.own()
-        can_save = self.kept.editor is not None and (self.desk.is_modified or not is_kept)
+        actions, is_there = self.window.actions_by_name, bool(self.controller.motion.joints)
+        is_kept = self.controller.name in self.kept.own()
+        can_save = self.kept.editor is not None and (self.controller.is_modified or not is_kept)
         actions.enable(is_there and can_save, "save_motion")
         actions.enable(is_there, "export_motion")
         actions.enable(is_kept, "delete_motion")
@@ -319,9 +327,9 @@ class ProjectCommands:
     def _show(self, motion: OwnAnimation, name: str) -> None:
         self.window.player.pause()
         self._use = None
-        self.desk.open(motion, name)
-        self.desk.moved.emit()
-        self.desk.chosen_changed.emit()
+        self.controller.open(motion, name)
+        self.controller.moved.emit()
+        self.controller.chosen_changed.emit()
 
     # Keeping
 
@@ -331,19 +339,19 @@ class ProjectCommands:
             self._tell(tr("No project is open"), "", tr("Open a project, then keep the motion."))
             return False
         try:
-            name = self.kept.save(self.desk.motion, self.desk.name, self._use)
+            name = self.kept.save(self.controller.motion, self.controller.name, self._use)
         except EditRefused as refused:
             step = tr("Give it a name and at least one pose, then keep it again.")
             self._tell(tr("The motion could not be kept"), tr(refused.sentence), step)
             return False
         self._use = None
-        self.desk.saved(name)
+        self.controller.saved(name)
         announce(self.window, tr("The motion is kept. Blocks can play it."))
         return True
 
     def guard(self, then: Callable[[], object]) -> None:
         """Do something after asking what is to become of changes."""
-        if not self.desk.is_modified or not self.desk.motion.joints:
+        if not self.controller.is_modified or not self.controller.motion.joints:
             then()
             return
 
@@ -351,7 +359,7 @@ class ProjectCommands:
             if self.save():
                 then()
 
-        title = tr("Keep the changes of “{title}”?", title=self.desk.motion.title)
+        title = tr("Keep the changes of “{title}”?", title=self.controller.motion.title)
         answers = (
             Answer(tr("Keep in the project"), save_first, "primary"),
             Answer(tr("Throw away"), then),
@@ -361,11 +369,11 @@ class ProjectCommands:
 
     def ask_delete(self) -> None:
         """Ask whether to take the motion out of the project; say what plays it."""
-        name = self.desk.name
+        name = self.controller.name
         uses = self.kept.uses(name)
         told = count_words(uses, "1 block plays it", "{n} blocks play it")
         words = tr("{uses}: choose another motion there.", uses=told) if uses else ""
-        title = tr("Delete “{title}” from the project?", title=self.desk.motion.title)
+        title = tr("Delete “{title}” from the project?", title=self.controller.motion.title)
         answers = (
             Answer(tr("Delete"), lambda: self.delete(name)),
             Answer(tr("Cancel"), lambda: None, "primary"),
@@ -375,7 +383,7 @@ class ProjectCommands:
     def delete(self, name: str) -> None:
         """Take a motion out of the project; it stays here, to be kept again."""
         self.kept.delete(name)
-        self.desk.changed.emit()
+        self.controller.changed.emit()
 
     # As text
 
@@ -383,20 +391,20 @@ class ProjectCommands:
         """Ask for what Choregraphe has exported."""
         from .importing import ImportDialog
 
-        dialog = ImportDialog(self.desk.body, self.window)
+        dialog = ImportDialog(self.controller.body, self.window)
         dialog.read.connect(lambda joints: self.guard(lambda: self.bring_in(joints)))
         dialog.open()
 
     def bring_in(self, joints: OwnAnimation) -> None:
         """Show a motion that was read; it is not kept yet."""
         self.window.player.pause()
-        self.desk.open(joints, is_kept=False)
-        self.desk.moved.emit()
+        self.controller.open(joints, is_kept=False)
+        self.controller.moved.emit()
 
     def export(self) -> None:
         """Ask for a file, and write the motion into it."""
-        text = to_toml(self.desk.motion)
-        name = f"{free_name(self.desk.motion.title, ())}.toml"
+        text = to_toml(self.controller.motion)
+        name = f"{free_name(self.controller.motion.title, ())}.toml"
 
         def save(path: Path) -> None:
             path.write_text(text, encoding="utf-8")

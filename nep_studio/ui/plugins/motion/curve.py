@@ -13,7 +13,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
 from . import editing
-from .motion_controller import MotionDesk, joint_words, limb_of_joint_words
+from .motion_controller import MotionController, joint_words, limb_of_joint_words
 from .timeline import Timeline, shift_of
 from .timeline_painter import Scale, snapped
 
@@ -24,15 +24,15 @@ SMALL_STEP, LARGE_STEP = 1.0, 5.0
 class CurveView(QWidget):
     """Shows ``joint``; time is where it is on the timeline."""
 
-    def __init__(self, desk: MotionDesk, timeline: Timeline, look: Look) -> None:
+    def __init__(self, controller: MotionController, timeline: Timeline, look: Look) -> None:
         super().__init__()
-        self.desk, self.timeline, self.look = desk, timeline, look
-        self.joint = desk.body.names[0]
+        self.controller, self.timeline, self.look = controller, timeline, look
+        self.joint = controller.body.names[0]
         self.key_s: float | None = None
         self._grip: QPointF | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Curve of the joint"))
-        for signal in (desk.changed, desk.moved):
+        for signal in (controller.changed, controller.moved):
             signal.connect(self.update)
 
     def show_joint(self, name: str) -> None:
@@ -48,7 +48,7 @@ class CurveView(QWidget):
     @property
     def keys(self) -> list[tuple[float, float]]:
         """The times and angles of the joint's keys."""
-        joint = self.desk.motion.joints.get(self.joint)
+        joint = self.controller.motion.joints.get(self.joint)
         return list(zip(joint.times, joint.keys, strict=True)) if joint is not None else []
 
     def place_of(self, time: float, angle: float) -> QPointF:
@@ -75,9 +75,11 @@ class CurveView(QWidget):
             return
         self.key_s = self._key_at(event.position())
         if self.key_s is None:
-            self.desk.show(snapped(self.scale.time(event.position().x()), self.timeline.snap_s))
+            self.controller.show(
+                snapped(self.scale.time(event.position().x()), self.timeline.snap_s)
+            )
         else:
-            self.desk.show(self.key_s)
+            self.controller.show(self.key_s)
             self._grip = event.position()
         self.update()
 
@@ -87,7 +89,7 @@ class CurveView(QWidget):
             return
         place = event.position()
         if self._grip is None:
-            self.desk.show(snapped(self.scale.time(place.x()), self.timeline.snap_s))
+            self.controller.show(snapped(self.scale.time(place.x()), self.timeline.snap_s))
             return
         near = self.fontMetrics().height() * 0.25
         if (place - self._grip).manhattanLength() < near:
@@ -98,7 +100,7 @@ class CurveView(QWidget):
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Let go."""
         self._grip = None
-        self.desk.seal()
+        self.controller.seal()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Set a key of this joint there."""
@@ -120,22 +122,24 @@ class CurveView(QWidget):
             case Qt.Key.Key_PageUp | Qt.Key.Key_PageDown:
                 self._next_key(is_later=event.key() == Qt.Key.Key_PageDown)
             case Qt.Key.Key_Delete | Qt.Key.Key_Backspace if self.key_s is not None:
-                motion = editing.without_key(self.desk.motion, self.joint, self.key_s)
+                motion = editing.without_key(self.controller.motion, self.joint, self.key_s)
                 self.key_s = None
-                self.desk.do(tr("delete a key"), motion)
+                self.controller.do(tr("delete a key"), motion)
             case _ if step_s is not None:
-                self.desk.show(snapped(self.desk.cursor_s + step_s, self.timeline.snap_s))
+                self.controller.show(
+                    snapped(self.controller.cursor_s + step_s, self.timeline.snap_s)
+                )
             case _:
                 super().keyPressEvent(event)
 
     def _next_key(self, *, is_later: bool) -> None:
-        now, times = self.desk.cursor_s, [time for time, _ in self.keys]
+        now, times = self.controller.cursor_s, [time for time, _ in self.keys]
         later = [t for t in times if t > now + editing.SAME_S]
         earlier = [t for t in times if t < now - editing.SAME_S]
         found = min(later, default=None) if is_later else max(earlier, default=None)
         if found is not None:
             self.key_s = found
-            self.desk.show(found)
+            self.controller.show(found)
 
     def _turn(self, change: float) -> None:
         if self.key_s is None:
@@ -149,7 +153,7 @@ class CurveView(QWidget):
 
     def _set(self, time: float, angle: float, *, merge: str = "") -> None:
         self.key_s = time
-        self.desk.set_key(self.joint, time, angle, tr("move a key"), merge=merge)
+        self.controller.set_key(self.joint, time, angle, tr("move a key"), merge=merge)
 
     def _move(self, time: float, angle: float, *, merge: str) -> None:
         assert self.key_s is not None
@@ -158,8 +162,8 @@ class CurveView(QWidget):
         if any(abs(t - time) < editing.SAME_S for t in others):
             time = before  # it does not push another key of this joint away
         self.key_s = time
-        self.desk.move_key(self.joint, before, time, angle, tr("move a key"), merge=merge)
-        self.desk.show(time)
+        self.controller.move_key(self.joint, before, time, angle, tr("move a key"), merge=merge)
+        self.controller.show(time)
 
     def _key_at(self, place: QPointF) -> float | None:
         near = self.fontMetrics().height() * 0.6
@@ -169,7 +173,7 @@ class CurveView(QWidget):
         return None
 
     def _limits(self) -> tuple[float, float]:
-        body = self.desk.body
+        body = self.controller.body
         column = body.index[self.joint]
         return float(body.min[column]), float(body.max[column])
 
@@ -197,8 +201,8 @@ class CurveView(QWidget):
         for angle in (low, 0.0, high):
             if low <= angle <= high:
                 self._paint_level(painter, angle, is_limit=angle != 0.0)
-        rehearsal = self.desk.rehearsal
-        column = self.desk.body.index[self.joint]
+        rehearsal = self.controller.rehearsal
+        column = self.controller.body.index[self.joint]
         every = max(1, len(rehearsal.times) // 1000)
         curve = [
             self.place_of(float(t), float(a))
@@ -210,7 +214,7 @@ class CurveView(QWidget):
         painter.drawPolyline(QPolygonF(curve))
         for time, angle in self.keys:
             self._paint_key(painter, time, angle)
-        x = self.scale.x(self.desk.cursor_s)
+        x = self.scale.x(self.controller.cursor_s)
         painter.setPen(QPen(theme.colour("snap"), max(1.5, line / 9)))
         painter.drawLine(QLineF(x, 0.0, x, self.height()))
         if self.hasFocus():
@@ -248,11 +252,11 @@ class CurvePanel(QWidget):
     """A choice of the joints, those that move first, and the curve of the chosen one."""
 
     def __init__(
-        self, desk: MotionDesk, timeline: Timeline, language: Language, look: Look
+        self, controller: MotionController, timeline: Timeline, language: Language, look: Look
     ) -> None:
         super().__init__()
-        self.desk, self._language = desk, language
-        self.curve = CurveView(desk, timeline, look)
+        self.controller, self._language = controller, language
+        self.curve = CurveView(controller, timeline, look)
         self.joint = QComboBox()
         self.joint.setAccessibleName(tr("Joint"))
         self._moving: tuple[str, ...] | None = None
@@ -261,13 +265,13 @@ class CurvePanel(QWidget):
         box.addWidget(self.joint)
         box.addWidget(self.curve, 1)
         self.joint.currentIndexChanged.connect(self._on_chosen)
-        desk.changed.connect(self.refresh)
+        controller.changed.connect(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
         """Put the joints that move before the others."""
-        body = self.desk.body
-        moving = tuple(name for name in body.names if name in self.desk.motion.joints)
+        body = self.controller.body
+        moving = tuple(name for name in body.names if name in self.controller.motion.joints)
         if moving == self._moving:
             return
         self._moving = moving

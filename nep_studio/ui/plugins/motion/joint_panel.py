@@ -22,7 +22,7 @@ from nep_studio.ui.words import tr
 from robots.body.body import Joint
 
 from .editing import pose_at
-from .motion_controller import MotionDesk, joint_words
+from .motion_controller import MotionController, joint_words
 from .timeline_painter import limb_words
 
 STEPS = 10
@@ -87,33 +87,35 @@ class JointRow(QWidget):
 class JointPanel(QScrollArea):
     """The joints by limb."""
 
-    def __init__(self, desk: MotionDesk, language: Language, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, controller: MotionController, language: Language, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
-        self.desk = desk
+        self.controller = controller
         self.both = QCheckBox(tr("Both sides alike"))
         self.both.setToolTip(tr("What one arm or leg does, the other does too, as in a mirror"))
         self.both.toggled.connect(self._on_both_toggled)
         self.rows = {
-            joint.name: JointRow(joint, joint_words(language, desk.body, joint.name))
-            for joint in desk.body.joints
-            if joint.name not in desk.body.same_motor
+            joint.name: JointRow(joint, joint_words(language, controller.body, joint.name))
+            for joint in controller.body.joints
+            if joint.name not in controller.body.same_motor
         }
         self._lay_out()
         for row in self.rows.values():
             row.turned.connect(self._on_turned)
-            row.released.connect(desk.seal)
-        desk.changed.connect(self.refresh)
-        desk.moved.connect(self.refresh)
+            row.released.connect(controller.seal)
+        controller.changed.connect(self.refresh)
+        controller.moved.connect(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
         """Show the pose of the moment."""
-        pose, keys = self.desk.rehearsal.pose(self.desk.cursor_s), self._keys()
+        pose, keys = self.controller.rehearsal.pose(self.controller.cursor_s), self._keys()
         for name, row in self.rows.items():
-            row.show_angle(float(pose[self.desk.body.index[name]]), is_key=name in keys)
+            row.show_angle(float(pose[self.controller.body.index[name]]), is_key=name in keys)
 
     def _keys(self) -> frozenset[str]:
-        return frozenset(pose_at(self.desk.motion, self.desk.cursor_s))
+        return frozenset(pose_at(self.controller.motion, self.controller.cursor_s))
 
     def _lay_out(self) -> None:
         inner = QWidget()
@@ -121,7 +123,7 @@ class JointPanel(QScrollArea):
         box.addWidget(self.both)
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
-        body = self.desk.body
+        body = self.controller.body
         for limb, words in limb_words().items():
             names = [n for n in self.rows if body.joints[body.index[n]].limb is limb]
             if names:
@@ -158,7 +160,7 @@ class JointPanel(QScrollArea):
             row.hide()
 
     def _on_turned(self, name: str, angle: float) -> None:
-        self.desk.set_joints({name: angle}, tr("turn a joint"), merge=f"joint {name}")
+        self.controller.set_joints({name: angle}, tr("turn a joint"), merge=f"joint {name}")
 
     def _on_both_toggled(self, is_on: bool) -> None:
-        self.desk.is_mirrored = is_on
+        self.controller.is_mirrored = is_on

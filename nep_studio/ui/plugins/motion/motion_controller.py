@@ -84,7 +84,7 @@ class Step:
     merge: str = ""
 
 
-class MotionDesk(QObject):
+class MotionController(QObject):
     """One motion and its history.
 
     ``changed`` tells of the motion, ``moved`` of the moment that is shown, ``chosen_changed`` of
@@ -420,7 +420,7 @@ def _handle(handle: Handle) -> Handle:
     return (a, b, c, d)
 
 
-# Plays the motion on the desk: the moment that is shown goes on with the clock.
+# Plays the motion of the controller: the moment that is shown goes on with the clock.
 
 FRAME_MS = 16
 
@@ -430,9 +430,9 @@ class Player(QObject):
 
     changed = Signal(bool)
 
-    def __init__(self, desk: MotionDesk, parent: QObject | None = None) -> None:
+    def __init__(self, controller: MotionController, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.desk = desk
+        self.controller = controller
         self.speed = 1.0
         self.is_looping = False
         self._clock = QElapsedTimer()
@@ -446,11 +446,11 @@ class Player(QObject):
 
     def play(self) -> None:
         """Play on, from the beginning when the end is reached."""
-        end_s = self.desk.motion.duration_s
+        end_s = self.controller.motion.duration_s
         if self.is_playing or end_s <= 0:
             return
-        if self.desk.cursor_s >= end_s:
-            self.desk.show(0.0)
+        if self.controller.cursor_s >= end_s:
+            self.controller.show(0.0)
         self._clock.start()
         self._timer.start()
         self.changed.emit(True)
@@ -469,18 +469,18 @@ class Player(QObject):
             self.play()
 
     def _on_frame(self) -> None:
-        end_s = self.desk.motion.duration_s
-        now_s = self.desk.cursor_s + self._clock.restart() / 1000.0 * self.speed
+        end_s = self.controller.motion.duration_s
+        now_s = self.controller.cursor_s + self._clock.restart() / 1000.0 * self.speed
         if now_s < end_s:
-            self.desk.show(now_s)
+            self.controller.show(now_s)
         elif self.is_looping and end_s > 0:
-            self.desk.show(now_s % end_s)
+            self.controller.show(now_s % end_s)
         else:
-            self.desk.show(end_s)
+            self.controller.show(end_s)
             self.pause()
 
 
-# Finds what a robot could not do of the motion on the desk, a little at a time.
+# Finds what a robot could not do of the motion of the controller, a little at a time.
 
 SOON_MS = 150
 SLICE_S = 0.008
@@ -491,9 +491,11 @@ class Faults(QObject):
 
     found = Signal(list)
 
-    def __init__(self, desk: MotionDesk, skeleton: Skeleton, language: Language) -> None:
-        super().__init__(desk)
-        self.desk, self._skeleton, self._language = desk, skeleton, language
+    def __init__(
+        self, controller: MotionController, skeleton: Skeleton, language: Language
+    ) -> None:
+        super().__init__(controller)
+        self.controller, self._skeleton, self._language = controller, skeleton, language
         self.now: list[Fault] = []
         self.is_sure = False
         """Whether the motion has been looked at to its end as it is now."""
@@ -502,7 +504,7 @@ class Faults(QObject):
         self._soon.timeout.connect(self._begin)
         self._next = QTimer(self, interval=1)
         self._next.timeout.connect(self._on_next)
-        desk.changed.connect(self._on_changed)
+        controller.changed.connect(self._on_changed)
         self._on_changed()
 
     @property
@@ -517,12 +519,12 @@ class Faults(QObject):
 
     def _begin(self) -> None:
         worst: dict[tuple[float, float], TooFast] = {}
-        for one in self.desk.rehearsal.too_fast():
+        for one in self.controller.rehearsal.too_fast():
             gap = one.from_s, one.to_s
             if gap not in worst or worst[gap].ratio < one.ratio:
                 worst[gap] = one
         self.now = [self._fast(one) for one in worst.values()]
-        self._looking = falling(self._skeleton, self.desk.rehearsal)
+        self._looking = falling(self._skeleton, self.controller.rehearsal)
         self._next.start()
         self.found.emit(self.now)
 
@@ -550,8 +552,8 @@ class Faults(QObject):
 
     def _fall(self, at_s: float) -> Fault:
         words = tr("The robot would fall at {time} s.", time=f"{at_s:.2f}")
-        return Fault("fall", at_s, max(self.desk.motion.duration_s, at_s + 0.05), words)
+        return Fault("fall", at_s, max(self.controller.motion.duration_s, at_s + 0.05), words)
 
     def _joint(self, name: str) -> str:
-        limb = limb_of_joint_words(self.desk.body, name)
-        return f"{limb} ({joint_words(self._language, self.desk.body, name)})"
+        limb = limb_of_joint_words(self.controller.body, name)
+        return f"{limb} ({joint_words(self._language, self.controller.body, name)})"

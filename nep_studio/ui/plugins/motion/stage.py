@@ -21,7 +21,7 @@ from robots.body.inverse import Goal, Reach
 from robots.body.kinematics import TORSO, Frames, Skeleton, rotation
 
 from . import editing
-from .motion_controller import FIRST_POSE_S, MotionDesk
+from .motion_controller import FIRST_POSE_S, MotionController
 from .rehearsal import starting_posture, torso_for_posing
 
 if TYPE_CHECKING:
@@ -38,12 +38,12 @@ Place = tuple[float, float, float]
 
 
 class PosingStage(QObject):
-    """Keeps a robot view and a desk together."""
+    """Keeps a robot view and a controller together."""
 
-    def __init__(self, view: RobotView, desk: MotionDesk, model: str = "") -> None:
+    def __init__(self, view: RobotView, controller: MotionController, model: str = "") -> None:
         super().__init__(view)
-        self.view, self.desk, self._model = view, desk, model
-        self.skeleton = Skeleton(desk.body)
+        self.view, self.controller, self._model = view, controller, model
+        self.skeleton = Skeleton(controller.body)
         self.reach = Reach(self.skeleton)
         self._grip: _Grip | None = None
         self._soon = QTimer(self, singleShot=True, interval=FRAME_MS)
@@ -52,20 +52,20 @@ class PosingStage(QObject):
         view.limb_pressed.connect(self._on_pressed)
         view.limb_dragged.connect(self._on_dragged)
         view.limb_released.connect(self._on_released)
-        desk.changed.connect(self._soon.start)
-        desk.moved.connect(self.refresh)
+        controller.changed.connect(self._soon.start)
+        controller.moved.connect(self.refresh)
         self.refresh()
 
     def refresh(self) -> None:
         """Show the pose of the moment."""
         self._soon.stop()
-        desk = self.desk
-        pose = desk.rehearsal.pose(desk.cursor_s)
-        names = desk.body.names
+        controller = self.controller
+        pose = controller.rehearsal.pose(controller.cursor_s)
+        names = controller.body.names
         state = RobotState(
             robot=ROBOT,
             joints={name: float(angle) for name, angle in zip(names, pose, strict=True)},
-            posture=starting_posture(desk.body, desk.motion),
+            posture=starting_posture(controller.body, controller.motion),
             torso=self.torso(pose),
             model=self._model,
         )
@@ -73,7 +73,9 @@ class PosingStage(QObject):
 
     def torso(self, pose: Angles) -> tuple[float, float, float, float, float, float]:
         """Where the torso of a robot is that stands, sits or lies there like this."""
-        posture = self.desk.body.postures[starting_posture(self.desk.body, self.desk.motion)]
+        posture = self.controller.body.postures[
+            starting_posture(self.controller.body, self.controller.motion)
+        ]
         return torso_for_posing(self.skeleton, pose, posture)
 
     def _frame(self, pose: Angles) -> Frames:
@@ -84,7 +86,7 @@ class PosingStage(QObject):
         return frame
 
     def _on_pressed(self, _robot: str, link: str, place: Place) -> None:
-        pose = self.desk.rehearsal.pose(self.desk.cursor_s)
+        pose = self.controller.rehearsal.pose(self.controller.cursor_s)
         torso = self._frame(pose)
         frames = self.skeleton.frames(pose)
         whole = torso @ frames.get(link, np.eye(4))
@@ -97,14 +99,14 @@ class PosingStage(QObject):
         grip = self._grip
         if grip is None or grip.link != link:
             return
-        pose = self.desk.rehearsal.pose(self.desk.cursor_s)
+        pose = self.controller.rehearsal.pose(self.controller.cursor_s)
         goals = grip.feet_goals(place) if link == TORSO else [self._goal(grip, pose, place)]
         if not goals:
             return
         found = self.reach.reached(pose, *goals)
         columns = {column for goal in goals for column in self.reach.columns(goal.link)}
-        angles = {self.desk.body.names[column]: float(found[column]) for column in columns}
-        self.desk.set_joints(angles, tr("pose the robot"), merge=f"drag {link}")
+        angles = {self.controller.body.names[column]: float(found[column]) for column in columns}
+        self.controller.set_joints(angles, tr("pose the robot"), merge=f"drag {link}")
 
     def _goal(self, grip: _Grip, pose: Angles, place: Place) -> Goal:
         back = np.linalg.inv(self._frame(pose))
@@ -115,7 +117,7 @@ class PosingStage(QObject):
 
     def _on_released(self, _robot: str, _link: str) -> None:
         self._grip = None
-        self.desk.seal()
+        self.controller.seal()
 
 
 class _Grip:
@@ -153,9 +155,9 @@ class RobotPoses(QObject):
     While one is moved by hand, a touch of its head takes its pose: both hands are busy there.
     """
 
-    def __init__(self, runner: Runner, desk: MotionDesk, parent: QObject) -> None:
+    def __init__(self, runner: Runner, controller: MotionController, parent: QObject) -> None:
         super().__init__(parent)
-        self._runner, self._desk = runner, desk
+        self._runner, self._controller = runner, controller
         self.states: dict[str, m.RobotState] = {}
         self._by_hand: set[str] = set()
         self._tap = runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
@@ -170,7 +172,7 @@ class RobotPoses(QObject):
             add_title(menu, name)
             menu.addAction(tr("Take its pose"), partial(self.take, name))
             play = menu.addAction(tr("Let it play the motion"), partial(self.play, name))
-            play.setEnabled(bool(self._desk.motion.joints))
+            play.setEnabled(bool(self._controller.motion.joints))
             if name in self._by_hand:
                 hint = tr("Or touch the middle of its head")
                 menu.addAction(hint).setEnabled(False)
@@ -191,17 +193,17 @@ class RobotPoses(QObject):
         state = self.states.get(name)
         if state is None:
             return
-        times = editing.key_times(self._desk.motion)
-        is_taken = any(abs(self._desk.cursor_s - time) < editing.SAME_S for time in times)
+        times = editing.key_times(self._controller.motion)
+        is_taken = any(abs(self._controller.cursor_s - time) < editing.SAME_S for time in times)
         if not times:
-            self._desk.show(FIRST_POSE_S)
-        elif is_taken or self._desk.cursor_s < editing.SAME_S:
-            self._desk.show(times[-1] + NEXT_POSE_S)
-        self._desk.set_pose(state.joints, tr("take the pose of the robot"))
+            self._controller.show(FIRST_POSE_S)
+        elif is_taken or self._controller.cursor_s < editing.SAME_S:
+            self._controller.show(times[-1] + NEXT_POSE_S)
+        self._controller.set_pose(state.joints, tr("take the pose of the robot"))
 
     def play(self, name: str) -> None:
         """Let a robot play the motion as it is now, kept or not."""
-        motion = self._desk.motion
+        motion = self._controller.motion
         if motion.starts_from:
             self._ask(name, "do", {"posture": motion.starts_from})
         tracks = {joint: msgspec.to_builtins(keys) for joint, keys in motion.joints.items()}

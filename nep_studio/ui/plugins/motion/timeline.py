@@ -20,7 +20,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
 
 from .editing import SAME_S, key_times
-from .motion_controller import MotionDesk
+from .motion_controller import MotionController
 from .timeline_painter import LIMBS, Fault, Scale, TimelinePainter, limb_words, snapped
 
 # What keys and clicks on the timeline mean, apart from the widget.
@@ -56,9 +56,11 @@ class Timeline(QWidget):
     key_asked = Signal()
     menu_asked = Signal(object)  # QPoint, global
 
-    def __init__(self, desk: MotionDesk, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, controller: MotionController, look: Look, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
-        self.desk, self.look = desk, look
+        self.controller, self.look = controller, look
         self.snap_s = 0.05
         self.zoom = 1.0
         self.faults: list[Fault] = []
@@ -66,7 +68,7 @@ class Timeline(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setAccessibleName(tr("Timeline"))
-        for signal in (desk.changed, desk.moved, desk.chosen_changed):
+        for signal in (controller.changed, controller.moved, controller.chosen_changed):
             signal.connect(self._on_changed)
 
     # What is shown
@@ -79,7 +81,11 @@ class Timeline(QWidget):
     @property
     def shown_s(self) -> float:
         """How long the time is that the timeline shows."""
-        return max(SHORTEST_SHOWN_S, self.desk.motion.duration_s * MORE_SHOWN, self.desk.cursor_s)
+        return max(
+            SHORTEST_SHOWN_S,
+            self.controller.motion.duration_s * MORE_SHOWN,
+            self.controller.cursor_s,
+        )
 
     @property
     def scale(self) -> Scale:
@@ -137,9 +143,9 @@ class Timeline(QWidget):
         self.update()
 
     def _told(self) -> str:
-        count = len(key_times(self.desk.motion))
+        count = len(key_times(self.controller.motion))
         poses = count_words(count, "1 key pose", "{n} key poses")
-        return tr("{poses}; {time} s is shown", poses=poses, time=f"{self.desk.cursor_s:.2f}")
+        return tr("{poses}; {time} s is shown", poses=poses, time=f"{self.controller.cursor_s:.2f}")
 
     # The mouse
 
@@ -148,7 +154,9 @@ class Timeline(QWidget):
         scale, near = self.scale, self.line * 0.5
         if place.y() < self.row(1).top():
             return None
-        found = [t for t in key_times(self.desk.motion) if abs(scale.x(t) - place.x()) <= near]
+        found = [
+            t for t in key_times(self.controller.motion) if abs(scale.x(t) - place.x()) <= near
+        ]
         return min(found, key=lambda t: abs(scale.x(t) - place.x())) if found else None
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
@@ -160,13 +168,13 @@ class Timeline(QWidget):
         if key is None:
             self._drag = _Drag(place, self.scale.time(place.x()), "scrub")
             if place.y() >= self.row(1).top():
-                self.desk.choose(())
+                self.controller.choose(())
             self._scrub(place)
             return
         is_more = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
         is_after = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
-        self.desk.choose(times_with(self.desk.chosen, key, is_more=is_more))
-        self.desk.show(key)
+        self.controller.choose(times_with(self.controller.chosen, key, is_more=is_more))
+        self.controller.show(key)
         self._drag = _Drag(place, key, "after" if is_after else "move")
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
@@ -186,7 +194,7 @@ class Timeline(QWidget):
         """A drag ends."""
         if self._drag is not None:
             self._drag = None
-            self.desk.seal()
+            self.controller.seal()
             self.updateGeometry()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
@@ -199,9 +207,9 @@ class Timeline(QWidget):
         """What can be done with the key, or at the moment."""
         if event.reason() == QContextMenuEvent.Reason.Mouse:
             key = self.key_at(QPointF(event.pos()))
-            if key is not None and key not in self.desk.chosen:
-                self.desk.choose([key])
-                self.desk.show(key)
+            if key is not None and key not in self.controller.chosen:
+                self.controller.choose([key])
+                self.controller.show(key)
         self.menu_asked.emit(event.globalPos())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
@@ -219,18 +227,20 @@ class Timeline(QWidget):
         self.update()
 
     def _scrub(self, place: QPointF) -> None:
-        self.desk.show(snapped(self.scale.time(place.x()), self.snap_s))
+        self.controller.show(snapped(self.scale.time(place.x()), self.snap_s))
 
     def _move_to(self, place: QPointF, snap_s: float) -> None:
         drag = self._drag
         assert drag is not None
         wanted = snapped(drag.time + (place.x() - drag.place.x()) / self.scale.per_s, snap_s)
         if drag.kind == "after":
-            self.desk.shift_after(drag.at, wanted - drag.at, tr("make room"), merge="move keys")
+            self.controller.shift_after(
+                drag.at, wanted - drag.at, tr("make room"), merge="move keys"
+            )
         else:
-            self.desk.move_chosen(wanted - drag.at, tr("move key poses"), merge="move keys")
+            self.controller.move_chosen(wanted - drag.at, tr("move key poses"), merge="move keys")
         drag.at = max(wanted, 0.01) if drag.kind == "move" else wanted
-        self.desk.show(drag.at)
+        self.controller.show(drag.at)
 
     def event(self, event: QEvent) -> bool:
         """Say what is wrong where something is."""
@@ -248,21 +258,21 @@ class Timeline(QWidget):
         is_moving = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
         step_s = shift_of(event.key(), self.snap_s or 0.01)
         if step_s is not None and is_moving:
-            self.desk.move_chosen(step_s, tr("move key poses"))
-            if self.desk.chosen:
-                self.desk.show(self.desk.chosen[0])
+            self.controller.move_chosen(step_s, tr("move key poses"))
+            if self.controller.chosen:
+                self.controller.show(self.controller.chosen[0])
         elif step_s is not None:
-            self.desk.show(snapped(self.desk.cursor_s + step_s, self.snap_s))
+            self.controller.show(snapped(self.controller.cursor_s + step_s, self.snap_s))
         elif not self._go(event.key()):
             super().keyPressEvent(event)
 
     def _go(self, key: int) -> bool:
-        times, now = key_times(self.desk.motion), self.desk.cursor_s
+        times, now = key_times(self.controller.motion), self.controller.cursor_s
         match key:
             case Qt.Key.Key_Home:
-                self.desk.show(0.0)
+                self.controller.show(0.0)
             case Qt.Key.Key_End:
-                self.desk.show(times[-1] if times else 0.0)
+                self.controller.show(times[-1] if times else 0.0)
             case Qt.Key.Key_PageUp:
                 self._choose(max((t for t in times if t < now - SAME_S), default=None))
             case Qt.Key.Key_PageDown:
@@ -273,8 +283,8 @@ class Timeline(QWidget):
 
     def _choose(self, time: float | None) -> None:
         if time is not None:
-            self.desk.choose([time])
-            self.desk.show(time)
+            self.controller.choose([time])
+            self.controller.show(time)
 
 
 class _Drag:

@@ -44,7 +44,7 @@ class TimelinePainter:
 
     def __init__(self, timeline: Timeline, painter: QPainter) -> None:
         self.timeline, self.painter = timeline, painter
-        self.desk, self.theme = timeline.desk, timeline.look.theme
+        self.controller, self.theme = timeline.controller, timeline.look.theme
         self.line, self.scale = timeline.line, timeline.scale
 
     def paint(self) -> None:
@@ -70,7 +70,7 @@ class TimelinePainter:
             if number == 1:
                 self.painter.fillRect(row, self.theme.colour("panel"))
             self.painter.drawLine(QLineF(row.bottomLeft(), row.bottomRight()))
-        end = self.scale.x(self.desk.motion.duration_s)
+        end = self.scale.x(self.controller.motion.duration_s)
         beyond = QRectF(end, self.timeline.row(1).top(), self.timeline.width() - end, 1e4)
         shade = self.theme.colour("panel_alt")
         shade.setAlphaF(0.5)
@@ -103,12 +103,14 @@ class TimelinePainter:
         paint_icon(self.painter, place, "triangle-alert", colour)
 
     def _limb_keys(self) -> None:
-        body = self.desk.body
+        body = self.controller.body
         for number, limb in enumerate(LIMBS, start=2):
             row = self.timeline.row(number)
-            names = [n for n in self.desk.motion.joints if n in body.index]
+            names = [n for n in self.controller.motion.joints if n in body.index]
             moving = [n for n in names if body.joints[body.index[n]].limb is limb]
-            times = sorted({t for name in moving for t in self.desk.motion.joints[name].times})
+            times = sorted(
+                {t for name in moving for t in self.controller.motion.joints[name].times}
+            )
             if not times:
                 continue
             colour = self.theme.colour("accent")
@@ -123,7 +125,7 @@ class TimelinePainter:
 
     def _pose_keys(self) -> None:
         row = self.timeline.row(1)
-        for time in key_times(self.desk.motion):
+        for time in key_times(self.controller.motion):
             self._diamond(time, row, self.line * 0.42, self._is_chosen(time))
 
     def _diamond(self, time: float, row: QRectF, size: float, is_chosen: bool) -> None:
@@ -139,7 +141,7 @@ class TimelinePainter:
             self.painter.drawEllipse(QPointF(x, y), size * 0.25, size * 0.25)
 
     def _is_chosen(self, time: float) -> bool:
-        return any(abs(one - time) < SAME_S for one in self.desk.chosen)
+        return any(abs(one - time) < SAME_S for one in self.controller.chosen)
 
     def _names(self) -> None:
         names = ["", tr("Poses"), *limb_words().values()]
@@ -154,7 +156,7 @@ class TimelinePainter:
             self.painter.drawText(row, flags, name)
 
     def _cursor(self) -> None:
-        x = self.scale.x(self.desk.cursor_s)
+        x = self.scale.x(self.controller.cursor_s)
         colour = self.theme.colour("snap")
         ruler = self.timeline.row(0)
         self.painter.setPen(QPen(colour, max(1.5, self.line / 9)))

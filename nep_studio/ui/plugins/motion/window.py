@@ -32,7 +32,7 @@ from .bars import Header, NotesBar, Transport
 from .commands import Commands, ProjectCommands
 from .curve import CurvePanel
 from .joint_panel import JointPanel
-from .motion_controller import Faults, KeptMotions, MotionDesk, Player
+from .motion_controller import Faults, KeptMotions, MotionController, Player
 from .stage import PosingStage, RobotPoses
 from .timeline import Timeline
 
@@ -52,26 +52,28 @@ class MotionWindow(QDialog):
         language = host.services.language
         self.model, folder = model, model_folder(model or NAO)
         body = load_body(folder)
-        self.desk = MotionDesk(body, self)
-        self.player = Player(self.desk, self)
+        self.controller = MotionController(body, self)
+        self.player = Player(self.controller, self)
         self.kept = KeptMotions(host.services.files, folder, body)
         self.actions_by_name = Actions(self, self.look)
         self.commands = Commands(self)
         self.project = ProjectCommands(self)
         self.view = RobotView(self.look)
-        self.stage = PosingStage(self.view, self.desk, model)
-        self.joints = JointPanel(self.desk, language)
-        self.header = Header(self.desk, language)
-        self.timeline = Timeline(self.desk, self.look)
-        self.curve = CurvePanel(self.desk, self.timeline, language, self.look)
-        self.transport = Transport(self.desk, self.player, self.timeline, self.actions_by_name)
-        self.notes = NotesBar(self.desk, self.look)
-        self.faults = Faults(self.desk, self.stage.skeleton, language)
-        self.robots = RobotPoses(host.services.runner, self.desk, self)
+        self.stage = PosingStage(self.view, self.controller, model)
+        self.joints = JointPanel(self.controller, language)
+        self.header = Header(self.controller, language)
+        self.timeline = Timeline(self.controller, self.look)
+        self.curve = CurvePanel(self.controller, self.timeline, language, self.look)
+        self.transport = Transport(
+            self.controller, self.player, self.timeline, self.actions_by_name
+        )
+        self.notes = NotesBar(self.controller, self.look)
+        self.faults = Faults(self.controller, self.stage.skeleton, language)
+        self.robots = RobotPoses(host.services.runner, self.controller, self)
         self._may_close = False
         self._lay_out()
         self._connect()
-        self.desk.open(new_motion())
+        self.controller.open(new_motion())
         self.timeline.setFocus()
 
     def _connect(self) -> None:
@@ -83,7 +85,7 @@ class MotionWindow(QDialog):
         self.timeline.menu_asked.connect(self.commands.show_menu)
         self.host.services.files.document_changed.connect(self._on_document_changed)
         self.view.limb_pressed.connect(lambda *_: self.player.pause())
-        for signal in (self.desk.changed, self.desk.chosen_changed):
+        for signal in (self.controller.changed, self.controller.chosen_changed):
             signal.connect(self._on_changed)
 
     def _lay_out(self) -> None:
@@ -118,7 +120,7 @@ class MotionWindow(QDialog):
 
     def show_curve(self, is_shown: bool) -> None:
         """Show the curve of one joint in place of the timeline."""
-        moving = [name for name in self.desk.motion.joints if name in self.joints.rows]
+        moving = [name for name in self.controller.motion.joints if name in self.joints.rows]
         if is_shown and self.curve.curve.joint not in moving and moving:
             self.curve.show_joint(moving[0])
         self.time_pages.setCurrentIndex(int(is_shown))
@@ -147,13 +149,13 @@ class MotionWindow(QDialog):
     def _on_changed(self) -> None:
         self.commands.update()
         self.project.update()
-        title = self.desk.motion.title or tr("Motion")
+        title = self.controller.motion.title or tr("Motion")
         self.setWindowTitle(tr("Make a motion: {title}", title=title) + "[*]")
-        self.setWindowModified(self.desk.is_modified)
+        self.setWindowModified(self.controller.is_modified)
 
     def _on_document_changed(self) -> None:
         """Another project keeps no motion of the last one: what is here is new to it."""
-        self.desk.name = ""
+        self.controller.name = ""
         self._on_changed()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -176,7 +178,7 @@ class MotionWindow(QDialog):
     @property
     def has_changes(self) -> bool:
         """Whether something would be lost."""
-        return self.desk.is_modified and bool(self.desk.motion.joints)
+        return self.controller.is_modified and bool(self.controller.motion.joints)
 
     def close_now(self) -> None:
         """Close without asking."""

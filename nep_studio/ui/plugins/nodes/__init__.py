@@ -11,7 +11,7 @@ from nep_studio.ui.words import tr
 
 def make(host: Host) -> Parts:
     """The panel below the canvas, and what is told of nodes."""
-    from .notifications import NodeTelling
+    from .notifications import NodeNotifier
     from .panel import NodesPanel
 
     services, workbench = host.services, host.workbench
@@ -22,24 +22,24 @@ def make(host: Host) -> Parts:
         host.show_panel(panel)
         panel.open_log(name)
 
-    telling = panel.telling = NodeTelling(host, show_log, panel)
+    notifier = panel.notifier = NodeNotifier(host, show_log, panel)
 
     def start(name: str) -> None:
         if name == PROGRAM:
             runner.run()
         else:
-            telling.expect_start(name)
-            telling.fixes.start(name)
+            notifier.expect_start(name)
+            notifier.fixes.start(name)
 
     def stop(name: str) -> None:
         if name == PROGRAM:
             services.running.stop()
         else:
-            telling.expect_stop(name)
+            notifier.expect_stop(name)
             runner.stop_node(name)
 
     def restart(name: str) -> None:
-        telling.expect_restart(name)
+        notifier.expect_restart(name)
         runner.restart_node(name)
 
     panel.start_asked.connect(start)

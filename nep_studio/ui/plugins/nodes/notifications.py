@@ -39,7 +39,7 @@ ENDING_S = 3.0
 """What is heard so soon after the end of a run belongs to that end."""
 
 
-class NodeTelling(QObject):
+class NodeNotifier(QObject):
     """Listens to the runner of a window as long as ``parent`` lives."""
 
     def __init__(self, host: Host, open_log: Callable[[str], None], parent: QObject) -> None:

@@ -116,7 +116,7 @@ class NodesPanel(QWidget):
         self._runner, self._feed, self._look = runner, feed, look
         self._planned: list[PlannedNode] = []
         self._figures_s = 0.0
-        self.telling: QObject | None = None
+        self.notifier: QObject | None = None
         """What tells of its nodes, which lives as long as it does."""
         self.grid = CardGrid()
         self.log = LogView(look)

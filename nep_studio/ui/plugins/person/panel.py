@@ -35,7 +35,7 @@ from nep_studio.ui.words import tr
 
 from .person_box import HappeningButton, PersonBox, Section, WordsButton
 from .senses import BodyBox, GestureBox, SensorBox, ThingsBox, TouchBox
-from .stimuli import KINDS, Hands, Visitors, words_of
+from .stimuli import KINDS, Stimuli, Visitors, words_of
 
 if TYPE_CHECKING:
     from nep_studio.ui.host import Host
@@ -115,7 +115,7 @@ class HumanPanel(QScrollArea):
         self._tap: Tap | None = None
         self._ear = OpenProject(host.services.files, self)
         self.visitors = Visitors(floor, self)
-        self.hands = Hands(self._runner, self.visitors, self.watch_gestures, self)
+        self.stimuli = Stimuli(self._runner, self.visitors, self.watch_gestures, self)
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -133,16 +133,16 @@ class HumanPanel(QScrollArea):
         self._dress()
 
     def _make_boxes(self) -> None:
-        language, look, hands = self._language, self._look, self.hands
+        language, look, stimuli = self._language, self._look, self.stimuli
         nothing = tr("This program waits for nothing.")
-        self.waiting = WaitingBoard(look, hands.begin, hands.end, nothing)
-        self.listening = WaitingBoard(look, hands.begin, hands.end, "")
-        self.person = PersonBox(hands, language, look)
-        self.touch = TouchBox(hands, language, look)
-        self.gestures = GestureBox(hands, language, look)
-        self.things = ThingsBox(hands, look)
-        self.sensors = SensorBox(hands, language, look)
-        self.body = BodyBox(hands, language, look)
+        self.waiting = WaitingBoard(look, stimuli.begin, stimuli.end, nothing)
+        self.listening = WaitingBoard(look, stimuli.begin, stimuli.end, "")
+        self.person = PersonBox(stimuli, language, look)
+        self.touch = TouchBox(stimuli, language, look)
+        self.gestures = GestureBox(stimuli, language, look)
+        self.things = ThingsBox(stimuli, look)
+        self.sensors = SensorBox(stimuli, language, look)
+        self.body = BodyBox(stimuli, language, look)
         titles: list[tuple[str, QWidget, bool]] = [
             (tr("Your program waits for"), self.waiting, True),
             (tr("Say words"), self._say_row(), True),
@@ -202,9 +202,9 @@ class HumanPanel(QScrollArea):
 
     def _connect(self) -> None:
         self._ear.changed.connect(self.refresh)
-        self.hands.changed.connect(self._show_state)
-        self.hands.told.connect(self._on_told)
-        self.hands.refused.connect(self._on_refused)
+        self.stimuli.changed.connect(self._show_state)
+        self.stimuli.told.connect(self._on_told)
+        self.stimuli.refused.connect(self._on_refused)
         self.visitors.changed.connect(self._show_waiting)
         self.robot.currentTextChanged.connect(self._on_robot_chosen)
         self.run_button.clicked.connect(self._runner.run)
@@ -244,13 +244,13 @@ class HumanPanel(QScrollArea):
         self.sensors.rest()
 
     def _show_robots(self) -> None:
-        robots = self.hands.robots
+        robots = self.stimuli.robots
         if robots != [self.robot.itemText(row) for row in range(self.robot.count())]:
-            before = self.hands.robot
+            before = self.stimuli.robot
             self.robot.clear()
             self.robot.addItems(robots)
             self.robot.setCurrentText(before)
-        self.hands.robot = self.robot.currentText()
+        self.stimuli.robot = self.robot.currentText()
         self._which.setVisible(len(robots) > 1)
 
     def _show_waiting(self) -> None:
@@ -266,7 +266,7 @@ class HumanPanel(QScrollArea):
     def _show_state(self) -> None:
         if not self.isVisible():
             return
-        reason = self.hands.why_not
+        reason = self.stimuli.why_not
         self.state.setText(reason or tr("What you do here is noticed."))
         is_idle = self._runner.state == "idle" and self._ear.editor is not None
         self.run_button.setVisible(is_idle)
@@ -281,14 +281,14 @@ class HumanPanel(QScrollArea):
         self.listening.show_happenings([Happening("word", word, word) for word in words], {})
 
     def _on_robot_chosen(self, robot: str) -> None:
-        self.hands.robot = robot
+        self.stimuli.robot = robot
         self.person.refresh()
 
     def _on_said(self) -> None:
         text = self.words.text().strip()
         if why_not_line(text) is not None or not plain(text):
             self.words.setFocus()
-        elif self.hands.begin(Happening("word", text, text)):
+        elif self.stimuli.begin(Happening("word", text, text)):
             self.words.clear()
 
     def _on_told(self, words: str) -> None:

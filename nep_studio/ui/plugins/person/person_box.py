@@ -32,7 +32,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import tr
 
-from .stimuli import DISTANCES_M, ICONS, Hands, words_of
+from .stimuli import DISTANCES_M, ICONS, Stimuli, words_of
 
 NEAREST_CM, FARTHEST_CM = 30, 350
 CLOSE_M, MIDDLE_M = 1.0, 2.0
@@ -41,9 +41,9 @@ CLOSE_M, MIDDLE_M = 1.0, 2.0
 class PersonBox(QWidget):
     """Somebody who is there or not; the person stands in the scene of the robots too."""
 
-    def __init__(self, hands: Hands, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
         super().__init__()
-        self._hands, self._language = hands, language
+        self._stimuli, self._language = stimuli, language
         self.is_there = QCheckBox(tr("Somebody is there"))
         self.name = QComboBox()
         self.name.setEditable(True)
@@ -62,7 +62,11 @@ class PersonBox(QWidget):
         self.before = WordsButton(tr("Step before its eyes"), look, "eye")
         self.looks = [
             HappeningButton(
-                Happening("emotion", value, label), look, hands.begin, hands.end, label.capitalize()
+                Happening("emotion", value, label),
+                look,
+                stimuli.begin,
+                stimuli.end,
+                label.capitalize(),
             )
             for value, label in language.choices.get("emotions", {}).items()
         ]
@@ -72,7 +76,7 @@ class PersonBox(QWidget):
         self.name.editTextChanged.connect(self._on_renamed)
         self.way.valueChanged.connect(self._on_moved)
         self.before.clicked.connect(self._come)
-        hands.visitors.changed.connect(self.refresh)
+        stimuli.visitors.changed.connect(self.refresh)
         self.refresh()
 
     def _lay_out(self) -> None:
@@ -112,12 +116,12 @@ class PersonBox(QWidget):
 
     def refresh(self) -> None:
         """Show who is there, and how far away."""
-        visitors = self._hands.visitors
+        visitors = self._stimuli.visitors
         person = visitors.find("face")
         with QSignalBlocker(self.is_there), QSignalBlocker(self.way), QSignalBlocker(self.name):
             self.is_there.setChecked(person is not None)
             if person is not None:
-                self.way.setValue(round(100 * visitors.way_m("face", self._hands.robot)))
+                self.way.setValue(round(100 * visitors.way_m("face", self._stimuli.robot)))
                 if plain(person.name) != plain(self.name.currentText()):
                     self.name.setEditText(person.name)
         for widget in (self.way, self.way_words, self.before):
@@ -131,19 +135,19 @@ class PersonBox(QWidget):
 
     def _come(self) -> None:
         name = self.name.currentText().strip()
-        self._hands.visitors.come("face", self._hands.robot, name)
+        self._stimuli.visitors.come("face", self._stimuli.robot, name)
 
     def _on_toggled(self, is_there: bool) -> None:
         if is_there:
             self._come()
         else:
-            self._hands.visitors.go("face")
+            self._stimuli.visitors.go("face")
 
     def _on_renamed(self, name: str) -> None:
-        self._hands.visitors.rename("face", name)
+        self._stimuli.visitors.rename("face", name)
 
     def _on_moved(self, way_cm: int) -> None:
-        self._hands.visitors.stand("face", self._hands.robot, way_cm / 100)
+        self._stimuli.visitors.stand("face", self._stimuli.robot, way_cm / 100)
 
 
 # The buttons of the simulated human, which are pressed, held, or put on and off.

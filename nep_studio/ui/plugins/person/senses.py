@@ -28,7 +28,7 @@ from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
 from .person_box import HappeningButton, WordsButton
-from .stimuli import Hands
+from .stimuli import Stimuli
 
 SLIDERS = {"sonar_left": (5, 255, 255), "sonar_right": (5, 255, 255), "battery": (1, 100, 100)}
 """Sensors with a slider: the least and the most that they measure, and what they do usually."""
@@ -37,9 +37,9 @@ SLIDERS = {"sonar_left": (5, 255, 255), "sonar_right": (5, 255, 255), "battery":
 class SensorBox(QWidget):
     """Sliders for the sensors that matter most, and a line for the others."""
 
-    def __init__(self, hands: Hands, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
         super().__init__()
-        self._hands = hands
+        self._stimuli = stimuli
         names = language.choices.get("sensors", {})
         self.sliders: dict[str, QSlider] = {}
         self._values: dict[str, QLabel] = {}
@@ -76,7 +76,7 @@ class SensorBox(QWidget):
             with QSignalBlocker(slider):
                 slider.setValue(SLIDERS[sensor][2])
             self._values[sensor].setText(str(SLIDERS[sensor][2]))
-        self._hands.let_measure()
+        self._stimuli.let_measure()
 
     def _add_slider(self, row: int, sensor: str, name: str) -> None:
         low, high, usual = SLIDERS[sensor]
@@ -96,18 +96,18 @@ class SensorBox(QWidget):
 
     def _on_slid(self, sensor: str, value: int) -> None:
         self._values[sensor].setText(str(value))
-        self._hands.measure(sensor, float(value))
+        self._stimuli.measure(sensor, float(value))
 
     def _on_measured(self) -> None:
-        self._hands.measure(str(self.other.currentData()), self.value.value())
+        self._stimuli.measure(str(self.other.currentData()), self.value.value())
 
 
 class BodyBox(QWidget):
     """What a hand does to the body of a robot: push it, help it up, move it."""
 
-    def __init__(self, hands: Hands, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
         super().__init__()
-        self._hands = hands
+        self._stimuli = stimuli
         ways = {0: tr("forward"), 180: tr("back"), 90: tr("to the left"), -90: tr("to the right")}
         self.pushes = {
             degrees: WordsButton(tr("Push it {way}", way=way), look, "move")
@@ -131,7 +131,7 @@ class BodyBox(QWidget):
         self._lay_out()
         for degrees, button in self.pushes.items():
             button.clicked.connect(partial(self._on_pushed, degrees))
-        self.take.clicked.connect(lambda: hands.take_posture(str(self.posture.currentData())))
+        self.take.clicked.connect(lambda: stimuli.take_posture(str(self.posture.currentData())))
         self.turn.clicked.connect(self._on_turned)
 
     def _lay_out(self) -> None:
@@ -150,10 +150,10 @@ class BodyBox(QWidget):
             box.addWidget(row)
 
     def _on_pushed(self, degrees: int) -> None:
-        self._hands.push(float(degrees))
+        self._stimuli.push(float(degrees))
 
     def _on_turned(self) -> None:
-        self._hands.turn_joint(str(self.joint.currentData()), self.angle.value())
+        self._stimuli.turn_joint(str(self.joint.currentData()), self.angle.value())
 
 
 def _choice(entries: dict[str, str] | object, name: str) -> QComboBox:
@@ -178,9 +178,9 @@ def _fit(box: QComboBox) -> None:
 class ThingsBox(QWidget):
     """What is shown to a robot stands in the scene of the robots too."""
 
-    def __init__(self, hands: Hands, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, look: Look) -> None:
         super().__init__()
-        self._hands = hands
+        self._stimuli = stimuli
         self.ball = QCheckBox(tr("The red ball"))
         self.mark = QCheckBox(tr("The mark"))
         self.number = QSpinBox()
@@ -198,7 +198,7 @@ class ThingsBox(QWidget):
         self.number.valueChanged.connect(self._on_number_changed)
         for degrees, button in self.sounds.items():
             button.clicked.connect(partial(self._on_sound, degrees))
-        hands.visitors.changed.connect(self.refresh)
+        stimuli.visitors.changed.connect(self.refresh)
         self.refresh()
 
     def _lay_out(self) -> None:
@@ -224,8 +224,8 @@ class ThingsBox(QWidget):
         """Show what is there."""
         for what, check in (("ball", self.ball), ("mark", self.mark)):
             with QSignalBlocker(check):
-                check.setChecked(self._hands.visitors.find(what) is not None)
-        mark = self._hands.visitors.find("mark")
+                check.setChecked(self._stimuli.visitors.find(what) is not None)
+        mark = self._stimuli.visitors.find("mark")
         if mark is not None and mark.name.isdecimal():
             with QSignalBlocker(self.number):
                 self.number.setValue(int(mark.name))
@@ -233,15 +233,15 @@ class ThingsBox(QWidget):
     def _on_toggled(self, what: str, is_there: bool) -> None:
         name = str(self.number.value()) if what == "mark" else ""
         if is_there:
-            self._hands.visitors.come(what, self._hands.robot, name)
+            self._stimuli.visitors.come(what, self._stimuli.robot, name)
         else:
-            self._hands.visitors.go(what)
+            self._stimuli.visitors.go(what)
 
     def _on_number_changed(self, number: int) -> None:
-        self._hands.visitors.rename("mark", str(number))
+        self._stimuli.visitors.rename("mark", str(number))
 
     def _on_sound(self, degrees: int) -> None:
-        self._hands.make_sound(float(degrees))
+        self._stimuli.make_sound(float(degrees))
 
 
 # Touching a robot, and making gestures before it.
@@ -250,15 +250,15 @@ class ThingsBox(QWidget):
 class TouchBox(QWidget):
     """A button for each place that feels; it is touched as long as the button is held."""
 
-    def __init__(self, hands: Hands, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
         super().__init__()
         names = language.choices.get("touch_parts", {})
         self.buttons = [
             HappeningButton(
                 Happening("touch", part, names.get(part, part)),
                 look,
-                hands.begin,
-                hands.end,
+                stimuli.begin,
+                stimuli.end,
                 _capital(names.get(part, part)),
             )
             for part in TOUCH_SENSORS
@@ -271,9 +271,9 @@ class TouchBox(QWidget):
 class GestureBox(QWidget):
     """A button for each gesture, and how it comes about."""
 
-    def __init__(self, hands: Hands, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
         super().__init__()
-        self._hands, self._look = hands, look
+        self._stimuli, self._look = stimuli, look
         self.buttons: list[HappeningButton] = []
         self._shown: dict[str, str] | None = None
         self._rows = QWidget()
@@ -311,7 +311,7 @@ class GestureBox(QWidget):
 
     def refresh(self) -> None:
         """Say how a gesture comes about now."""
-        is_moved = self._hands.has_watch
+        is_moved = self._stimuli.has_watch
         by_watch = tr("The watch on the screen makes the movement, which has to be recognised.")
         by_hand = tr("No watch runs: the program is told by hand that the gesture was made.")
         self.how.setText(by_watch if is_moved else by_hand)
@@ -326,8 +326,8 @@ class GestureBox(QWidget):
             HappeningButton(
                 Happening("gesture", name, label),
                 self._look,
-                self._hands.begin,
-                self._hands.end,
+                self._stimuli.begin,
+                self._stimuli.end,
                 _capital(label),
             )
             for name, label in gestures.items()
@@ -337,7 +337,7 @@ class GestureBox(QWidget):
             button.show()
 
     def _on_certainty_changed(self, percent: int) -> None:
-        self._hands.certainty = percent / 100.0
+        self._stimuli.certainty = percent / 100.0
 
 
 def _capital(words: str) -> str:

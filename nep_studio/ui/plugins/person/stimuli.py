@@ -203,7 +203,7 @@ TOLD_BY_HAND = ("word", "face", "ball", "mark", "sound", "touch", "distance")
 """What a program can be told of without a robot that notices it."""
 
 
-class Hands(QObject):
+class Stimuli(QObject):
     """``told`` tells what was done, ``refused`` why it could not be, ``changed`` when that may be.
 
     ``robot`` is who notices what happens when a program does not name one.

@@ -27,7 +27,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.labels import room_around
 from nep_studio.ui.words import count_words, tr
 
-from .start import Who
+from .start import ParticipantFields
 
 # One item of the questionnaire, with its options in a row.
 
@@ -236,7 +236,7 @@ class QuestionnaireDialog(QDialog):
         self._look = look
         self.setWindowTitle(tr("Questionnaire"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.who = Who(folder, may_change_conditions=False)
+        self.participant_fields = ParticipantFields(folder, may_change_conditions=False)
         self.which = QComboBox()
         self.rows: list[ItemRow] = []
         self.note = QLabel()
@@ -246,11 +246,11 @@ class QuestionnaireDialog(QDialog):
         replies, sitting = folder.replies(), folder.sitting()
         self._fill_which(replies[-1].questionnaire if replies else PAPER)
         if sitting is not None:
-            self.who.show_sitting(sitting.participant, sitting.condition)
+            self.participant_fields.show_sitting(sitting.participant, sitting.condition)
         self._lay_out()
         self._ask_items()
         self.which.currentIndexChanged.connect(self._ask_items)
-        self.who.changed.connect(self._show_note)
+        self.participant_fields.changed.connect(self._show_note)
         self.save_button.clicked.connect(self._on_save_clicked)
         self.cancel_button.clicked.connect(self.reject)
 
@@ -283,10 +283,10 @@ class QuestionnaireDialog(QDialog):
         self.rows = [ItemRow(number, form, self._look) for number in range(len(form.items))]
         page = QWidget()
         box = QVBoxLayout(page)
-        self.who.setParent(page)
+        self.participant_fields.setParent(page)
         self.which.setParent(page)
         box.addWidget(self.which)
-        box.addWidget(self.who)
+        box.addWidget(self.participant_fields)
         box.addWidget(_instruction())
         for row in self.rows:
             row.changed.connect(self._show_note)
@@ -321,7 +321,7 @@ class QuestionnaireDialog(QDialog):
     def _show_note(self) -> None:
         left = sum(answer is None for answer in self.answers())
         is_empty = left == len(self.rows)
-        if not self.who.participant:
+        if not self.participant_fields.participant:
             words = tr("The participant needs a code of letters and digits.")
         elif is_empty:
             words = tr("Nothing is answered yet.")
@@ -334,13 +334,15 @@ class QuestionnaireDialog(QDialog):
         else:
             words = tr("All items are answered.")
         self.note.setText(words)
-        self.save_button.setEnabled(bool(self.who.participant) and not is_empty)
+        self.save_button.setEnabled(bool(self.participant_fields.participant) and not is_empty)
 
     def _on_save_clicked(self) -> None:
-        who = self.who
+        participant_fields = self.participant_fields
         chosen = list(self.answers())
         form = str(self.which.currentData())
-        self.answered.emit(Reply(who.participant, who.chosen_condition, chosen, form))
+        self.answered.emit(
+            Reply(participant_fields.participant, participant_fields.chosen_condition, chosen, form)
+        )
         self.accept()
 
 

@@ -37,12 +37,12 @@ if TYPE_CHECKING:
     from nep_studio.ui.host import Host
 
 
-# Who takes part in a study, and under which condition: a code, never a name.
+# ParticipantFields takes part in a study, and under which condition: a code, never a name.
 
 CODE = r"[\p{L}\p{N}_-]{1,20}"
 
 
-class Who(QWidget):
+class ParticipantFields(QWidget):
     """The participant's code, the conditions, and the one that is next in their order."""
 
     changed = Signal()
@@ -137,11 +137,11 @@ class StartDialog(QDialog):
         self._folder = folder
         self.setWindowTitle(tr("Start a study"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.who = Who(folder, may_change_conditions=True)
+        self.participant_fields = ParticipantFields(folder, may_change_conditions=True)
         self.start_button = QPushButton(tr("Start the study"))
         self.cancel_button = QPushButton(tr("Cancel"))
         self._lay_out()
-        self.who.changed.connect(self._show_whether_it_may_start)
+        self.participant_fields.changed.connect(self._show_whether_it_may_start)
         self.start_button.clicked.connect(self._on_start_clicked)
         self.cancel_button.clicked.connect(self.reject)
 
@@ -167,7 +167,7 @@ class StartDialog(QDialog):
         inner = QVBoxLayout(page)
         inner.setContentsMargins(0, 0, 0, 0)
         inner.setSpacing(line)
-        inner.addWidget(self.who)
+        inner.addWidget(self.participant_fields)
         inner.addWidget(card)
         inner.addStretch(1)
         area = QScrollArea()
@@ -184,12 +184,14 @@ class StartDialog(QDialog):
         self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
 
     def _show_whether_it_may_start(self) -> None:
-        self.start_button.setEnabled(bool(self.who.participant))
+        self.start_button.setEnabled(bool(self.participant_fields.participant))
 
     def _on_start_clicked(self) -> None:
         with suppress(OSError):  # who begins the study tells that its folder cannot be written
-            self._folder.set_conditions(self.who.all_conditions())
-        self.started.emit(Sitting(self.who.participant, self.who.chosen_condition))
+            self._folder.set_conditions(self.participant_fields.all_conditions())
+        self.started.emit(
+            Sitting(self.participant_fields.participant, self.participant_fields.chosen_condition)
+        )
         self.accept()
 
 

@@ -33,7 +33,7 @@ from .questions import Entry
 class Offer:
     """A card: the way that it opens, its icon, what one has, and what is done with it."""
 
-    way: str
+    connector: str
     icon: str
     title: str
     sentence: str
@@ -165,9 +165,9 @@ class ChoosingPage(QWidget):
         box.setContentsMargins(0, 0, line // 2, 0)
         box.setSpacing(line // 2)
         box.addWidget(heading)
-        self.cards = {one.way: OfferCard(one, look) for one in offers()}
-        for way, card in self.cards.items():
-            card.clicked.connect(lambda _=False, way=way: self.chosen.emit(way))
+        self.cards = {one.connector: OfferCard(one, look) for one in offers()}
+        for connector, card in self.cards.items():
+            card.clicked.connect(lambda _=False, connector=connector: self.chosen.emit(connector))
             box.addWidget(card)
         box.addStretch(1)
 

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QVBoxLayout, QWidge
 from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.watch_view.indicators import WatchEar
+from nep_studio.ui.watch_view.indicators import WatchListener
 from nep_studio.ui.widgets.forms import UNKNOWN, hint
 from nep_studio.ui.words import tr
 
@@ -21,9 +21,9 @@ from .choosing import GesturesQuestion, RecordingQuestion
 from .connectors import (
     APPS,
     PHONE_PAGE,
+    ConnectorKind,
     Place,
     StepsList,
-    Way,
     app_words,
     silence_steps,
     steps,
@@ -61,22 +61,27 @@ class WayPage(QWidget):
     came_into_view = Signal(QWidget)
 
     def __init__(
-        self, way: Way, known: Known, ear: WatchEar, look: Look, parent: QWidget | None = None
+        self,
+        connector: ConnectorKind,
+        known: Known,
+        listener: WatchListener,
+        look: Look,
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self.way, self._known = way, known
+        self.connector, self._known = connector, known
         self._had_code = self._is_sending = False
         self.network = NetworkQuestion(known.addresses)
-        self.worn, self.more = WornQuestion(), MoreSettings(way)
+        self.worn, self.more = WornQuestion(), MoreSettings(connector)
         self.address = Entry()
         self.gestures = GesturesQuestion(known.gestures)
         self.recording = RecordingQuestion(known.folder, look)
         self.warning = WarningHelp(look)
         self.app = QComboBox()
         self.qr_code, self.qr_hint = QrCode(), hint("")
-        self.live = LiveView(ear, look, way.asks_columns)
+        self.live = LiveView(listener, look, connector.asks_columns)
         self._take(known.settings)
-        self.steps = StepsList(steps(way, self.place), self._extras(), look)
+        self.steps = StepsList(steps(connector, self.place), self._extras(), look)
         self._hide_what_is_not_asked()
         self._lay_out()
         self._connect()
@@ -88,26 +93,26 @@ class WayPage(QWidget):
     def place(self) -> Place:
         """Where this computer is found by this way."""
         address = self.network.address or UNKNOWN
-        port = self.more.port.value() if self.way.port else 0
+        port = self.more.port.value() if self.connector.port else 0
         url = f"https://{address}:{port}/{self._known.token}/"
-        return Place(address, port, url if self.way == PHONE_PAGE else "")
+        return Place(address, port, url if self.connector == PHONE_PAGE else "")
 
     @property
     def settings(self) -> dict[str, Setting] | None:
         """The parameters of the node; None as long as something is missing."""
-        if self.way.node != WATCH:
+        if self.connector.node != WATCH:
             return self._source.settings
-        found: dict[str, Setting] = {"through": self.way.name}
+        found: dict[str, Setting] = {"through": self.connector.name}
         if address := self.address.text().strip():
             found["address"] = address
-        elif self.way.needs_address:
+        elif self.connector.needs_address:
             return None
-        if self.way.listens:
+        if self.connector.listens:
             found["port"] = self.more.port.value()
             found["listen_on"] = NETWORK if self.network.is_open else THIS_COMPUTER
-        if self.way == PHONE_PAGE:
+        if self.connector == PHONE_PAGE:
             found["token"] = self._known.token
-        if self.way.asks_wrist:
+        if self.connector.asks_wrist:
             found["wrist"] = self.worn.worn
         return {**found, **self.more.settings}
 
@@ -115,18 +120,18 @@ class WayPage(QWidget):
     def advice(self) -> tuple[str, ...]:
         """What to look at when nothing arrives."""
         is_open, address = self.network.is_open, self.address.text().strip()
-        return silence_steps(self.way, self.place, is_open, address)
+        return silence_steps(self.connector, self.place, is_open, address)
 
     @property
     def _source(self) -> GesturesQuestion | RecordingQuestion:
-        return self.recording if self.way.name == "recording" else self.gestures
+        return self.recording if self.connector.name == "recording" else self.gestures
 
     def _take(self, settings: Mapping[str, Setting]) -> None:
         """Begin with what the project says."""
-        if self.way.node != WATCH:
+        if self.connector.node != WATCH:
             self._source.show_settings(settings)
             return
-        self.worn.choose(str(settings.get("wrist") or self.way.worn))
+        self.worn.choose(str(settings.get("wrist") or self.connector.worn))
         self.address.setText(str(settings.get("address", "")))
         self.network.switch.setChecked(settings.get("listen_on") == NETWORK)
         self.more.show_settings(settings)
@@ -152,7 +157,9 @@ class WayPage(QWidget):
     def _extras(self) -> dict[str, QWidget]:
         self.address.setAccessibleName(tr("Address"))
         self.address.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.address.setPlaceholderText("" if self.way.name == "bluetooth" else "192.168.1.20:8080")
+        self.address.setPlaceholderText(
+            "" if self.connector.name == "bluetooth" else "192.168.1.20:8080"
+        )
         return {
             "network": self.network,
             "warning": self.warning,
@@ -162,7 +169,7 @@ class WayPage(QWidget):
         }
 
     def _hide_what_is_not_asked(self) -> None:
-        asked = {step.extra for step in steps(self.way, self.place)}
+        asked = {step.extra for step in steps(self.connector, self.place)}
         for name, question in self._extras().items():
             if name not in asked:
                 question.setParent(self)
@@ -170,7 +177,7 @@ class WayPage(QWidget):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        heading = QLabel(title_of(self.way))
+        heading = QLabel(title_of(self.connector))
         heading.setProperty("role", "title")
         heading.setWordWrap(True)
         left, right = QVBoxLayout(), QVBoxLayout()
@@ -188,7 +195,7 @@ class WayPage(QWidget):
         right.addWidget(self.live)
         right.addStretch(1)
         for widget in (where, self.worn):
-            widget.setVisible(self.way.asks_wrist)
+            widget.setVisible(self.connector.asks_wrist)
         self._both = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._both.setSpacing(line)
         self._both.addLayout(left, 6)
@@ -197,14 +204,14 @@ class WayPage(QWidget):
         box.setContentsMargins(0, 0, line // 2, 0)
         box.setSpacing(line * 2 // 3)
         box.addWidget(heading)
-        if self.way in APPS:
+        if self.connector in APPS:
             box.addWidget(self._app_choice())
         box.addLayout(self._both, 1)
 
     def _app_choice(self) -> QComboBox:
-        for way in APPS:
-            self.app.addItem(app_words(way), way.name)
-        self.app.setCurrentIndex(APPS.index(self.way))
+        for connector in APPS:
+            self.app.addItem(app_words(connector), connector.name)
+        self.app.setCurrentIndex(APPS.index(self.connector))
         self.app.setAccessibleName(tr("Which app?"))
         self.app.setSizeAdjustPolicy(
             QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
@@ -229,8 +236,8 @@ class WayPage(QWidget):
 
     def _update(self) -> None:
         """Fill in this computer's address and port."""
-        self.steps.fill(steps(self.way, self.place))
-        is_page = self.way == PHONE_PAGE
+        self.steps.fill(steps(self.connector, self.place))
+        is_page = self.connector == PHONE_PAGE
         has_code = is_page and self.network.is_open and bool(self.network.address)
         has_code = has_code and not self._is_sending  # what arrives is looked at then
         self.qr_code.show_url(self.place.url if has_code else "")

@@ -29,7 +29,7 @@ Extra = Literal["", "network", "warning", "address", "gestures", "recording"]
 
 
 @dataclass(frozen=True)
-class Way:
+class ConnectorKind:
     """``name`` is the parameter ``through`` of the node, or the name of a simulated source.
 
     ``listens``: devices come to this computer; else it goes to the device, at the ``address``
@@ -72,27 +72,36 @@ class Place:
         return f"{self.address}:{self.port}"
 
 
-PHONE_PAGE = Way("phone_page", "qr-code", port=8443, listens=True, protocol="TCP", asks_wrist=False)
+PHONE_PAGE = ConnectorKind(
+    "phone_page", "qr-code", port=8443, listens=True, protocol="TCP", asks_wrist=False
+)
 """Where the phone is, is asked on the page itself."""
-PAPER_WATCH = Way("paper_watch", "watch", port=8080, listens=True, protocol="TCP", worn="left")
-BLUETOOTH = Way("bluetooth", "bluetooth", worn="left")
-VIRTUAL = Way("virtual_watch", "user", VIRTUAL_WATCH, asks_wrist=False)
-RECORDING = Way("recording", "circle-play", REPLAY, asks_wrist=False)
+PAPER_WATCH = ConnectorKind(
+    "paper_watch", "watch", port=8080, listens=True, protocol="TCP", worn="left"
+)
+BLUETOOTH = ConnectorKind("bluetooth", "bluetooth", worn="left")
+VIRTUAL = ConnectorKind("virtual_watch", "user", VIRTUAL_WATCH, asks_wrist=False)
+RECORDING = ConnectorKind("recording", "circle-play", REPLAY, asks_wrist=False)
 APPS = (
-    Way("sensor_logger", "smartphone", port=8000, listens=True, protocol="TCP", asks_units=True),
-    Way("phyphox", "smartphone", protocol="TCP", needs_address=True, asks_units=True),
-    Way("sensor_server", "smartphone", protocol="TCP", needs_address=True),
-    Way(
+    ConnectorKind(
+        "sensor_logger", "smartphone", port=8000, listens=True, protocol="TCP", asks_units=True
+    ),
+    ConnectorKind("phyphox", "smartphone", protocol="TCP", needs_address=True, asks_units=True),
+    ConnectorKind("sensor_server", "smartphone", protocol="TCP", needs_address=True),
+    ConnectorKind(
         "udp", "smartphone", port=8085, listens=True, protocol="UDP", asks_columns=True
     ),
-    Way(
+    ConnectorKind(
         "tcp", "smartphone", port=8086, listens=True, protocol="TCP", asks_columns=True
     ),
 )  # fmt: skip
-WAYS = {way.name: way for way in (PHONE_PAGE, *APPS, PAPER_WATCH, BLUETOOTH, VIRTUAL, RECORDING)}
+CONNECTORS = {
+    connector.name: connector
+    for connector in (PHONE_PAGE, *APPS, PAPER_WATCH, BLUETOOTH, VIRTUAL, RECORDING)
+}
 
 
-def way_title(way: Way) -> str:
+def way_title(connector: ConnectorKind) -> str:
     """What the page of a way is headed."""
     titles = {
         "phone_page": tr("A phone, without installing anything"),
@@ -101,10 +110,10 @@ def way_title(way: Way) -> str:
         "virtual_watch": tr("A simulated person"),
         "recording": tr("A recording"),
     }
-    return titles.get(way.name) or tr("A watch or phone with an app")
+    return titles.get(connector.name) or tr("A watch or phone with an app")
 
 
-def app_words(way: Way) -> str:
+def app_words(connector: ConnectorKind) -> str:
     """How an app is called in the list of apps, with what it runs on."""
     words = {
         "sensor_logger": tr("Sensor Logger: iPhone, Android, Apple Watch, Wear OS"),
@@ -113,10 +122,10 @@ def app_words(way: Way) -> str:
         "udp": tr("SensaGram, HyperIMU, ZIG SIM, a micro:bit… (lines by UDP)"),
         "tcp": tr("SensorStreamer, HyperIMU, ZIG SIM… (lines by TCP)"),
     }
-    return words[way.name]
+    return words[connector.name]
 
 
-def steps(way: Way, place: Place) -> list[Step]:
+def steps(connector: ConnectorKind, place: Place) -> list[Step]:
     """What a person does, in this order."""
     return {
         "phone_page": _phone_page,
@@ -129,7 +138,7 @@ def steps(way: Way, place: Place) -> list[Step]:
         "bluetooth": _bluetooth,
         "virtual_watch": _virtual,
         "recording": _recording,
-    }[way.name](place)
+    }[connector.name](place)
 
 
 def _same_network() -> Step:
@@ -228,19 +237,21 @@ def _recording(place: Place) -> list[Step]:
     return [Step(words, extra="recording")]
 
 
-def silence_steps(way: Way, place: Place, is_open: bool, address: str) -> tuple[str, ...]:
+def silence_steps(
+    connector: ConnectorKind, place: Place, is_open: bool, address: str
+) -> tuple[str, ...]:
     """What to look at, in this order, when nothing arrives; ``is_open``: the network may send."""
     found: list[str] = []
-    if way.listens and not is_open:
+    if connector.listens and not is_open:
         found.append(tr("Above, “Let this network in” is off: nothing from outside is heard."))
-    if way.name == "bluetooth":
+    if connector.name == "bluetooth":
         found.append(tr("Is the sensor on, charged, and within 5 metres?"))
         found.append(tr("Is Bluetooth on, on this computer? Is the sensor free of its phone?"))
         return tuple(found)
-    if way.node != WATCH:
+    if connector.node != WATCH:
         return (tr("Look into the log of the node in the panel Nodes."),)
     found.append(tr("Is the screen of the device on, and is it sending?"))
-    if way.needs_address:
+    if connector.needs_address:
         found.append(tr("Is {address} still what the app shows?", address=address or UNKNOWN))
         found.append(tr("Are both in the same Wi-Fi? A guest network often keeps devices apart."))
         return tuple(found)
@@ -249,7 +260,7 @@ def silence_steps(way: Way, place: Place, is_open: bool, address: str) -> tuple[
     found.append(tr("Are both in the same Wi-Fi? A guest network often keeps devices apart."))
     wall = tr(
         "Does a firewall on this computer block {protocol} port {port}? Allow NEP Studio there.",
-        protocol=way.protocol,
+        protocol=connector.protocol,
         port=place.port,
     )
     return (*found, wall)

@@ -21,14 +21,14 @@ from nep_studio.run.plan import PlannedNode, Setting
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.watch_view.indicators import WatchEar
+from nep_studio.ui.watch_view.indicators import WatchListener
 from nep_studio.ui.widgets.labels import fit_on_screen, room_around
 from nep_studio.ui.widgets.layouts import scrolled, show_top
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .choosing import ChoosingPage
 from .connector_page import Known, WayPage
-from .connectors import WAYS, Way
+from .connectors import CONNECTORS, ConnectorKind
 from .trial import WatchTrial
 
 SETTLE_MS = 400
@@ -51,9 +51,9 @@ class Plan:
     """Gives a node that is tried what Run would give it, such as the gestures of the project."""
 
     @property
-    def way(self) -> Way | None:
+    def connector(self) -> ConnectorKind | None:
         """The way in which the project's watch comes; None when it has none."""
-        return WAYS.get(str(self.settings.get("through", "udp"))) if self.settings else None
+        return CONNECTORS.get(str(self.settings.get("through", "udp"))) if self.settings else None
 
 
 class WatchDialog(QDialog):
@@ -77,7 +77,7 @@ class WatchDialog(QDialog):
         self.plan = plan
         self._runner, self._token, self._look = runner, token, look
         self._find_addresses = find_addresses or _own_addresses
-        self.ear = WatchEar(runner, self, plan.name)
+        self.listener = WatchListener(runner, self, plan.name)
         self.trial = WatchTrial(runner, plan.name, runner)
         self.choosing = ChoosingPage(look)
         self.page: WayPage | None = None
@@ -124,7 +124,7 @@ class WatchDialog(QDialog):
         self.close_button.clicked.connect(self.reject)
         self.use_button.clicked.connect(self._on_use)
         self.trial.changed.connect(self._on_trial_changed)
-        self.ear.changed.connect(self._update)
+        self.listener.changed.connect(self._update)
         self._settling.timeout.connect(self._on_settled)
         self._look.theme_changed.connect(self._on_theme_changed)
 
@@ -133,10 +133,10 @@ class WatchDialog(QDialog):
     def begin(self) -> None:
         """Show it: what the project has, else what one may have. It does not hold up the window."""
         self.show()
-        self.ear.start()
-        way = self.plan.way
-        if way is not None and self.trial.before is not None:
-            self.show_way(way.name)
+        self.listener.start()
+        connector = self.plan.connector
+        if connector is not None and self.trial.before is not None:
+            self.show_way(connector.name)
         else:
             self.show_choice()
 
@@ -151,8 +151,8 @@ class WatchDialog(QDialog):
 
     def show_way(self, name: str) -> None:
         """Show the steps of a way, and begin to listen."""
-        way, plan = WAYS[name], self.plan
-        is_known = plan.way == way
+        connector, plan = CONNECTORS[name], self.plan
+        is_known = plan.connector == connector
         settings = dict(plan.settings) if is_known else {}
         is_running = is_known and self.trial.before is not None
         token = str(settings.get("token") or "") if is_running else ""
@@ -160,7 +160,7 @@ class WatchDialog(QDialog):
             self._find_addresses(), token or self._token, plan.gestures, plan.folder, settings
         )
         self._drop_page()
-        page = self.page = WayPage(way, known, self.ear, self._look)
+        page = self.page = WayPage(connector, known, self.listener, self._look)
         page.changed.connect(self._settling.start)
         page.changed.connect(self._update)
         page.way_asked.connect(self.show_way)
@@ -173,7 +173,7 @@ class WatchDialog(QDialog):
         )
         self.pages.addWidget(area)
         self.pages.setCurrentIndex(1)
-        self.ear.begin_anew(self.plan.name)
+        self.listener.begin_anew(self.plan.name)
         self._settling.start()  # who looks through the ways starts no node for each
         self._update()
         self._focus_first(page)
@@ -184,13 +184,13 @@ class WatchDialog(QDialog):
         settings = self.page.settings if self.page is not None else None
         if self.page is None or settings is None:
             return None
-        return PlannedNode(self.page.way.node, self.plan.name, settings)
+        return PlannedNode(self.page.connector.node, self.plan.name, settings)
 
     def _on_settled(self) -> None:
         """Let the node run with the settings that are chosen now."""
         planned = self.planned
         self._waiting_since_s = time.monotonic()
-        self.ear.begin_anew(self.plan.name)
+        self.listener.begin_anew(self.plan.name)
         if planned is None:
             self.trial.stop()
         else:
@@ -219,25 +219,25 @@ class WatchDialog(QDialog):
         self.use_button.setEnabled(is_listening)
         if page is None:
             return
-        page.show_sending(is_listening and self.ear.is_sending)
+        page.show_sending(is_listening and self.listener.is_sending)
         if self.trial.state == "failed" and self.trial.problem is not None:
             page.live.show_problem(self.trial.problem)
-        elif self.ear.silent_s < float("inf") and self.trial.state == "listening":
-            is_silent = self.ear.silent_s > PATIENCE_S
+        elif self.listener.silent_s < float("inf") and self.trial.state == "listening":
+            is_silent = self.listener.silent_s > PATIENCE_S
             page.live.show_arriving(page.advice if is_silent else ())
         else:
             advice = self._advice(page)
             title, told = self._waiting_words(page)
-            page.live.show_waiting(title, "" if advice and page.way.listens else told, advice)
+            page.live.show_waiting(title, "" if advice and page.connector.listens else told, advice)
 
     def _waiting_words(self, page: WayPage) -> tuple[str, str]:
         if page.settings is None:
             return tr("Something is still missing"), tr("Fill in what is asked in the steps.")
         if self.trial.state != "listening":
             return tr("Getting ready…"), ""
-        status = self.ear.status
+        status = self.listener.status
         told = tr(status.fault.sentence) if status is not None else ""
-        if page.way.listens and not page.network.is_open:
+        if page.connector.listens and not page.network.is_open:
             return tr("Let this network in first"), told
         return tr("Waiting for the first movement…"), told
 
@@ -264,7 +264,7 @@ class WatchDialog(QDialog):
     def done(self, result: int) -> None:
         """Stop what is not used. Also the window's cross comes here."""
         self._settling.stop()
-        self.ear.stop()
+        self.listener.stop()
         if result != QDialog.DialogCode.Accepted:
             self.trial.end()
         super().done(result)

@@ -18,7 +18,7 @@ from nep_studio.ui.watch_view.indicators import (
     LittleCurve,
     MoveDot,
     Moving,
-    WatchEar,
+    WatchListener,
     figures,
 )
 from nep_studio.ui.watch_view.status import SIGNS
@@ -32,13 +32,17 @@ class LiveView(QFrame):
     """A card; ``show_state`` says what it is about, the ear gives the rest."""
 
     def __init__(
-        self, ear: WatchEar, look: Look, has_columns: bool = False, parent: QWidget | None = None
+        self,
+        listener: WatchListener,
+        look: Look,
+        has_columns: bool = False,
+        parent: QWidget | None = None,
     ) -> None:
         """``has_columns``: what arrives are lines, of which the columns can be corrected."""
         super().__init__(parent)
         self._has_columns = has_columns
         self.setProperty("kind", "card")
-        self._ear, self._look = ear, look
+        self._listener, self._look = listener, look
         self.dot, self.curve = MoveDot(look), LittleCurve(look)
         self.title, self.sentence, self.understood = QLabel(), QLabel(), QLabel()
         self.correct_button = quiet_button(tr("Correct the columns…"))
@@ -48,7 +52,7 @@ class LiveView(QFrame):
         self._understood: list[str] = []
         self._grades: list[str] = [""] * MOST_FIGURES
         self._lay_out()
-        ear.heard.connect(self._on_heard)
+        listener.heard.connect(self._on_heard)
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
@@ -104,9 +108,9 @@ class LiveView(QFrame):
 
     def show_arriving(self, advice: Sequence[str] = ()) -> None:
         """Samples come, or came until a moment ago: ``advice`` is for the latter."""
-        receiving = self._ear.receiving
-        if self._ear.silent_s >= SILENT_S:
-            words = tr("Nothing has come for {n} s.", n=round(self._ear.silent_s))
+        receiving = self._listener.receiving
+        if self._listener.silent_s >= SILENT_S:
+            words = tr("Nothing has come for {n} s.", n=round(self._listener.silent_s))
             self._show("waiting", tr("It has fallen silent"), words)
         elif receiving.has_moved:
             self._show("moved", tr("It moves: all is well"), self._counted())
@@ -114,14 +118,14 @@ class LiveView(QFrame):
             words = tr("Turn it over, or wave it once: the dot becomes green.")
             self._show("still", tr("It sends. Now move it"), words)
         self._advise(advice)
-        self._show_figures(figures(self._ear.flow) if self._ear.is_sending else [])
+        self._show_figures(figures(self._listener.flow) if self._listener.is_sending else [])
         self.understood.setText("\n".join(self._told()))
         self.understood.setVisible(bool(self.understood.text()))
         self.correct_button.setVisible(self._has_columns and self.understood.isVisibleTo(self))
 
     def _told(self) -> list[str]:
         """How the node understands what arrives, and what it warns of."""
-        status = self._ear.status
+        status = self._listener.status
         if status is None or not status.fault.sentence:
             return []
         told = tr(status.fault.sentence)
@@ -131,14 +135,14 @@ class LiveView(QFrame):
         return self._understood
 
     def _counted(self) -> str:
-        receiving = self._ear.receiving
+        receiving = self._listener.receiving
         if receiving.has_rotation:
             return tr("Acceleration and rotation arrive.")
         return tr("Acceleration arrives; it has no gyroscope, which is enough.")
 
     def _show(self, state: Moving, title: str, sentence: str) -> None:
         is_there = state in ("still", "moved")
-        self.dot.show_movement(state, self._ear.receiving.movement_m_s2 if is_there else 0.0)
+        self.dot.show_movement(state, self._listener.receiving.movement_m_s2 if is_there else 0.0)
         if title != self.title.text():
             self.title.setText(title)
             announce(self, title)
@@ -184,6 +188,6 @@ class LiveView(QFrame):
 
     def _on_heard(self, batch: list[Imu]) -> None:
         self.curve.take(batch)
-        receiving = self._ear.receiving
+        receiving = self._listener.receiving
         if self.dot.state in ("still", "moved"):
             self.dot.show_movement(self.dot.state, receiving.movement_m_s2)

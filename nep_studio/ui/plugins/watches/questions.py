@@ -21,7 +21,7 @@ from nep_studio.ui.widgets.forms import column_in, hint, label_of, labelled, qui
 from nep_studio.ui.widgets.layouts import Flow
 from nep_studio.ui.words import tr
 
-from .connectors import Way
+from .connectors import ConnectorKind
 
 LARGEST_PORT = 65_535
 
@@ -136,13 +136,13 @@ class MoreSettings(QWidget):
 
     changed = Signal()
 
-    def __init__(self, way: Way, parent: QWidget | None = None) -> None:
+    def __init__(self, connector: ConnectorKind, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._way = way
+        self._connector = connector
         self.toggle = QCheckBox(tr("More settings"))
         self.port = QSpinBox()
         self.port.setRange(1, LARGEST_PORT)
-        self.port.setValue(way.port or 1)
+        self.port.setValue(connector.port or 1)
         self.port.setKeyboardTracking(False)
         self.columns = Entry()
         self.columns.setPlaceholderText("t,ax,ay,az,gx,gy,gz")
@@ -161,16 +161,16 @@ class MoreSettings(QWidget):
         form = QFormLayout(self.fields)
         form.setContentsMargins(0, 0, 0, 0)
         form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
-        if self._way.listens:
+        if self._connector.listens:
             form.addRow(label_of(tr("Port"), self.port), self.port)
-        if self._way.asks_columns:
+        if self._connector.asks_columns:
             form.addRow(label_of(tr("Columns"), self.columns), self.columns)
             words = tr(
                 "Empty: they are guessed. t is the time, ax ay az the acceleration, gx gy gz the"
                 " rotation; units may follow, as in t(ms),ax(g),gx(deg/s); a - is left out."
             )
             form.addRow(hint(words))
-        if self._way.asks_units:
+        if self._connector.asks_units:
             form.addRow(label_of(tr("How it counts"), self.units), self.units)
         box = column_in(self)
         box.addWidget(self.toggle)
@@ -182,18 +182,18 @@ class MoreSettings(QWidget):
     def settings(self) -> dict[str, Setting]:
         """The parameters that differ from what is usual; the port is its own."""
         found: dict[str, Setting] = {}
-        if self._way.asks_columns and self.columns.text().strip():
+        if self._connector.asks_columns and self.columns.text().strip():
             found["columns"] = self.columns.text().strip()
-        if self._way.asks_units and self.units.currentIndex():
+        if self._connector.asks_units and self.units.currentIndex():
             found["units"] = str(self.units.currentData())
         return found
 
     def show_settings(self, settings: Mapping[str, Setting]) -> None:
         """Begin with what was chosen before."""
-        self.port.setValue(int(settings.get("port") or self._way.port or 1))
+        self.port.setValue(int(settings.get("port") or self._connector.port or 1))
         self.columns.setText(str(settings.get("columns", "")))
         self.units.setCurrentIndex(max(0, self.units.findData(settings.get("units", "guess"))))
-        is_unusual = bool(self.settings) or self.port.value() != (self._way.port or 1)
+        is_unusual = bool(self.settings) or self.port.value() != (self._connector.port or 1)
         self.toggle.setChecked(is_unusual)
 
 

@@ -177,7 +177,7 @@ def test_with_several_robots_one_is_chosen(human: Human, window: MainWindow, qtb
     panel.robot.setCurrentText("NAO2")
 
     assert panel.robot.isVisible()
-    assert panel.hands.robot == "NAO2"
+    assert panel.stimuli.robot == "NAO2"
 
 
 def test_a_hidden_panel_listens_to_nothing(human: Human, window: MainWindow) -> None:

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from nep_core.errors import RecordingError
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
@@ -299,10 +299,13 @@ class BandPanel(QWidget):
     """Follows what is tried out."""
 
     def __init__(
-        self, desk: TrainerDesk, title: Callable[[str], str], parent: QWidget | None = None
+        self,
+        controller: GestureController,
+        title: Callable[[str], str],
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._desk, self._title = desk, title
+        self._controller, self._title = controller, title
         self._model: Model | None = None
         self._shown: Detection | None = None
         self.band: Band | None = None
@@ -310,7 +313,7 @@ class BandPanel(QWidget):
         self.gesture.setAccessibleName(tr("Gesture of the curve"))
         self.kind = QComboBox()
         self.kind.setAccessibleName(tr("What is drawn"))
-        self.view = BandView(desk.look)
+        self.view = BandView(controller.look)
         self.sentence = Words()
         self._lay_out()
         self.gesture.currentIndexChanged.connect(self._on_chosen)
@@ -357,11 +360,11 @@ class BandPanel(QWidget):
 
     def _compute(self, name: str) -> None:
         """Bring the movement and the curve together."""
-        live, shown = self._desk.live, self._shown
+        live, shown = self._controller.live, self._shown
         movement: Samples | None = None
         if live is not None and shown is not None:
             movement = live.between(shown.t_start - AROUND_S, shown.t_end + AROUND_S)
-            if self._model is not None and is_mirrored(self._desk.wrist, self._model):
+            if self._model is not None and is_mirrored(self._controller.wrist, self._model):
                 movement = Samples(movement.t, *mirrored(movement.acc, movement.gyr))
         gravity = live.gravity_included if live is not None else True
         self.band = None

@@ -273,7 +273,7 @@ class PointPanel(QWidget):
 
     def fill(self) -> None:
         """Offer the gestures that were learned."""
-        findings, gestures = self.tuning.findings, self.tuning.desk.gestures
+        findings, gestures = self.tuning.findings, self.tuning.controller.gestures
         known = [name for name in gestures if findings is not None and name in findings.takes]
         chosen = self.name
         with QSignalBlocker(self.gesture):
@@ -325,7 +325,7 @@ class PointSlider(QSlider):
         if name != self.name:
             self.keep()
             self.name = name
-            gesture = self.tuning.desk.gestures.get(name)
+            gesture = self.tuning.controller.gestures.get(name)
             title = gesture.title if gesture is not None else ""
             self.setAccessibleName(tr("Recognition point of “{gesture}”", gesture=title))
         with QSignalBlocker(self):

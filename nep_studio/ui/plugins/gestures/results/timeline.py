@@ -229,7 +229,7 @@ class GestureBar(PointSlider):
 
     def _paint_words(self, painter: QPainter) -> None:
         theme, line, metrics = self._look.theme, self.fontMetrics().height(), self.fontMetrics()
-        gesture = self.tuning.desk.gestures.get(self.name)
+        gesture = self.tuning.controller.gestures.get(self.name)
         percent = f"{self.certainty * 100:.0f} %"
         room = QRectF(line * 0.5, line * 0.15, self.width() - line, line * 1.1)
         painter.setPen(theme.colour("text"))

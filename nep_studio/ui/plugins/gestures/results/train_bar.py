@@ -79,7 +79,7 @@ class TrainBar(QWidget):
         had_focus = self.button.hasFocus() or self.cancel.hasFocus()
         self.button.setVisible(not is_busy)
         self.button.setEnabled(not why_not)
-        has_learned = training.desk.recogniser is not None
+        has_learned = training.controller.recogniser is not None
         self.button.setText(tr("Train again") if has_learned else tr("Train"))
         self.cancel.setVisible(is_busy)
         self.progress.setVisible(is_busy)
@@ -100,7 +100,7 @@ class TrainBar(QWidget):
             return "info", "info", training.why_not
         if training.is_stale:
             return "refresh-cw", "warning", self._stale_words()
-        if training.desk.recogniser is None:
+        if training.controller.recogniser is None:
             return (
                 "info",
                 "info",

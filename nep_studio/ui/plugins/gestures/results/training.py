@@ -18,7 +18,7 @@ from nep_core.errors import RecordingError
 from nep_studio.blocks.own_gestures import OwnRecogniser, OwnRecording, keep_recogniser
 from nep_studio.problems import Problem
 from nep_studio.project.kept_files import EVERYDAY, Gestures, Span, labels_of, spans_of
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.packed_arrays import unpacked
 from nep_studio.ui.words import tr
 from nodes.recordings import Recording, write_recording
@@ -179,13 +179,13 @@ class Training(QObject):
 
     def __init__(
         self,
-        desk: TrainerDesk,
+        controller: GestureController,
         parent: QObject | None = None,
         *,
         command: Callable[[], Sequence[str]] = worker_command,
     ) -> None:
-        super().__init__(parent or desk)
-        self.desk = desk
+        super().__init__(parent or controller)
+        self.controller = controller
         self.problem: Problem | None = None
         self.progress = 0.0
         self.step = ""
@@ -194,7 +194,7 @@ class Training(QObject):
         self.remarks: tuple[Fault, ...] = ()
         """What is amiss with the recordings, in English sentences."""
         self.trains_by_itself = True
-        self.tuning = Tuning(desk, self)
+        self.tuning = Tuning(controller, self)
         self._worker = Worker(command, self)
         self._worker.told.connect(self._on_told)
         self._worker.ended.connect(self._on_ended)
@@ -212,7 +212,7 @@ class Training(QObject):
         self._next_file.timeout.connect(self._write_on)
         self._soon = QTimer(self, singleShot=True, interval=SOON_MS)
         self._soon.timeout.connect(self._train_by_itself)
-        desk.changed.connect(self._on_project_changed)
+        controller.changed.connect(self._on_project_changed)
         app = QCoreApplication.instance()
         if app is not None:
             app.aboutToQuit.connect(self.close)
@@ -227,7 +227,7 @@ class Training(QObject):
     @property
     def is_stale(self) -> bool:
         """Whether there is a recogniser that was trained on something else than there is now."""
-        return self.desk.recogniser is not None and not self.desk.is_up_to_date
+        return self.controller.recogniser is not None and not self.controller.is_up_to_date
 
     @property
     def is_quick(self) -> bool:
@@ -237,7 +237,7 @@ class Training(QObject):
     @property
     def why_not(self) -> str:
         """What is missing before it can train; empty when nothing is."""
-        if not self.desk.gestures:
+        if not self.controller.gestures:
             return tr("Add a gesture, and record it a few times.")
         if not self._takes():
             return tr("Record the gesture a few times: five are better than three.")
@@ -257,8 +257,8 @@ class Training(QObject):
             self.cancel()
         self._soon.stop()
         self.problem, self.progress, self.step = None, 0.0, ""
-        self._digest = self._tried = self.desk.digest()
-        self._editor = self.desk.editor
+        self._digest = self._tried = self.controller.digest()
+        self._editor = self.controller.editor
         self._worker.start()
         try:
             folder = self._folder or TrainingFolder()
@@ -266,7 +266,7 @@ class Training(QObject):
             self._fail(not_enough_room(error))
             return
         self._folder = folder
-        self._writing = folder.update(self.desk.gestures, self.desk.recordings)
+        self._writing = folder.update(self.controller.gestures, self.controller.recordings)
         self._next_file.start()
         self.changed.emit()
 
@@ -298,7 +298,7 @@ class Training(QObject):
     # How it goes on
 
     def _takes(self) -> int:
-        gestures = self.desk.gestures.values()
+        gestures = self.controller.gestures.values()
         return sum(not take.left_out for gesture in gestures for take in gesture.takes)
 
     def _write_on(self) -> None:
@@ -371,7 +371,7 @@ class Training(QObject):
         figures: dict[str, Any] = next(iter(done.report.values()), {})
         gestures = tuple(figures.get("takes", ()))
         recogniser = OwnRecogniser(digest, gestures, text, done.report)
-        if self.desk.change("train the gestures", [keep_recogniser(recogniser)]):
+        if self.controller.change("train the gestures", [keep_recogniser(recogniser)]):
             self.trained.emit()
         self.changed.emit()
         self._on_project_changed()  # it may have changed meanwhile
@@ -397,19 +397,21 @@ class Training(QObject):
 
         To keep the latter would be a new step, and take the way forward through the others away.
         """
-        editor = self.desk.editor
+        editor = self.controller.editor
         if editor is None or editor is not self._editor:
             return True
-        return bool(editor.history.redo_label) and self.desk.digest() != self._digest
+        return bool(editor.history.redo_label) and self.controller.digest() != self._digest
 
     def _wants_to_train(self) -> bool:
         """Whether to train by itself: not on a way back through the steps of undo."""
-        editor = self.desk.editor
+        editor = self.controller.editor
         if editor is None or not (self.trains_by_itself and self.is_quick):
             return False
-        counts = [len(gesture.takes) for gesture in self.desk.gestures.values() if gesture.takes]
+        counts = [
+            len(gesture.takes) for gesture in self.controller.gestures.values() if gesture.takes
+        ]
         is_enough = bool(counts) and min(counts) > 1
-        is_new = not self.desk.is_up_to_date and self.desk.digest() != self._tried
+        is_new = not self.controller.is_up_to_date and self.controller.digest() != self._tried
         return is_enough and is_new and not editor.history.redo_label
 
     def _train_by_itself(self) -> None:

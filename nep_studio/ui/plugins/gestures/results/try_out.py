@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QVBoxLayout, QWid
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import announce
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
 from nep_studio.ui.widgets.layouts import FlowLayout, Halves, scrolled
@@ -33,13 +33,13 @@ BEFORE_S, AFTER_S = 1.0, 0.5
 SHORTEST_S, LONGEST_S = 0.3, 8.0
 
 
-def keep_missed(desk: TrainerDesk, name: str, start_s: float, end_s: float) -> bool:
+def keep_missed(controller: GestureController, name: str, start_s: float, end_s: float) -> bool:
     """Keep a movement (on the clock of the live stream) as a take more of a gesture.
 
     What is around it may be anything, so nothing is learned from that. False when too little of
     the movement is still known.
     """
-    samples = _around(desk, start_s, end_s)
+    samples = _around(controller, start_s, end_s)
     if not len(samples):
         return False
     first_s, last_s = float(samples.t[0]), float(samples.t[-1])
@@ -48,17 +48,17 @@ def keep_missed(desk: TrainerDesk, name: str, start_s: float, end_s: float) -> b
         return False
     unknown = [span for span in ((first_s, take[0]), (take[1], last_s)) if span[1] > span[0]]
     label = "add what was missed"
-    return bool(Keeping(desk).keep_session(name, samples, [take], unknown, label))
+    return bool(Keeping(controller).keep_session(name, samples, [take], unknown, label))
 
 
-def keep_false_alarm(desk: TrainerDesk, start_s: float, end_s: float) -> bool:
+def keep_false_alarm(controller: GestureController, start_s: float, end_s: float) -> bool:
     """Keep a movement as everyday movement; False when too little of it is still known."""
-    samples = _around(desk, start_s, end_s)
-    return samples.seconds >= SHORTEST_S and Keeping(desk).keep_everyday(samples)
+    samples = _around(controller, start_s, end_s)
+    return samples.seconds >= SHORTEST_S and Keeping(controller).keep_everyday(samples)
 
 
-def _around(desk: TrainerDesk, start_s: float, end_s: float) -> Samples:
-    live = desk.live
+def _around(controller: GestureController, start_s: float, end_s: float) -> Samples:
+    live = controller.live
     return Samples.none() if live is None else live.between(start_s - BEFORE_S, end_s + AFTER_S)
 
 
@@ -74,10 +74,13 @@ class CorrectionBar(QWidget):
     """``looks`` gives what the recogniser saw in the last half minute."""
 
     def __init__(
-        self, desk: TrainerDesk, looks: Callable[[], Looks], parent: QWidget | None = None
+        self,
+        controller: GestureController,
+        looks: Callable[[], Looks],
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._desk, self._looks = desk, looks
+        self._controller, self._looks = controller, looks
         self.missed = QPushButton(tr("It missed it"))
         self.missed.setToolTip(tr("Keep the last seconds as a take more of a gesture"))
         self.false_alarm = QPushButton(tr("False alarm"))
@@ -93,38 +96,38 @@ class CorrectionBar(QWidget):
     def fill_menu(self) -> None:
         """Offer the gestures that may have been missed."""
         self.menu.clear()
-        for name, gesture in self._desk.gestures.items():
+        for name, gesture in self._controller.gestures.items():
             action = self.menu.addAction(gesture.title.replace("&", "&&"))
             action.triggered.connect(partial(self.keep_missed, name))
 
     def keep_missed(self, name: str, _is_on: bool = False) -> None:
         """Keep the movement of the last seconds that is most like a gesture as a take of it."""
-        live, looks = self._desk.live, self._looks()
+        live, looks = self._controller.live, self._looks()
         if live is None:
             return
         best = looks.best(name, looks.now_s - MISSED_S)
         end_s = best.t_end if best is not None else live.last_t
         start_s = best.t_start if best is not None else end_s - USUAL_S
-        title = self._desk.gestures[name].title
-        is_kept = keep_missed(self._desk, name, start_s, end_s)
+        title = self._controller.gestures[name].title
+        is_kept = keep_missed(self._controller, name, start_s, end_s)
         self._tell(is_kept, tr("Kept as a take of “{gesture}”", gesture=title))
 
     def keep_false_alarm(self) -> None:
         """Keep what caused the last trigger as everyday movement."""
-        live = self._desk.live
+        live = self._controller.live
         if live is None:
             return
         recent = [one for one in self._looks().triggers if one.t_end > live.last_t - ALARM_S]
         end_s = recent[-1].t_end if recent else live.last_t
         start_s = recent[-1].t_start if recent else end_s - 2 * USUAL_S
-        is_kept = keep_false_alarm(self._desk, start_s, end_s)
+        is_kept = keep_false_alarm(self._controller, start_s, end_s)
         self._tell(is_kept, tr("Kept as everyday movement"))
 
     def _tell(self, is_kept: bool, words: str) -> None:
         if is_kept:
-            self._desk.messages.confirm(words)
+            self._controller.messages.confirm(words)
         else:
-            self._desk.messages.refuse(
+            self._controller.messages.refuse(
                 "Too little movement was heard in the last seconds.",
                 ("Make the movement, then press the button at once.",),
             )
@@ -145,10 +148,10 @@ class TryOut(QWidget):
     recognised = Signal(object)
 
     def __init__(
-        self, desk: TrainerDesk, training: Training, parent: QWidget | None = None
+        self, controller: GestureController, training: Training, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self.desk, self.training, self.tuning = desk, training, training.tuning
+        self.controller, self.training, self.tuning = controller, training, training.tuning
         self.looks = Looks()
         self.model: Model | None = None
         self.problem: RecordingError | None = None
@@ -163,15 +166,15 @@ class TryOut(QWidget):
         self.meaning.hide()
 
     def _make(self) -> None:
-        look = self.desk.look
+        look = self.controller.look
         self.sign = Sign(look)
         self.said = Words(role="title")
         self.steps = Words(role="hint")
         self.bars: dict[str, GestureBar] = {}
         self.meaning = Words(role="hint")
         self.timeline = TriggerTimeline(self._title, look)
-        self.corrections = CorrectionBar(self.desk, lambda: self.looks)
-        self.band = BandPanel(self.desk, self._title)
+        self.corrections = CorrectionBar(self.controller, lambda: self.looks)
+        self.band = BandPanel(self.controller, self._title)
         self._flash_over = QTimer(self, singleShot=True, interval=FLASH_MS)
         self._say_soon = QTimer(self, singleShot=True, interval=ANNOUNCE_MS)
         self._is_heard = QTimer(self, interval=_HEARING_MS)
@@ -199,10 +202,10 @@ class TryOut(QWidget):
         outer.addWidget(self.area)
 
     def _connect(self) -> None:
-        self.desk.heard.connect(self._on_heard)
-        self.desk.changed.connect(self._on_changed)
-        self.desk.sources_changed.connect(self._on_source_changed)
-        self.desk.wearer_changed.connect(self._listen)
+        self.controller.heard.connect(self._on_heard)
+        self.controller.changed.connect(self._on_changed)
+        self.controller.sources_changed.connect(self._on_source_changed)
+        self.controller.wearer_changed.connect(self._listen)
         self.tuning.method_changed.connect(self._on_changed)
         self.tuning.point_changed.connect(self._on_point_changed)
         self.listening.model_read.connect(self._on_model_read)
@@ -226,14 +229,16 @@ class TryOut(QWidget):
 
     def _listen(self) -> None:
         """Listen for what the project has learned, while somebody looks."""
-        recogniser = self.desk.recogniser
+        recogniser = self.controller.recogniser
         if recogniser is None or not self.isVisible():
             self.listening.stop()
             if recogniser is None:
                 self._begin(None)
             return
-        gravity = self.desk.live.gravity_included if self.desk.live is not None else True
-        wrist = self.desk.wrist
+        gravity = (
+            self.controller.live.gravity_included if self.controller.live is not None else True
+        )
+        wrist = self.controller.wrist
         self.listening.listen_for(Wanted(recogniser.file, self.tuning.method, gravity, wrist))
 
     def _begin(self, model: Model | None) -> None:
@@ -249,7 +254,7 @@ class TryOut(QWidget):
         """A new recogniser looks at the last half minute too: its effect is seen at once."""
         self.problem = None
         self._begin(model)
-        live = self.desk.live
+        live = self.controller.live
         if live is None:
             return
         samples, begin_s = live.last(), live.last_t - KEPT_S
@@ -328,7 +333,7 @@ class TryOut(QWidget):
         self.steps.setText(step)
         self.steps.setVisible(bool(step))
         self.live.setVisible(self.model is not None)
-        self.corrections.setEnabled(self.model is not None and self.desk.live is not None)
+        self.corrections.setEnabled(self.model is not None and self.controller.live is not None)
 
     def _state(self) -> tuple[str, str, str, str]:
         """An icon, its colour, what is the case, and what to do."""
@@ -337,22 +342,22 @@ class TryOut(QWidget):
         if self.problem is not None:
             checklist = "\n".join(map(tr, self.problem.checklist))
             return "triangle-alert", "warning", tr(self.problem.sentence), checklist
-        if self.desk.recogniser is None:
+        if self.controller.recogniser is None:
             first = tr("Record each gesture a few times, then train: the try-out begins by itself.")
             return "info", "info", tr("Nothing to try out yet"), first
-        if not self.desk.is_hearing:
+        if not self.controller.is_hearing:
             connect = tr("Connect a watch or phone, and move it.")
             return "watch", "info", tr("No movement is heard"), connect
         return "ear", "muted", tr("Make a gesture"), ""
 
     def _title(self, name: str) -> str:
-        gesture = self.desk.gestures.get(name)
+        gesture = self.controller.gestures.get(name)
         return gesture.title if gesture is not None else name
 
     def _fill_bars(self) -> None:
         """A bar for each gesture that is listened for."""
         known = self.model.names if self.model is not None else ()
-        wanted = [name for name in self.desk.gestures if name in known]
+        wanted = [name for name in self.controller.gestures if name in known]
         if wanted == list(self.bars):
             for name, bar in self.bars.items():
                 bar.show_gesture(name)
@@ -360,7 +365,7 @@ class TryOut(QWidget):
         for bar in self.bars.values():
             bar.hide()
             bar.deleteLater()
-        self.bars = {name: GestureBar(self.tuning, name, self.desk.look) for name in wanted}
+        self.bars = {name: GestureBar(self.tuning, name, self.controller.look) for name in wanted}
         for bar in self.bars.values():
             self._bars_box.addWidget(bar)
 

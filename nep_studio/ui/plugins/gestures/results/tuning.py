@@ -6,7 +6,7 @@ from msgspec.structs import replace
 from PySide6.QtCore import QObject, Signal
 
 from nep_studio.blocks.own_gestures import TRIGGER, keep_gesture
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.words import tr
 
 from .findings import Findings, findings_of
@@ -33,9 +33,9 @@ class Tuning(QObject):
     point_changed = Signal(str)
     method_changed = Signal()
 
-    def __init__(self, desk: TrainerDesk, parent: QObject) -> None:
+    def __init__(self, controller: GestureController, parent: QObject) -> None:
         super().__init__(parent)
-        self.desk = desk
+        self.controller = controller
         self.method = METHODS[0]
         self._dragged: dict[str, float] = {}
         self._read_from: object = None
@@ -44,7 +44,7 @@ class Tuning(QObject):
     @property
     def findings(self) -> Findings | None:
         """What the last training found out about the recogniser that is looked at."""
-        recogniser = self.desk.recogniser
+        recogniser = self.controller.recogniser
         if recogniser != self._read_from:
             self._read_from = recogniser
             self._findings = findings_of(recogniser.report) if recogniser is not None else {}
@@ -53,11 +53,11 @@ class Tuning(QObject):
     @property
     def points(self) -> dict[str, float]:
         """The recognition point of each gesture, as it is now."""
-        return {name: self.point(name) for name in self.desk.gestures}
+        return {name: self.point(name) for name in self.controller.gestures}
 
     def point(self, name: str) -> float:
         """The certainty at which a gesture counts as made."""
-        gesture = self.desk.gestures.get(name)
+        gesture = self.controller.gestures.get(name)
         return self._dragged.get(name, gesture.certainty if gesture is not None else TRIGGER)
 
     @property
@@ -68,17 +68,17 @@ class Tuning(QObject):
     def preview(self, name: str, certainty: float) -> None:
         """Show what another recognition point would do; the project stays as it is."""
         certainty = min(max(round(certainty, 2), LOWEST), HIGHEST)
-        if name in self.desk.gestures and certainty != self.point(name):
+        if name in self.controller.gestures and certainty != self.point(name):
             self._dragged[name] = certainty
             self.point_changed.emit(name)
 
     def keep(self, name: str) -> None:
         """Let the project have the recognition point that is shown, as one step."""
-        certainty, gesture = self.point(name), self.desk.gestures.get(name)
+        certainty, gesture = self.point(name), self.controller.gestures.get(name)
         self._dragged.pop(name, None)
         if gesture is not None and certainty != gesture.certainty:
             edit = keep_gesture(name, replace(gesture, certainty=certainty))
-            self.desk.change("set a recognition point", [edit])
+            self.controller.change("set a recognition point", [edit])
         self.point_changed.emit(name)
 
     def reset(self, name: str) -> None:

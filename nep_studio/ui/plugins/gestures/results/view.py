@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy, QVBoxLayout, QWidget
 from nep_studio.problems import Problem
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Message
-from nep_studio.ui.plugins.gestures.gesture_controller import TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.widgets.layouts import Halves, scrolled
 from nep_studio.ui.words import tr
 
@@ -43,17 +43,17 @@ class ResultsView(QWidget):
     trial_asked = Signal()
 
     def __init__(
-        self, desk: TrainerDesk, training: Training, parent: QWidget | None = None
+        self, controller: GestureController, training: Training, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self.desk, self.training, self.tuning = desk, training, training.tuning
-        self.bar = TrainBar(training, desk.look)
+        self.controller, self.training, self.tuning = controller, training, training.tuning
+        self.bar = TrainBar(training, controller.look)
         self.headline = Words(role="heading")
         self.everyday = Words(role="hint")
-        self.advice = AdviceList(desk.look)
+        self.advice = AdviceList(controller.look)
         self.method = QComboBox()
-        self.table = ConfusionView(self._title, desk.look)
-        self.points = PointPanel(self.tuning, desk.look)
+        self.table = ConfusionView(self._title, controller.look)
+        self.points = PointPanel(self.tuning, controller.look)
         self.failure = card()
         self._told_problem: Problem | None = None
         self._shown: object = None
@@ -100,7 +100,7 @@ class ResultsView(QWidget):
         self.advice.takes_asked.connect(self.takes_asked)
         self.table.cell_chosen.connect(self._on_cell_chosen)
         self.training.changed.connect(self.refresh)
-        self.desk.changed.connect(self.refresh)
+        self.controller.changed.connect(self.refresh)
         self.tuning.method_changed.connect(self.refresh)
         self.tuning.point_changed.connect(self._show_advice)
 
@@ -111,7 +111,7 @@ class ResultsView(QWidget):
         self.found.setVisible(findings is not None)
         self.method.setCurrentIndex(self.method.findData(self.tuning.method))
         self._show_advice()
-        shown = (findings, [(name, one.title) for name, one in self.desk.gestures.items()])
+        shown = (findings, [(name, one.title) for name, one in self.controller.gestures.items()])
         if shown != self._shown:  # a table that is filled anew forgets which cell is looked at
             self._shown = shown
             self.table.show_findings(findings)
@@ -132,8 +132,8 @@ class ResultsView(QWidget):
         self.advice.show_advice([*advice_on(findings, known), *told])
 
     def _known(self) -> Known:
-        everyday = (one.seconds for one in self.desk.recordings.values() if one.everyday)
-        return Known(self.desk.gestures, self.desk.people, sum(everyday))
+        everyday = (one.seconds for one in self.controller.recordings.values() if one.everyday)
+        return Known(self.controller.gestures, self.controller.people, sum(everyday))
 
     def _title(self, name: str) -> str:
         return self._known().title(name)
@@ -159,7 +159,7 @@ class ResultsView(QWidget):
     def _on_cell_chosen(self, made: str, found: str) -> None:
         findings = self.tuning.findings
         if findings is not None:
-            takes = takes_of_pair(findings, self.desk.gestures, made, found)
+            takes = takes_of_pair(findings, self.controller.gestures, made, found)
             if takes:
                 self.takes_asked.emit(takes)
 

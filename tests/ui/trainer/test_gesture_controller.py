@@ -15,7 +15,7 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 from nep_studio.blocks.program import PAGES
-from nep_studio.ui.plugins.gestures.gesture_controller import SILENT_S, TrainerDesk
+from nep_studio.ui.plugins.gestures.gesture_controller import SILENT_S, GestureController
 from nep_studio.ui.plugins.gestures.live import KEPT_S, LiveStream, Samples
 from nep_studio.ui.plugins.gestures.packed_arrays import packed, thinned, unpacked
 from nep_studio.ui.running.tap import Heard
@@ -39,7 +39,7 @@ def recording_of(measured: Samples, **more: object) -> OwnRecording:
     )
 
 
-def test_a_change_is_one_step_that_can_be_undone(desk: TrainerDesk, qtbot: QtBot) -> None:
+def test_a_change_is_one_step_that_can_be_undone(desk: GestureController, qtbot: QtBot) -> None:
     gesture = OwnGesture("Karate", takes=(OwnTake("t1", "r1", 0.5, 1.0),))
 
     with qtbot.waitSignal(desk.changed):
@@ -59,7 +59,7 @@ def test_a_change_is_one_step_that_can_be_undone(desk: TrainerDesk, qtbot: QtBot
 
 
 def test_another_project_brings_its_own_gestures_and_person(
-    desk: TrainerDesk, qtbot: QtBot
+    desk: GestureController, qtbot: QtBot
 ) -> None:
     recording = recording_of(samples(), person="Ana", wrist="left", recorded="2026-01-02T03:04:05")
     desk.change("record", [keep_recording("r1", recording)])
@@ -71,12 +71,12 @@ def test_another_project_brings_its_own_gestures_and_person(
     assert desk.person == "Me"
 
 
-def test_a_change_of_blocks_is_no_change_here(desk: TrainerDesk, qtbot: QtBot) -> None:
+def test_a_change_of_blocks_is_no_change_here(desk: GestureController, qtbot: QtBot) -> None:
     with qtbot.assertNotEmitted(desk.changed, wait=120):
         desk.editor.create("event.started", desk.editor.new_stack(PAGES[0], 0, 0))
 
 
-def test_the_desk_hears_the_last_half_minute(desk: TrainerDesk, push) -> None:
+def test_the_desk_hears_the_last_half_minute(desk: GestureController, push) -> None:
     for _ in range(20):
         push(REST)
 
@@ -88,7 +88,7 @@ def test_the_desk_hears_the_last_half_minute(desk: TrainerDesk, push) -> None:
 
 
 def test_another_sensor_takes_over_only_when_the_first_is_silent(
-    desk: TrainerDesk, push, clock
+    desk: GestureController, push, clock
 ) -> None:
     push(REST, source="watch")
 
@@ -133,7 +133,7 @@ def test_a_flood_takes_no_more_memory_and_is_thinned_when_it_is_kept() -> None:
     assert thinned(stream.last()).rate_hz == pytest.approx(200)
 
 
-def test_what_is_packed_is_read_back(desk: TrainerDesk) -> None:
+def test_what_is_packed_is_read_back(desk: GestureController) -> None:
     measured = samples()
 
     back = unpacked(recording_of(measured))
@@ -144,7 +144,7 @@ def test_what_is_packed_is_read_back(desk: TrainerDesk) -> None:
 
 
 def test_two_nodes_with_one_message_are_two_sensors_only_by_their_source(
-    desk: TrainerDesk,
+    desk: GestureController,
 ) -> None:
     message = Imu(source="", rate_hz=50, t=[0.0, 0.02], acc=[(0, 0, 9.8)] * 2)
 
@@ -153,7 +153,7 @@ def test_two_nodes_with_one_message_are_two_sensors_only_by_their_source(
     assert list(desk.streams) == ["one", "other"]
 
 
-def test_a_hand_that_is_changed_on_the_phone_is_changed_here(desk: TrainerDesk) -> None:
+def test_a_hand_that_is_changed_on_the_phone_is_changed_here(desk: GestureController) -> None:
     def hear(t: float, wrist: str) -> None:
         acc = [(0.0, 0.0, 9.81)]
         message = Imu(source="phone", rate_hz=50.0, t=[t], acc=acc, wrist=wrist)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
 from nep_studio.ui.plugins.motion import editing
-from nep_studio.ui.plugins.motion.motion_controller import MotionDesk
+from nep_studio.ui.plugins.motion.motion_controller import MotionController
 from nodes.resources import resource_folder
 from robots.body.body import load_body
 
@@ -17,13 +17,15 @@ RIGHT_ARM = {"RShoulderPitch", "RShoulderRoll", "RElbowYaw", "RElbowRoll", "RWri
 
 
 @pytest.fixture
-def desk() -> MotionDesk:
-    desk = MotionDesk(BODY)
+def desk() -> MotionController:
+    desk = MotionController(BODY)
     desk.open(OwnAnimation("New", {}))
     return desk
 
 
-def test_posing_an_arm_at_the_beginning_makes_the_first_key_of_that_arm(desk: MotionDesk) -> None:
+def test_posing_an_arm_at_the_beginning_makes_the_first_key_of_that_arm(
+    desk: MotionController,
+) -> None:
     desk.set_joints({"RShoulderPitch": -0.5}, "pose")
 
     assert editing.key_times(desk.motion) == [1.0]
@@ -31,7 +33,7 @@ def test_posing_an_arm_at_the_beginning_makes_the_first_key_of_that_arm(desk: Mo
     assert (desk.cursor_s, desk.chosen) == (1.0, (1.0,))
 
 
-def test_a_drag_is_one_step_and_the_next_one_another(desk: MotionDesk) -> None:
+def test_a_drag_is_one_step_and_the_next_one_another(desk: MotionController) -> None:
     for angle in (-0.1, -0.2, -0.3):
         desk.set_joints({"RShoulderPitch": angle}, "pose", merge="drag")
     desk.seal()
@@ -48,7 +50,7 @@ def test_a_drag_is_one_step_and_the_next_one_another(desk: MotionDesk) -> None:
     assert desk.motion.joints["RShoulderPitch"].keys == (-0.9,)
 
 
-def test_with_both_sides_alike_the_other_arm_does_as_in_a_mirror(desk: MotionDesk) -> None:
+def test_with_both_sides_alike_the_other_arm_does_as_in_a_mirror(desk: MotionController) -> None:
     desk.is_mirrored = True
 
     desk.set_joints({"LShoulderRoll": 0.8}, "pose")
@@ -56,7 +58,7 @@ def test_with_both_sides_alike_the_other_arm_does_as_in_a_mirror(desk: MotionDes
     assert desk.motion.joints["RShoulderRoll"].keys == (-0.8,)
 
 
-def test_legs_that_move_start_from_a_standing_posture(desk: MotionDesk) -> None:
+def test_legs_that_move_start_from_a_standing_posture(desk: MotionController) -> None:
     desk.set_joints({"LKneePitch": 0.9}, "pose")
 
     assert desk.motion.starts_from == "StandInit"
@@ -64,13 +66,13 @@ def test_legs_that_move_start_from_a_standing_posture(desk: MotionDesk) -> None:
     assert desk.motion.starts_from == "StandInit"
 
 
-def test_angles_are_kept_within_the_limits(desk: MotionDesk) -> None:
+def test_angles_are_kept_within_the_limits(desk: MotionController) -> None:
     desk.set_joints({"HeadYaw": 9.0}, "pose")
 
     assert desk.motion.joints["HeadYaw"].keys[0] <= BODY.max[BODY.index["HeadYaw"]]
 
 
-def test_a_key_of_what_moves_is_kept_where_the_moment_is(desk: MotionDesk) -> None:
+def test_a_key_of_what_moves_is_kept_where_the_moment_is(desk: MotionController) -> None:
     desk.set_joints({"RShoulderPitch": -0.5}, "pose")
     desk.show(2.0)
 
@@ -80,7 +82,7 @@ def test_a_key_of_what_moves_is_kept_where_the_moment_is(desk: MotionDesk) -> No
     assert editing.pose_at(desk.motion, 2.0)["RShoulderPitch"] == pytest.approx(-0.5)
 
 
-def test_chosen_keys_are_moved_copied_and_deleted(desk: MotionDesk) -> None:
+def test_chosen_keys_are_moved_copied_and_deleted(desk: MotionController) -> None:
     desk.set_joints({"RShoulderPitch": -0.5}, "pose")
 
     desk.move_chosen(0.5, "move")
@@ -92,7 +94,7 @@ def test_chosen_keys_are_moved_copied_and_deleted(desk: MotionDesk) -> None:
     assert editing.key_times(desk.motion) == [1.5]
 
 
-def test_what_is_saved_is_not_modified_any_more(desk: MotionDesk) -> None:
+def test_what_is_saved_is_not_modified_any_more(desk: MotionController) -> None:
     desk.set_joints({"RShoulderPitch": -0.5}, "pose")
     assert desk.is_modified
 
@@ -113,7 +115,7 @@ steps = st.lists(
 @settings(deadline=None, max_examples=40)
 @given(steps)
 def test_every_step_can_be_taken_back_and_done_again(taken: list[tuple[str, float]]) -> None:
-    desk = MotionDesk(BODY)
+    desk = MotionController(BODY)
     desk.open(OwnAnimation("New", {}))
     begun = desk.motion
 
@@ -131,7 +133,7 @@ def test_every_step_can_be_taken_back_and_done_again(taken: list[tuple[str, floa
     assert desk.motion == done
 
 
-def step(desk: MotionDesk, what: str, number: float) -> None:
+def step(desk: MotionController, what: str, number: float) -> None:
     match what:
         case "pose":
             desk.set_joints({"RShoulderPitch": number, "LHand": 0.5}, "pose")
