@@ -56,6 +56,8 @@ WITHOUT = {
     "There is no such part in this block.": NO_HAND,
     "This block has no such part.": NO_HAND,
     "This block has no place for blocks inside it.": NO_HAND,
+    "There is no kind of field called “{name}”.": FOR_AUTHORS,
+    "error": PASSED_ON,
     "title | problem.sentence": ALL_IS_WELL,
     "title": ALL_IS_WELL,
     "message.title | message.sentence": ALL_IS_WELL,

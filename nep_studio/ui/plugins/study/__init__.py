@@ -236,4 +236,4 @@ class StudyKit(QObject):
         self._host.status_bar.setVisible(is_on)
 
 
-plugin = Plugin("study", make, order=130, modules=("recorder",))
+plugin = Plugin("study", make, order=130, modules=("start",))
