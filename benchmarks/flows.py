@@ -212,7 +212,7 @@ class Flows:
         from benchmarks.canvas_driving import Driver
 
         driver, canvas = Driver(self._canvas), self._canvas
-        grip = canvas.view_rect_of(self._block("robot.say")).topLeft() + QtCore.QPointF(5, 14)
+        grip = canvas.sight.view_rect_of(self._block("robot.say")).topLeft() + QtCore.QPointF(5, 14)
         driver.press(grip)
         for part in range(1, 6):
             driver.move(grip + QtCore.QPointF(60 * part, 12 * part))
