@@ -9,6 +9,7 @@ happens meets it as well. The references are those of the house before it was re
 
 from __future__ import annotations
 
+import inspect
 import json
 import os
 import signal
@@ -40,8 +41,8 @@ NO_FUNCTIONS = ("<module>", "<listcomp>", "<setcomp>", "<dictcomp>", "<genexpr>"
 """What runs as a function of its own in Python, and is none for a reader."""
 
 BEFORE = {
-    "Run to glow": (922, 196),
-    "a node's crash to its sentence": (416, 138),
+    "Run to glow": (865, 190),
+    "a node's crash to its sentence": (393, 133),
     "a dropped block": (470, 130),
     "a key in a field": (444, 128),
 }
@@ -68,7 +69,10 @@ class Entered:
         return {
             (place, code.co_qualname, code.co_firstlineno)
             for code in self.codes
-            if code.co_name not in NO_FUNCTIONS and (place := _place(code.co_filename))
+            if code.co_flags
+            & inspect.CO_NEWLOCALS  # else the body of a class, once, as it is loaded
+            and code.co_name not in NO_FUNCTIONS
+            and (place := _place(code.co_filename))
         }
 
     @property

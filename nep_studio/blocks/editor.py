@@ -59,13 +59,21 @@ class History:
         self._listeners: list[Listener] = []
         self._applied: list[Edit] = []
         self._recorders: list[Recorder] = []
+        self._of_whole: list[Listener] = []
 
-    def listen(self, listener: Listener) -> None:
-        """Call ``listener`` with what has changed, after each step and each undo and redo."""
+    def listen(self, listener: Listener, *, is_of_whole: bool = False) -> None:
+        """Call ``listener`` with what has changed, after each step and each undo and redo.
+
+        One ``is_of_whole`` that only wants to hear of what changes the project as a whole.
+        """
         self._listeners.append(listener)
+        if is_of_whole:
+            self._of_whole.append(listener)
 
     def unlisten(self, listener: Listener) -> None:
         """Call ``listener`` no more."""
+        if listener in self._of_whole:
+            self._of_whole.remove(listener)
         self._listeners.remove(listener)
 
     def record(self, recorder: Recorder) -> None:
@@ -177,7 +185,8 @@ class History:
         changes, self._project.changes = self._project.changes, Changes()
         if changes:
             for listener in list(self._listeners):
-                listener(changes)
+                if changes.whole or listener not in self._of_whole:
+                    listener(changes)
 
     def _take_back(self, step: Step) -> Step:
         """Apply a step's edits, newest first; give the step that does the opposite."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
-from nep_studio.blocks.checks import check_steps
+from nep_studio.blocks.checks import KnownChains, check_steps
 from nep_studio.blocks.checks.problem import Problem
 from nep_studio.blocks.definition_files import load_definitions, load_profiles, read_toml
 from nep_studio.blocks.deployment import (
@@ -42,20 +42,52 @@ def all_problems(project: Project, language: Language, folder: Path) -> list[Pro
     return at_once(problem_steps(project, language, folder))
 
 
-def problem_steps(project: Project, language: Language, folder: Path) -> Steps[list[Problem]]:
-    """The same in steps."""
-    catalog = NodeCatalog(node_folders())
+def problem_steps(
+    project: Project, language: Language, folder: Path, known: KnownProblems | None = None
+) -> Steps[list[Problem]]:
+    """The same in steps; ``known`` has what was found the last time."""
+    known = known or KnownProblems()
     nodes, robots = node_entries(project, language), robot_entries(project, language)
-    known = _known_gestures(project, language)
+    gestures = _known_gestures(project, language)
     found = [
-        *(yield from check_steps(project, language)),
-        *(problem for entry in nodes for problem in _node(entry, catalog, known, folder)),
+        *(yield from check_steps(project, language, known.chains)),
+        *known.of_nodes(nodes, gestures, folder),
         *(problem for entry in robots for problem in _robot(entry)),
         *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
         *(_reserved("robots", entry.name, entry.block_id) for entry in robots),
     ]
     order = {"error": 0, "warning": 1, "info": 2}
     return sorted((one for one in found if one is not None), key=lambda one: order[one.severity])
+
+
+class KnownProblems:
+    """What was found the last time: what is as it was then is not looked at again."""
+
+    def __init__(self) -> None:
+        self.chains = KnownChains()
+        self._in_order: list[tuple[NodeEntry, list[str]]] = []
+        """Nodes of the Nodes page, each with the gestures that were known then."""
+
+    def of_nodes(
+        self, entries: Iterable[NodeEntry], gestures: list[str], folder: Path
+    ) -> list[Problem]:
+        """What is wrong with these nodes."""
+        found, in_order = list[Problem](), []
+        for entry in entries:
+            if (entry, gestures) not in self._in_order:
+                wrong = list(_node(entry, NodeCatalog(node_folders()), gestures, folder))
+                found += wrong
+                if wrong or _names_file(entry, folder):
+                    continue
+            in_order.append((entry, gestures))
+        self._in_order = in_order
+        return found
+
+
+def _names_file(entry: NodeEntry, folder: Path) -> bool:
+    """Whether a setting is a file: that may be gone the next time."""
+    texts = (value for value in entry.parameters.values() if isinstance(value, str) and value)
+    return any((folder / text).exists() or Path(text).exists() for text in texts)
 
 
 def _node(

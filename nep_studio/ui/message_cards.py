@@ -201,7 +201,6 @@ class MessageArea(QWidget):
         self._look, self._host = look, host
         self.cards: list[MessageCard] = []
         self._box = QVBoxLayout(self)
-        host.installEventFilter(self)
         self.hide()
 
     def show_message(self, message: Message) -> None:
@@ -217,6 +216,7 @@ class MessageArea(QWidget):
         self._box.addWidget(card)
         if message.passes:
             self._pass(card)
+        self._host.installEventFilter(self)
         self.show()
         self._place()
 
@@ -270,6 +270,8 @@ class MessageArea(QWidget):
         self._box.removeWidget(card)
         card.hide()
         card.deleteLater()
+        if not self.cards:
+            self._host.removeEventFilter(self)
         self.setVisible(bool(self.cards))
         self._place()
 

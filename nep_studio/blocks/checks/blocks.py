@@ -20,17 +20,16 @@ from nep_studio.blocks.text import sentence
 from .problem import Found, Problem, Severity, page_of
 
 
-def check_blocks(project: Project, language: Language) -> Found:
-    """Problems of single blocks, on all pages; disabled blocks have none."""
-    for page, stacks in project.pages.items():
-        for stack in stacks:
-            for block in project.within(stack.body, enabled=True):
-                yield None
-                definition = language.definitions.get(block.type)
-                if definition is None:
-                    yield _unknown(page, block)
-                    continue
-                yield from _check_block(project, language, page, block, definition)
+def check_blocks(project: Project, language: Language, chain: list[str]) -> Found:
+    """Problems of single blocks; disabled blocks have none."""
+    page = page_of(project, chain[0])
+    for block in project.within(chain, enabled=True):
+        yield None
+        definition = language.definitions.get(block.type)
+        if definition is None:
+            yield _unknown(page, block)
+            continue
+        yield from _check_block(project, language, page, block, definition)
 
 
 def _unknown(page: str, block: Block) -> Problem:
@@ -150,23 +149,22 @@ class _Place(NamedTuple):
     apart: bool = False
 
 
-def check_inside(project: Project, language: Language) -> Found:
+def check_inside(project: Project, language: Language, chain: list[str]) -> Found:
     """Blocks that mean nothing where they are."""
-    for chain in chains(project, language):
-        hat = project.blocks[chain[0]]
-        start = _Place(procedure_of(hat.type) if hat.type.startswith(DEFINE) else "")
-        waiting = [(block_id, start) for block_id in reversed(chain)]
-        while waiting:
-            yield None
-            block_id, place = waiting.pop()
-            block = project.blocks[block_id]
-            definition = language.definitions.get(block.type)
-            if block.disabled or definition is None:
-                continue
-            yield from _misplaced(project, language, block, definition, place)
-            if block.inputs or block.bodies:
-                inner = _inner(definition, place)
-                waiting += [(child, inner) for child in block.children()]
+    hat = project.blocks[chain[0]]
+    start = _Place(procedure_of(hat.type) if hat.type.startswith(DEFINE) else "")
+    waiting = [(block_id, start) for block_id in reversed(chain)]
+    while waiting:
+        yield None
+        block_id, place = waiting.pop()
+        block = project.blocks[block_id]
+        definition = language.definitions.get(block.type)
+        if block.disabled or definition is None:
+            continue
+        yield from _misplaced(project, language, block, definition, place)
+        if block.inputs or block.bodies:
+            inner = _inner(definition, place)
+            waiting += [(child, inner) for child in block.children()]
 
 
 def _inner(definition: Definition, place: _Place) -> _Place:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from faults import Text, text_of
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.deployment import (
-    chains,
     find_gestures_used,
     find_robots_used,
     is_recognised,
@@ -17,6 +16,7 @@ from nep_studio.blocks.deployment import (
 )
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
+from nep_studio.blocks.procedures import DEFINE
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import sentence
@@ -120,14 +120,13 @@ def _names(project: Project, language: Language) -> Iterator[Problem]:
 # Checks of what a block asks of its robot: each kind of robot has its own postures and animations.
 
 
-def check_abilities(project: Project, language: Language) -> Iterator[Problem]:
+def check_abilities(project: Project, language: Language, chain: list[str]) -> Found:
     """Choices that the robot of a block, or one of all robots, does not have."""
-    for chain in chains(project, language):
-        for block in project.within(chain, enabled=True):
-            robot = language.robot_of(block)
-            asked = list(language.robots) if robot == ALL_ROBOTS else [robot]
-            if robots := [name for name in asked if name in language.robots]:
-                yield from _lacking(project, language, block, robots)
+    for block in project.within(chain, enabled=True):
+        robot = language.robot_of(block)
+        asked = list(language.robots) if robot == ALL_ROBOTS else [robot]
+        if robots := [name for name in asked if name in language.robots]:
+            yield from _lacking(project, language, block, robots)
 
 
 def _lacking(
@@ -189,33 +188,34 @@ def _instead(
 # Checks of what the robot on the screen cannot do: it has no camera and no files.
 
 
-def check_real_robots(project: Project, language: Language) -> Found:
+def check_real_robots(project: Project, language: Language, chain: list[str]) -> Found:
     """Blocks that need a real robot, and name a virtual one."""
+    if project.blocks[chain[0]].type.startswith(DEFINE):
+        return  # an own block: the rule that calls it says what it is for
     virtual = {e.name for e in robot_entries(project, language) if e.driver == "virtual"}
-    for chain in rules(project, language):
-        for block in project.within(chain, enabled=True):
-            yield None
-            definition = language.definitions.get(block.type)
-            if definition is None or "needs_real_robot" not in definition.flags:
-                continue
-            robot = str(definition.value(block, "robot"))
-            if robot not in virtual and not (robot == ALL_ROBOTS and virtual):
-                continue
-            yield Problem(
-                "warning",
-                "needs_real_robot",
-                "behaviour",
-                block.id,
-                text_of(
-                    "“{block}” needs a real robot: the program would stop here with the robot on "
-                    "this screen.",
-                    block=sentence(project, language, block.id),
-                ),
-                (
-                    "Give the robot the address of a real one, on the page Robots.",
-                    "Or switch this block off for now.",
-                ),
-            )
+    for block in project.within(chain, enabled=True):
+        yield None
+        definition = language.definitions.get(block.type)
+        if definition is None or "needs_real_robot" not in definition.flags:
+            continue
+        robot = str(definition.value(block, "robot"))
+        if robot not in virtual and not (robot == ALL_ROBOTS and virtual):
+            continue
+        yield Problem(
+            "warning",
+            "needs_real_robot",
+            "behaviour",
+            block.id,
+            text_of(
+                "“{block}” needs a real robot: the program would stop here with the robot on "
+                "this screen.",
+                block=sentence(project, language, block.id),
+            ),
+            (
+                "Give the robot the address of a real one, on the page Robots.",
+                "Or switch this block off for now.",
+            ),
+        )
 
 
 # Checks of rules: nothing starts, two rules for the same thing, blocks under no rule.

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from faults import text_of
 from nep_studio.blocks.definitions import Definition
-from nep_studio.blocks.deployment import chains
 from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
 from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
 from nep_studio.blocks.language import Language
@@ -20,13 +19,12 @@ _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
 """The postures after blocks with such a flag."""
 
 
-def check_flow(project: Project, language: Language) -> Found:
-    """Problems of the order in which blocks run, in rules."""
-    for chain in chains(project, language):
-        blocks = list(project.within(chain, enabled=True))
-        yield from _loops_without_pause(project, language, blocks)
-        yield from _never_reached(project, language, chain, blocks)
-        yield from _walking_unready(project, language, blocks)
+def check_flow(project: Project, language: Language, chain: list[str]) -> Found:
+    """Problems of the order in which blocks run."""
+    blocks = list(project.within(chain, enabled=True))
+    yield from _loops_without_pause(project, language, blocks)
+    yield from _never_reached(project, language, chain, blocks)
+    yield from _walking_unready(project, language, blocks)
 
 
 def _loops_without_pause(project: Project, language: Language, blocks: list[Block]) -> Found:
@@ -136,35 +134,34 @@ class _Depth(NamedTuple):
     values: int
 
 
-def check_limits(project: Project, language: Language) -> Found:
+def check_limits(project: Project, language: Language, chain: list[str]) -> Found:
     """The blocks that are nested too deep, the outermost of each chain of them."""
-    for chain in chains(project, language):
-        waiting = [(block_id, _Depth(0, 1, 0)) for block_id in reversed(chain)]
-        while waiting:
-            yield None
-            block_id, depth = waiting.pop()
-            block = project.blocks[block_id]
-            definition = language.definitions.get(block.type)
-            if block.disabled or definition is None:
-                continue
-            inside = _inside(block, definition, depth)
-            if not _is_too_deep(inside, definition):
-                waiting += [(child, inside) for child in block.children()]
-                continue
-            yield Problem(
-                "error",
-                "too_deep",
-                page_of(project, block_id),
-                block_id,
-                text_of(
-                    "Blocks are nested too deep here: {deepest_loop} loops, {deepest_indent} "
-                    "blocks or {deepest_value} values at most.",
-                    deepest_loop=DEEPEST_LOOP,
-                    deepest_indent=DEEPEST_INDENT,
-                    deepest_value=DEEPEST_VALUE,
-                ),
-                ("Take the inner blocks out into a rule of their own, or into a variable.",),
-            )
+    waiting = [(block_id, _Depth(0, 1, 0)) for block_id in reversed(chain)]
+    while waiting:
+        yield None
+        block_id, depth = waiting.pop()
+        block = project.blocks[block_id]
+        definition = language.definitions.get(block.type)
+        if block.disabled or definition is None:
+            continue
+        inside = _inside(block, definition, depth)
+        if not _is_too_deep(inside, definition):
+            waiting += [(child, inside) for child in block.children()]
+            continue
+        yield Problem(
+            "error",
+            "too_deep",
+            page_of(project, block_id),
+            block_id,
+            text_of(
+                "Blocks are nested too deep here: {deepest_loop} loops, {deepest_indent} "
+                "blocks or {deepest_value} values at most.",
+                deepest_loop=DEEPEST_LOOP,
+                deepest_indent=DEEPEST_INDENT,
+                deepest_value=DEEPEST_VALUE,
+            ),
+            ("Take the inner blocks out into a rule of their own, or into a variable.",),
+        )
 
 
 def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth:

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from nep_core.errors import NepError
 from nep_studio.blocks.checks.problem import Problem as BlockProblem
 from nep_studio.blocks.checks.problem import page_of
+from nep_studio.blocks.deployment import gestures_used, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes, Project
@@ -41,10 +42,12 @@ if TYPE_CHECKING:
 class RunControl(QObject):
     """Runs the window's project; it stays when the window's contents are made anew.
 
-    ``became_stale`` tells that the blocks have changed since the program was started.
+    ``became_stale`` tells that the blocks have changed since the program was started,
+    ``plan_changed`` that the project needs other nodes now, or nodes with other settings.
     """
 
     became_stale = Signal()
+    plan_changed = Signal()
 
     def __init__(self, host: Host) -> None:
         super().__init__(host.widget)
@@ -59,6 +62,8 @@ class RunControl(QObject):
         self._document: Document | None = None
         self._plan: tuple[Subject, list[PlannedNode]] | None = None
         """The nodes of the open project as it is now, once somebody has asked for them."""
+        self._wanted: object = None
+        """What the nodes of the open project follow from, as it was when it was last told."""
         self._told_of_end: Message | None = None
         """What went wrong with the last run; it is over when the next one begins."""
         self.runner.told.connect(self._on_told)
@@ -79,10 +84,14 @@ class RunControl(QObject):
             return
         if self._document is not None:
             self._document.edited.disconnect(self._on_edited)
+            self._document.settled.disconnect(self._on_settled)
         if document is not None:
             document.edited.connect(self._on_edited)
+            document.settled.connect(self._on_settled)
         self._document = document
         self._virtual = frozenset()
+        self._wanted = self._needs()
+        self.plan_changed.emit()
         self.stop()
         self.stage.clear()
         self.breakpoints.clear()
@@ -132,6 +141,7 @@ class RunControl(QObject):
         self._virtual |= frozenset(  # those that it stands in for already stay with it
             planned.name for planned in self.planned() if is_real(planned)
         )
+        self.plan_changed.emit()
         self.runner.run()
 
     def show_needs(self) -> None:
@@ -160,6 +170,25 @@ class RunControl(QObject):
     def _on_edited(self, changes: Changes) -> None:
         self._plan = None
         self.runner.controller.edited(changes)
+
+    def _on_settled(self, changes: Changes) -> None:
+        """Look whether the nodes can be others now; what is kept may belong to any of them."""
+        wanted = self._needs()
+        if changes.whole or changes.kept or wanted != self._wanted:
+            self._wanted = wanted
+            self.plan_changed.emit()
+
+    def _needs(self) -> object:
+        """What the nodes of the open project follow from, but for what it keeps."""
+        if (document := self._document) is None:
+            return None
+        project, language = document.project, self._host.services.language
+        return (
+            document.folder,
+            node_entries(project, language),
+            robot_entries(project, language),
+            list(gestures_used(project, language)),
+        )
 
     def _on_watching_changed(self) -> None:
         self.runner.controller.watch(self.breakpoints.ids, self.line_s)

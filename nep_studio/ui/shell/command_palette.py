@@ -17,7 +17,16 @@ from PySide6.QtCore import (
     QStringListModel,
     Qt,
 )
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QIcon, QKeyEvent, QPainter
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QHideEvent,
+    QIcon,
+    QKeyEvent,
+    QPainter,
+    QShowEvent,
+)
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
@@ -229,7 +238,6 @@ class CommandPalette(QFrame):
         self.line.installEventFilter(self)
         self.list.clicked.connect(lambda index: self.run(index.row()))
         window.look.theme_changed.connect(self._dress)
-        window.installEventFilter(self)
         self._dress()
         self.hide()
 
@@ -284,6 +292,16 @@ class CommandPalette(QFrame):
         self._remember(command)
         command.do()
         return True
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Follow the size of the window."""
+        super().showEvent(event)
+        self._window.installEventFilter(self)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Let the window go its own way."""
+        super().hideEvent(event)
+        self._window.removeEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Take the keys of the line, and stay in the middle of the window."""

@@ -294,8 +294,8 @@ class MainWindow(QMainWindow):
         workbench = self.workbench
         workbench.problems_found.connect(self._on_problems_found)
         workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
-        workbench.canvas.news.layout_changed.connect(self.update_actions)
-        workbench.canvas.selection.changed.connect(self.update_actions)
+        workbench.canvas.news.layout_changed.connect(self._on_canvas_changed)
+        workbench.canvas.selection.changed.connect(self._on_canvas_changed)
         self.update_actions()
         self.start_page.gallery.paint_pictures()
 
@@ -343,6 +343,9 @@ class MainWindow(QMainWindow):
 
     # What happens
 
+    def _on_canvas_changed(self) -> None:
+        update_edit_actions(self)
+
     def _on_document_changed(self, document: Document | None) -> None:
         self.lazy.finish()
         self.running.follow(document)
@@ -367,7 +370,8 @@ class MainWindow(QMainWindow):
         is_open = document is not None
         if document is not None and not document.project.blocks:
             problems = []  # that nothing happens yet is no news to somebody who begins
-        shown = (list(problems), is_open, self.look.theme, self.toolbar)
+        worst = problems[0].severity if problems else ""
+        shown = (len(problems), worst, is_open, self.look.theme, self.toolbar)
         if shown == self._shown_problems:
             return  # as after most keys: nothing has changed on the toolbar
         self._shown_problems = shown

@@ -61,22 +61,25 @@ class LiveCode(QObject):
         self._work: Sliced[Code] | None = None
         self._next_slice = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next_slice.timeout.connect(self._on_next_slice)
-        self._follow(editor)
 
     def set_editor(self, editor: Editor) -> None:
         """Follow another project."""
-        edits = edits_of(self._editor)
-        edits.edited.disconnect(self._on_edited)
-        edits.settled.disconnect(self._on_settled)
+        if self._is_awake:
+            self._follow(False)
         self._editor = editor
         self._generator = self.code = None
-        self._follow(editor)
+        if self._is_awake:
+            self._follow(True)
         self._grow_old()
 
-    def _follow(self, editor: Editor) -> None:
-        edits = edits_of(editor)
-        edits.edited.connect(self._on_edited)
-        edits.settled.connect(self._on_settled)
+    def _follow(self, is_followed: bool) -> None:
+        edits = edits_of(self._editor)
+        if is_followed:
+            edits.edited.connect(self._on_edited)
+            edits.settled.connect(self._on_settled)
+        else:
+            edits.edited.disconnect(self._on_edited)
+            edits.settled.disconnect(self._on_settled)
 
     def show_page(self, page: str) -> None:
         """Give the code of the kind of this page: the program, or what starts robots and nodes."""
@@ -91,11 +94,14 @@ class LiveCode(QObject):
         self._grow_old()
 
     def set_awake(self, is_awake: bool) -> None:
-        """Work only while somebody looks."""
-        self._is_awake = is_awake
+        """Work only while somebody looks; what is edited meanwhile is not followed."""
+        if is_awake != self._is_awake:
+            self._is_awake = is_awake
+            self._follow(is_awake)
         if not is_awake:
             self.cancel()
-        if is_awake and self._is_old:
+            self._is_old = True
+        elif self._is_old:
             self.start()
 
     def start(self) -> None:
@@ -156,7 +162,7 @@ class LiveCode(QObject):
         self._is_old = True
 
     def _on_settled(self, _changes: Changes) -> None:
-        if self._is_awake and self._is_old:
+        if self._is_old:
             self.start()
 
     def _grow_old(self) -> None:

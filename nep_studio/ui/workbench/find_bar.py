@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
-from PySide6.QtGui import QKeyEvent, QPainter
+from PySide6.QtGui import QHideEvent, QKeyEvent, QPainter, QShowEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from nep_studio.blocks.editor import History
@@ -80,6 +80,7 @@ class FindBar(QFrame):
         self.index = -1
         self._subject: Subject | None = None
         self._history: History | None = None
+        self._is_following = False
         self._overlay = HitOverlay()
         canvas.news.page_changed.connect(self._listen)
         canvas.news.uses_requested.connect(self.show_uses)
@@ -311,13 +312,33 @@ class FindBar(QFrame):
         history = self.canvas.editor.history
         if history is not self._history:
             if self._history is not None:
-                self._history.unlisten(self._on_changes)
                 self.hits, self.index = (), -1
+            self._rest()
             self._history = history
-            history.listen(self._on_changes)
+            if self.isVisible():
+                self._follow()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Follow the program."""
+        super().showEvent(event)
+        self._follow()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Follow nothing while nobody looks."""
+        super().hideEvent(event)
+        self._rest()
+
+    def _follow(self) -> None:
+        if self._history is not None and not self._is_following:
+            self._is_following = True
+            self._history.listen(self._on_changes)
+
+    def _rest(self) -> None:
+        if self._history is not None and self._is_following:
+            self._is_following = False
+            self._history.unlisten(self._on_changes)
 
     def _on_changes(self, changes: Changes) -> None:
-        if self.isVisible():
-            blocks = self.canvas.editor.project.blocks
-            self.hits = tuple(hit for hit in self.hits if hit in blocks)
-            self._later.start()
+        blocks = self.canvas.editor.project.blocks
+        self.hits = tuple(hit for hit in self.hits if hit in blocks)
+        self._later.start()

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from nep_studio.blocks.checks.problem import Problem
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.slices import Sliced
-from nep_studio.run.installation import problem_steps
+from nep_studio.run.installation import KnownProblems, problem_steps
 from nep_studio.ui.edits import Edits, edits_of
 
 SLICE_S = 0.006
@@ -29,6 +29,7 @@ class LiveChecks(QObject):
         self._editor: Editor | None = None
         self._edits: Edits | None = None
         self._folder: Callable[[], Path] = Path.cwd
+        self._known = KnownProblems()
         self._check: Sliced[list[Problem]] | None = None
         self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next.timeout.connect(self._on_next_slice)
@@ -40,7 +41,7 @@ class LiveChecks(QObject):
         if self._edits is not None:
             self._edits.edited.disconnect(self.cancel)
             self._edits.settled.disconnect(self.start)
-        self._editor, self._folder = editor, folder
+        self._editor, self._folder, self._known = editor, folder, KnownProblems()
         self._edits = None if editor is None else edits_of(editor)
         if self._edits is None:
             self._tell([])
@@ -55,7 +56,9 @@ class LiveChecks(QObject):
         if self._editor is None:
             return
         editor = self._editor
-        self._check = Sliced(problem_steps(editor.project, editor.language, self._folder()))
+        self._check = Sliced(
+            problem_steps(editor.project, editor.language, self._folder(), self._known)
+        )
         self._on_next_slice()
 
     def take(self, problems: list[Problem]) -> None:

@@ -246,8 +246,10 @@ class EmptyHint(QLabel):
     def _show_or_hide(self) -> None:
         project, page = self._canvas.editor.project, self._canvas.page
         has_notes = any(note.page == page for note in project.notes.values())
-        self.setVisible(not project.pages.get(page) and not has_notes)
-        self._take_place()
+        is_empty = not project.pages.get(page) and not has_notes
+        self.setVisible(is_empty)
+        if is_empty:
+            self._take_place()
 
     def _take_place(self) -> None:
         view: QWidget = self._canvas.viewport()

@@ -264,7 +264,7 @@ class Outline(QTreeView):
         self._canvas.area.setFocus()
 
     def _on_selection_changed(self) -> None:
-        if self._is_following:
+        if self._is_following or not self._rows.is_awake:
             return
         index = self._rows.index_of(self._canvas.selection.cursor)
         if index.isValid() and index != self.currentIndex():

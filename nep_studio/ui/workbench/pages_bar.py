@@ -45,7 +45,7 @@ class PagesBar(QWidget):
         row.addWidget(self.add_button)
         row.addStretch(1)
         self._connect()
-        editor.history.listen(self._on_changes)
+        editor.history.listen(self._on_whole_changed, is_of_whole=True)
         self._fill()
 
     def _connect(self) -> None:
@@ -57,9 +57,9 @@ class PagesBar(QWidget):
 
     def set_editor(self, editor: Editor) -> None:
         """Show the pages of another project."""
-        self._editor.history.unlisten(self._on_changes)
+        self._editor.history.unlisten(self._on_whole_changed)
         self._editor = editor
-        editor.history.listen(self._on_changes)
+        editor.history.listen(self._on_whole_changed, is_of_whole=True)
         self._page = PAGES[0]
         self._fill()
 
@@ -104,9 +104,8 @@ class PagesBar(QWidget):
             number += 1
         return title
 
-    def _on_changes(self, changes: Changes) -> None:
-        if changes.whole:
-            self._fill()
+    def _on_whole_changed(self, changes: Changes) -> None:
+        self._fill()
 
     def _on_theme_changed(self) -> None:
         self._fill()

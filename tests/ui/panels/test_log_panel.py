@@ -65,7 +65,7 @@ def log(host: QMainWindow, runner: Runner, look: Look, qtbot: QtBot) -> LogPanel
 
 
 def words(panel: WhatHappens) -> list[tuple[str, str]]:
-    return [(line.who, line.what) for line in panel.model.lines()]
+    return [(line.source, line.what) for line in panel.model.lines()]
 
 
 def test_an_empty_log_says_what_belongs_there(log: LogPanel) -> None:

@@ -49,7 +49,7 @@ def make(host: Host) -> Parts:
     panel.log.saving_failed.connect(
         lambda path, reason: tell_not_saved(services.messages, path, reason)
     )
-    workbench.problems_found.connect(lambda _problems: panel.refresh_plan())
+    services.running.plan_changed.connect(panel.refresh_plan)
     place = NewPanel(panel, tr("Nodes"), "network", "bottom")
     return Parts(place, commands={"nodes.show_log": show_log})
 

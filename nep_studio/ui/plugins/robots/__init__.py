@@ -22,7 +22,7 @@ def make(host: Host) -> Parts:
         sound_of(host),
         host.keep(Starts, lambda: Starts(runner, runner)),
     )
-    host.workbench.problems_found.connect(lambda _problems: panel.refresh())
+    services.running.plan_changed.connect(panel.refresh)
     panel.stage.tools.connecting_asked.connect(lambda: host.ask("connecting.open"))
     return Parts(NewPanel(panel, tr("Robots"), "bot", "right"))
 

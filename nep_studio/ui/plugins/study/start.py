@@ -231,6 +231,7 @@ class StudyRecorder(QObject):
         self.folder = StudyFolder(host.services.settings.folder / STUDY_FOLDER)
         self.sitting = self.folder.sitting()
         self._has_run = self._has_run_before()
+        self._document: Document | None = None
         self._history: History | None = None
         self._edits = 0
         self._run_started_s = 0.0
@@ -258,6 +259,7 @@ class StudyRecorder(QObject):
             self._tell_failure(error)
             return
         self.sitting, self._has_run, self._edits = sitting, False, 0
+        self._listen()
         self.note("study_started")
         self.changed.emit()
 
@@ -272,11 +274,13 @@ class StudyRecorder(QObject):
         except OSError as error:
             self._tell_failure(error)
         self.sitting = None
+        self._listen()
         self.changed.emit()
 
     def delete_all(self) -> None:
         """Throw everything away that was ever recorded; raises OSError."""
         self.sitting = None
+        self._listen()
         self.folder.delete_all()
         self.changed.emit()
 
@@ -303,14 +307,20 @@ class StudyRecorder(QObject):
 
     def _follow(self, document: Document | None) -> None:
         """Count the changes of this project; the one before may be closed already."""
+        self._document = document
+        self._listen()
+
+    def _listen(self) -> None:
+        """Count changes while a session is recorded, and only then."""
         if self._history is not None:
             self._history.unlisten(self._on_changes)
+        document = self._document if self.is_on else None
         self._history = None if document is None else document.editor.history
         if self._history is not None:
             self._history.listen(self._on_changes)
 
     def _on_changes(self, changes: Changes) -> None:
-        self._edits += self.is_on
+        self._edits += 1
 
     def _note_edits(self) -> None:
         edits, self._edits = self._edits, 0

@@ -414,15 +414,14 @@ class Palette(QWidget):
         if history is self._history:
             return
         if self._history is not None:
-            self._history.unlisten(self._on_changes)
+            self._history.unlisten(self._on_whole_changed)
             self._history.unrecord(self._on_edits)
         self._history = history
-        history.listen(self._on_changes)
+        history.listen(self._on_whole_changed, is_of_whole=True)
         history.record(self._on_edits)
 
-    def _on_changes(self, changes: Changes) -> None:
-        if changes.whole:
-            self._later.start()
+    def _on_whole_changed(self, changes: Changes) -> None:
+        self._later.start()
 
     def _on_edits(self, edits: tuple[Edit, ...]) -> None:
         """Remember what was used: the first block of what was made."""
