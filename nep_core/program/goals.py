@@ -12,7 +12,6 @@ from nep_core.wire.messages import ProgramEvent
 
 from .tasks import POLL_S, Part, Task, current_task
 
-Action = Callable[[], object]
 Priority = Literal["low", "normal", "high"]
 Interrupted = Literal["again", "drop"]
 GoalEvent = Literal["finished", "stopped", "interrupted", "returns"]

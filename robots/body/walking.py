@@ -36,7 +36,7 @@ def plan_roll(way: Angles) -> Angles:
 
 
 WALKING_POSTURE = "StandInit"
-JOINING_S = 0.3
+MERGING_S = 0.3
 """In this time a robot that stands a little beside where it should comes to stand there."""
 
 
@@ -141,7 +141,7 @@ def _guides(robot: VirtualRobot, plan: Walk) -> Iterator[Carried]:
     start = robot.base
     first = moved_base(start, plan.torso[0])
     missing = robot.stance.place[:2] - first[:2]
-    joined = minimum_jerk(np.clip(np.arange(len(plan.torso)) * TICK_S / JOINING_S, 0.0, 1.0))
+    joined = minimum_jerk(np.clip(np.arange(len(plan.torso)) * TICK_S / MERGING_S, 0.0, 1.0))
     for place, part in zip(plan.torso, joined, strict=True):
         x, y, yaw = moved_base(start, place)
         x, y = (x, y) + (1.0 - part) * missing

@@ -14,7 +14,7 @@ from ..deployment import robot_entries, robots_used
 from ..editor import Editor
 from ..generate.names import RESERVED, python_name
 from ..places import InStack
-from ..procedures import parameters, words
+from nep_studio.blocks.procedures import parameters, words
 from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure, Project
 from .learning import CodeUnread
 

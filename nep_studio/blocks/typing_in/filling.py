@@ -21,7 +21,7 @@ from ..sentence import Slot
 from .vocabulary import Entry
 
 _NUMBER = re.compile(r"[-+]?([0-9]+([.,][0-9]*)?|[.,][0-9]+)")
-_SIGNS = str.maketrans({"×": "*", "÷": "/", "−": "-", "≤": "<", "≥": ">", "≠": "!"})  # noqa: RUF001 signs that people type
+_TYPED_SIGNS = str.maketrans({"×": "*", "÷": "/", "−": "-", "≤": "<", "≥": ">", "≠": "!"})  # noqa: RUF001 signs that people type
 _LONGER_SIGNS = (("≤", "<="), ("≥", ">="), ("≠", "!="), ("^", "**"))
 _OPERATORS = re.compile(r"[-+*/%<>=×÷−≤≥≠^]|\b(and|or|not)\b")  # noqa: RUF001 signs that people type
 
@@ -159,7 +159,7 @@ def _likeness(plain: str, label: str) -> float:
 def _parsed(text: str) -> ast.expr | None:
     for sign, python in _LONGER_SIGNS:
         text = text.replace(sign, python)
-    text = re.sub(r"(?<![<>=!])=(?!=)", "==", text.translate(_SIGNS))
+    text = re.sub(r"(?<![<>=!])=(?!=)", "==", text.translate(_TYPED_SIGNS))
     if len(text) > 300:
         return None
     try:
