@@ -24,17 +24,19 @@ from nep_core.wire.messages import Wrist
 
 from .features import (
     Channels,
+    Gesture,
     Integers,
     Windows,
     describe,
     describe_1,
     feature_count,
     feature_count_1,
+    fitting,
+    window_lengths,
 )
 from .gmr import Both, Gmr
 from .streams import LONGEST_S, RATE_HZ, SHORTEST_S, Floats, is_gesture_name
 from .trees import Trees
-from .windows import Gesture, fitting, window_lengths
 
 METHODS = ("trees", "gmr")
 TRIGGER = 0.75

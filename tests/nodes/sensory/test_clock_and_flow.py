@@ -5,8 +5,7 @@ from itertools import pairwise
 
 import pytest
 
-from nodes.sensory.hearing import Thinning
-from nodes.sensory.sample_stream import ClockFit, Flow
+from nodes.sensory.hearing import ClockFit, Flow, Thinning
 
 
 def arrivals(seconds, *, drift_ppm=0.0, rate_hz=50, delay_s=0.005):
