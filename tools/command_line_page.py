@@ -45,8 +45,7 @@ for message in read_recording("walk.mcap"):
     print(message.topic, message.arrived_ns, message.node, message.encoding, message.payload)
 ```
 
-`Recorder` in `nep_core.recordings.recorder` and `Player` in `nep_core.recordings.recorder` do what
-the two commands do.
+`Recorder` and `Player` in `nep_core.recordings.recorder` do what the two commands do.
 """
 
 
