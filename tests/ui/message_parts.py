@@ -87,7 +87,7 @@ PARTS = {
         "The node {id} has no function run(node, ...) in {module}.",
         "Write one: def run(node, **parameters).",
     ],
-    "nodes/sensory/hearing.py": [
+    "nodes/sensory/smartwatch.py": [
         "{sender} sends {rate_hz} samples a second",
         "{sender} sends {rate_hz} samples a second, {loss} % get lost",
         "{sender} sends {rate_hz} samples a second: {columns}",

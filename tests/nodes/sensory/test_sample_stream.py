@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.sensory.hearing import SampleStream
 from nodes.sensory.reading import Reading
+from nodes.sensory.sample_stream import SampleStream
 
 ACC, GYR = (0.0, 0.0, 9.81), (0.1, 0.2, 0.3)
 

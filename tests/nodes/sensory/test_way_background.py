@@ -11,10 +11,10 @@ import pytest
 from nodes.sensory.connectors import lines
 from nodes.sensory.connectors.sensor_logger import read_message
 from nodes.sensory.connectors.servers import Background
-from nodes.sensory.hearing import SampleStream
 from nodes.sensory.line_reader import LineReader
 from nodes.sensory.phone_page.site import read_message as read_batch
 from nodes.sensory.reading import Reading
+from nodes.sensory.sample_stream import SampleStream
 from tests.nodes.sensory.senders import TcpSender
 from tests.nodes.sensory.way_hearing import free_port, opened, turned
 
