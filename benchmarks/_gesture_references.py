@@ -13,8 +13,8 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from nodes.perceptual.recognition.features import Detection
 from nodes.perceptual.recognition.streams import Take, takes_of
-from nodes.perceptual.recognition.windows import Detection
 from nodes.recordings import Recording
 
 Floats = NDArray[np.float64]

@@ -22,13 +22,12 @@ from benchmarks._gesture_scores import CLEAN, Score
 from benchmarks._gesture_sensors import WORSE, worse
 from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.dataset import simulated_everyday
-from nodes.perceptual.recognition.features import describe
+from nodes.perceptual.recognition.features import Detection, describe
 from nodes.perceptual.recognition.model import METHODS, TRIGGER, Model
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.streams import RATE_HZ, UNKNOWN, Take, takes_of
 from nodes.perceptual.recognition.training import train
 from nodes.perceptual.recognition.validation import Tally, match
-from nodes.perceptual.recognition.windows import Detection
 from nodes.recordings import Recording
 from nodes.sensory.arm.everyday import LIVELY
 from nodes.sensory.arm.people import simulate_everyday

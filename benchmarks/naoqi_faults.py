@@ -24,7 +24,7 @@ from nodes.resources import model_folder
 from robots.body.actor import Actor
 from robots.body.animations import load_animations
 from robots.body.body import load_body
-from robots.body.messages import ActionRequest, ActionResult
+from robots.body.driver import ActionRequest, ActionResult
 from robots.body.pose import VirtualRobot
 from robots.naoqi.driver.driver import NaoqiDriver
 

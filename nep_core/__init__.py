@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from nep_core.errors import NepError
 
-    from .networks.broker import Broker, BrokerNetwork
     from .networks.master import Master
-    from .networks.zmq_networks import DirectNetwork, PeerNetwork
+    from .networks.zmq_networks import Broker, BrokerNetwork, DirectNetwork, PeerNetwork
     from .processes.launcher import Launcher
     from .processes.node import Node
     from .program.behavior import Behavior, in_turn, one_of

@@ -13,7 +13,7 @@ JOBS = {
     "show": "nep_studio.ui.shell.show_command:main",
     "code": "nep_studio.commands.project:code",
     "check": "nep_studio.commands.project:check",
-    "doctor": "nep_studio.commands.doctor:main",
+    "doctor": "nep_studio.support.report:main",
     "doctor-screen": "nep_studio.ui.shell.screen_report:main",
     "node": "nep_core.cli.node:main",
     "guard": "nep_core.processes.guard:main",

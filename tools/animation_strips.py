@@ -39,7 +39,7 @@ from nep_studio.ui.theme.colours import load_theme
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import Animation, load_animations
 from robots.body.body import load_body
-from robots.body.messages import ActionRequest, RobotState
+from robots.body.driver import ActionRequest, RobotState
 from robots.body.motion import TICK_S
 from robots.body.pose import VirtualRobot
 from robots.body.virtual import VirtualDriver

@@ -13,8 +13,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from nep_core.errors import RecordingError
 from nep_core.processes.node import STOP_SIGNALS
 from nep_core.recordings.file import Overview, overview
-from nep_core.recordings.player import Player
-from nep_core.recordings.recorder import Recorder
+from nep_core.recordings.recorder import Player, Recorder
 from nep_core.wire.io_thread import Wake
 from nep_core.wire.messages import NODE_STATE
 

@@ -11,14 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nep_core.errors import NetworkError
-from nep_core.networks.broker import Broker, BrokerNetwork
 from nep_core.networks.endpoints import NETWORK_VARIABLE
 from nep_core.networks.master import Master
 from nep_core.networks.security import KEYS_VARIABLE
 from nep_core.networks.security.opening import ServiceVoice
 from nep_core.networks.transports import transport
 from nep_core.networks.zenoh_session import ZenohRouter
-from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.networks.zmq_networks import Broker, BrokerNetwork, PeerNetwork
 from nep_core.processes import lifeline
 from nep_core.processes.node import STOP_SIGNALS
 from nep_core.wire.io_thread import Wake

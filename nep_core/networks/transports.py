@@ -55,7 +55,7 @@ def network_for(node: str = "", *, master: str | None = None) -> Network:
     """A program's place in the project's network; ``master`` is where p2p finds its own."""
     match transport():
         case "broker":
-            from .broker import BrokerNetwork
+            from .zmq_networks import BrokerNetwork
 
             return BrokerNetwork(node=node)
         case "zenoh":
@@ -118,7 +118,7 @@ def follow_in(network: Network, on_change: OnChange) -> Feed:
 def nobody_answers(master: str | None = None) -> MasterNotFound:
     """The error to raise when the network's registry does not answer."""
     if transport() == "broker":
-        from .broker import no_broker
+        from .zmq_networks import no_broker
 
         return no_broker(broker_endpoints()[0])
     return master_messages.no_master(_registry(master))

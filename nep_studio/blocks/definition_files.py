@@ -8,10 +8,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
-from .definitions import FLAGS, CallError, Category, Definition, Shape, read_call
+from .definitions import (
+    FLAGS,
+    CallError,
+    Category,
+    Definition,
+    SentenceError,
+    Shape,
+    groups_of,
+    parse,
+    read_call,
+    slots_of,
+)
 from .errors import DefinitionError
 from .program import PAGES
-from .sentence import SentenceError, groups_of, parse, slots_of
 from .slots import RESULTS, why_not_line
 
 _BLOCK_KEYS = frozenset(

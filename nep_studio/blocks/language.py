@@ -11,12 +11,11 @@ from weakref import WeakKeyDictionary
 from faults import Text, text_of
 
 from .definition_files import RobotProfile
-from .definitions import Category, Definition
+from .definitions import Category, Definition, Group, Part, SentenceError, Slot, groups_of, tokens
 from .own_animations import choices_with
 from .own_gestures import gestures_with
 from .procedures import definitions_of
 from .program import ROBOT_BLOCK, Block, Project, split_slot
-from .sentence import Group, Part, SentenceError, Slot, groups_of, tokens
 
 Tables = Mapping[str, Mapping[str, str]]
 """Choices by table: value to label."""

@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from faults import Text, text_of
 
-from .definitions import Category, Definition, Shape
+from .definitions import Category, Definition, Part, Shape, Slot
 from .program import Parameter, Procedure, Project
-from .sentence import Part, Slot
 from .slots import FieldValue, kind_of, why_not_line, why_not_name
 
 OWN_CATEGORY = Category("my", "My blocks", "my_blocks", 50, "behaviour")

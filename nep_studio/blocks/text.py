@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .definitions import Definition
+from .definitions import Definition, Group, Part, Slot
 from .language import Language
 from .program import ALL_ROBOTS, Block, Project
-from .sentence import Group, Part, Slot
 from .slots import FieldValue
 
 LONGEST = 120

@@ -1,4 +1,4 @@
-"""The hand-written texts of the help, in the person's language or else in English."""
+"""The hand-written texts and examples of the help, and the names of its pages."""
 
 from __future__ import annotations
 
@@ -22,11 +22,37 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip
+from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER
 from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, Project
 from nep_studio.blocks.slots import FieldValue
 
 from . import notation
 from .notation import project_of
+
+HOME = "home"
+BLOCK, CATEGORY, NODE, HOW_TO = "block/", "blocks/", "node/", "howto/"
+OWN_BLOCKS, PROBLEMS = "howto/own-blocks", "howto/problems"
+
+
+def split(name: str) -> tuple[str, str]:
+    """Take the name of a page and of a place in it apart."""
+    page, _, anchor = name.partition("#")
+    return page, anchor
+
+
+def block_page(block_type: str, slot: str = "") -> str:
+    """The page of a block, at one of its slots; own blocks share one page."""
+    if block_type.startswith((CALL, DEFINE, PARAMETER)):
+        return OWN_BLOCKS
+    return f"{BLOCK}{block_type}#slot-{slot}" if slot else f"{BLOCK}{block_type}"
+
+
+def error_anchor(title: str) -> str:
+    """The place of a message in the page about messages, by its English title."""
+    return "error-" + "".join(letter if letter.isalnum() else "-" for letter in title.lower())
+
+
+# The hand-written texts of the help, in the person's language or else in English.
 
 ENGLISH = "en"
 

@@ -28,8 +28,7 @@ from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-
-from .file_lock import FileLock
+from nep_studio.support.safe_mode import FileLock
 
 log = logging.getLogger(__name__)
 

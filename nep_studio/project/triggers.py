@@ -9,12 +9,11 @@ from typing import Literal
 import msgspec
 
 from nep_core.program.human import plain, state_of_thing, state_of_word, word_of_state
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.deployment import chains, rules
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_line
 from nep_studio.blocks.text import field_text
 

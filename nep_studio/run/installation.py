@@ -24,7 +24,7 @@ from nep_studio.blocks.deployment import (
     node_entries,
     robot_entries,
 )
-from nep_studio.blocks.generate.registry import generator_names
+from nep_studio.blocks.generate.rules import generator_names
 from nep_studio.blocks.language import Language, together, translated
 from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project

@@ -29,9 +29,8 @@ from robots.body.actor import FINAL, Actor
 from robots.body.animations import load_animations, with_own
 from robots.body.body import load_body
 from robots.body.camera import safe_name
-from robots.body.driver import Driver
-from robots.body.messages import ActionRequest, SenseRequest, Surroundings
-from robots.body.messages import ActionResult as Result
+from robots.body.driver import ActionRequest, Driver, SenseRequest, Surroundings
+from robots.body.driver import ActionResult as Result
 from robots.body.pose import VirtualRobot
 from robots.body.speech import load_gesture_words
 from robots.body.virtual import VirtualDriver

@@ -14,9 +14,9 @@ from nodes.perceptual.recognition.model import Model, with_triggers
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.resources import resource_folder
 
+from .recognition.features import Detection
 from .recognition.model import read_model
 from .recognition.sensor_input import Measures, SensorEar, Worn
-from .recognition.windows import Detection
 
 _MOST_SENSORS = 8
 _FORGOTTEN_S = 10.0

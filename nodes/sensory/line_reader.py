@@ -14,8 +14,17 @@ from faults import Text, text_of
 from nep_core.errors import ParameterError
 
 from .connectors.connector import Arrived
-from .lines import is_of_an_app, is_of_paper_watch, read_app, read_json, read_paper_watch
-from .reading import G_M_S2, Reading, finite_number, vector
+from .reading import (
+    G_M_S2,
+    Reading,
+    finite_number,
+    is_of_an_app,
+    is_of_paper_watch,
+    read_app,
+    read_json,
+    read_paper_watch,
+    vector,
+)
 
 # Which column of a line is which, by names that a person or a header line gives.
 

@@ -1,9 +1,16 @@
-"""What one message of a sensor says: an acceleration, a rotation rate, or both."""
+"""What one message of a sensor says, and the lines of apps and watches that are messages.
+
+A reading is an acceleration, a rotation rate, or both.
+"""
 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
+
+import msgspec
 
 from nodes.recordings import Floats
 
@@ -70,3 +77,132 @@ Row = tuple[float, float, float]
 def rows(vectors: Floats) -> list[Row]:
     """An array (n, 3) as n rows."""
     return [(x, y, z) for x, y, z in vectors.tolist()]
+
+
+# Lines of the apps and watches that say themselves what they are, turned into readings.
+#
+# Understood (by the applications' own documentation and source):
+# SensaGram ``{"type": "android.sensor.accelerometer", "timestamp": ns, "values": [x, y, z]}``
+# (umer0586/SensaGram, SensorStreamer.kt),
+# SensorStreamer ``{"accelerometer": {"x": .., "y": .., "z": .., "timestamp": ns},
+# "gyroscope": ..}`` (yaqwsx/SensorStreamer, JsonPacketComposer.java;
+# other versions write ``"value": [x, y, z]``),
+# HyperIMU ``{"op": "hyperimu", "Timestamp": ms, "Accelerometer": [...], "Gyroscope": [...]}``
+# (ianovir.com, HyperIMU help),
+# ZIG SIM ``{"device": ..., "sensordata": {"accel": {"x": g, ...}, "gravity": ..., "gyro": ...}}``
+# (1-10.github.io/zigsim),
+# the paper's watch ``a;ns;x;y;z`` (acceleration) and ``y;ns;x;y;z`` (gyroscope)
+# (enriquecoronadozu/smartwatches_apps).
+# Acceleration is m/s² with gravity in Android's sign, rotation rad/s. Everything else is guessed
+# (line_reader.py).
+
+_MS = 1e-3
+_PAPER = re.compile(r"[ay]\s*;")
+
+
+def is_of_paper_watch(line: str) -> bool:
+    """Whether a line begins as the paper's watch writes it."""
+    return _PAPER.match(line) is not None
+
+
+def read_paper_watch(line: str) -> list[Reading] | None:
+    """``a;ns;x;y;z`` or ``y;ns;x;y;z``; None where it is broken."""
+    kind, *cells = (cell.strip() for cell in line.split(";"))
+    if cells and not cells[-1]:
+        cells.pop()
+    if len(cells) != 4:
+        return None
+    stamp, values = finite_number(cells[0]), vector(cells[1:])
+    if stamp is None or values is None:
+        return None
+    if kind == "a":
+        return [Reading(acc=values, stamp=stamp, stamp_unit_s=NS)]
+    return [Reading(gyr=values, stamp=stamp, stamp_unit_s=NS)]
+
+
+def read_json(line: str) -> dict[str, object] | None:
+    """A line's JSON object with its names in small letters, None where it is none."""
+    try:
+        found = msgspec.json.decode(line)
+    except (msgspec.DecodeError, RecursionError):
+        return None
+    return {str(name).lower(): value for name, value in found.items()} if (
+        isinstance(found, dict)
+    ) else None  # fmt: skip
+
+
+def is_of_an_app(message: Mapping[str, object]) -> bool:
+    """Whether an object is written as one of the known apps does, so that its units are known."""
+    if "sensordata" in message or message.get("op") == "hyperimu":
+        return True
+    if str(message.get("type")).startswith("android.") or {"type", "values"} <= message.keys():
+        return True
+    return any(_is_streamer(message.get(name)) for name in ("accelerometer", "gyroscope"))
+
+
+def read_app(message: Mapping[str, object]) -> list[Reading] | None:
+    """The readings of a known app's object; none of a sensor that is not needed, None if broken."""
+    if "sensordata" in message:
+        return _read_zig_sim(message)
+    if message.get("op") == "hyperimu":
+        return _read_hyper_imu(message)
+    if "type" in message:
+        return read_android(message)
+    return _read_streamer(message)
+
+
+def read_android(message: Mapping[str, object], kind: str = "") -> list[Reading] | None:
+    """An Android sensor event; ``kind`` is its sensor where it does not say so itself."""
+    kind = kind or str(message.get("type"))
+    if kind not in ("android.sensor.accelerometer", "android.sensor.gyroscope"):
+        return []
+    three, stamp = vector(message.get("values")), finite_number(message.get("timestamp"))
+    if three is None:
+        return None
+    if kind == "android.sensor.accelerometer":
+        return [Reading(acc=three, stamp=stamp, stamp_unit_s=NS)]
+    return [Reading(gyr=three, stamp=stamp, stamp_unit_s=NS)]
+
+
+def _is_streamer(part: object) -> bool:
+    return isinstance(part, dict) and "timestamp" in part and ("value" in part or "x" in part)
+
+
+def _read_streamer(message: Mapping[str, object]) -> list[Reading] | None:
+    readings: list[Reading] = []
+    for name in ("accelerometer", "gyroscope"):
+        part = message.get(name)
+        if not isinstance(part, dict):
+            continue
+        values = vector(part.get("value", part))
+        stamp = finite_number(part.get("timestamp"))
+        if values is not None and name == "accelerometer":
+            readings.append(Reading(acc=values, stamp=stamp, stamp_unit_s=NS))
+        elif values is not None:
+            readings.append(Reading(gyr=values, stamp=stamp, stamp_unit_s=NS))
+    return readings or None
+
+
+def _read_hyper_imu(message: Mapping[str, object]) -> list[Reading] | None:
+    acc, gyr = vector(message.get("accelerometer")), vector(message.get("gyroscope"))
+    if acc is None and gyr is None:
+        return None
+    return [Reading(acc, gyr, finite_number(message.get("timestamp")), _MS)]
+
+
+def _read_zig_sim(message: Mapping[str, object]) -> list[Reading] | None:
+    """Acceleration in g, gravity apart; iOS counts both towards the earth, Android upward."""
+    sensors, device = message["sensordata"], message.get("device")
+    if not isinstance(sensors, dict):
+        return None
+    android = isinstance(device, dict) and str(device.get("os")).lower() == "android"
+    scale = G_M_S2 if android else -G_M_S2
+    moving, gravity = vector(sensors.get("accel")), vector(sensors.get("gravity"))
+    gyr = vector(sensors.get("gyro"))
+    acc: Vector | None = None
+    if moving:
+        gx, gy, gz = gravity or (0.0, 0.0, 0.0)
+        acc = ((moving[0] + gx) * scale, (moving[1] + gy) * scale, (moving[2] + gz) * scale)
+    if acc is None and gyr is None:
+        return None
+    return [Reading(acc, gyr, gravity_included=gravity is not None)]

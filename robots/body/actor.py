@@ -15,9 +15,8 @@ from .actions import (
     WalkFreely,
     read_action,
 )
-from .driver import Driver
+from .driver import NOTHING, ActionRequest, ActionResult, ActionState, Driver, SenseRequest
 from .limbs import MOVING, Limb
-from .messages import NOTHING, ActionRequest, ActionResult, ActionState, SenseRequest
 from .schedule import Command, Schedule
 
 REMEMBERED_REQUESTS = 500

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .body import Camera
+from .driver import Thing
 from .kinematics import Frames, Points, rotation
-from .messages import Thing
 from .pose import VirtualRobot
 from .surroundings import EYES_PART, HALF_VIEW_RAD, looked_at
 

@@ -16,15 +16,14 @@ from . import actions
 from . import actions as m
 from .actions import MoveJoint, WalkFreely
 from .body import SINGLE_PARTS, Angles, Body, part_of, single_parts
-from .gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD
-from .gaze import head_angles, in_torso, look_at_seen, place_of
+from .gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD, walk
+from .inverse import head_angles, in_torso, look_at_seen, place_of
 from .keyframes import Keyframes, Track
 from .limbs import Limb
 from .motion import TICK_S, Motion, keyframe_motion, move
 from .pose import VirtualRobot
 from .schedule import Task
 from .tasks import play_motion, take_posture
-from .walking import walk
 
 # What a virtual robot does for requests about its joints: hands, single joints, locks, sleep.
 

@@ -12,8 +12,8 @@ import numpy as np
 from . import body as leds
 from .animations import Animations
 from .body import Angles, Body, KeyPose
+from .driver import Thing, plain
 from .kinematics import Skeleton
-from .messages import Thing, plain
 from .speech import GestureWords
 from .stance import Stance
 

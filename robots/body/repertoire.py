@@ -10,7 +10,9 @@ from robots.errors import ActionFailed
 from . import actions as a
 from . import actions as b
 from . import actions as s
-from . import body, gaze, motor_tasks, sense_tasks, tasks, walking
+from . import body, motor_tasks, sense_tasks, tasks
+from . import gait as walking
+from . import inverse as gaze
 from . import tasks as speaking
 from .body import PLAIN_NAMES, parts_of_limbs, posture_name, single_parts
 from .limbs import MOVING, Limb

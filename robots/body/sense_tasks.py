@@ -17,7 +17,7 @@ from . import body
 from .actions import PlaySound
 from .body import Camera
 from .camera import ENDING, VideoFile, picture, safe_name, write_picture
-from .messages import plain
+from .driver import plain
 from .motion import TICK_S
 from .pose import VirtualRobot
 from .schedule import Task

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from .body import Angles, Camera
+from .driver import Thing, plain, state_of_thing
 from .kinematics import Points, rotation
-from .messages import Thing, plain, state_of_thing
 from .pose import VirtualRobot
 
 # What a virtual robot runs into: things on the floor around it, seen from above.

@@ -17,7 +17,7 @@ from .discovery import Address, plain_address, read_address
 from .driver import link
 from .driver.link import NEEDED, open_session
 from .wire.errors import LoginRefused, NaoqiError, NeedsTls
-from .wire.frames import Login
+from .wire.line import Login
 
 StepName = Literal["name", "port", "naoqi", "login", "services", "robot"]
 STEPS: tuple[StepName, ...] = ("name", "port", "naoqi", "login", "services", "robot")

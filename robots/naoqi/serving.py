@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from robots.body.actor import FINAL, Actor
+from robots.body.driver import ActionRequest, ActionResult, RobotState
 from robots.body.limbs import Limb
-from robots.body.messages import ActionRequest, ActionResult, RobotState
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Command
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from nep_studio import paths
+from nep_studio.blocks.definitions import Group, SentenceError, Slot
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language, faults, translated, translated_parts
-from nep_studio.blocks.sentence import Group, SentenceError, Slot
 from nep_studio.blocks.text import sentence
 from nep_studio.run.installation import studio_language, table_of
 from tests.blocks.block_building import B, build

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from nep_studio.blocks.checks import check
+from nep_studio.blocks.definitions import SentenceError, parse, slots_of
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import DefinitionError, EditRefused
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.sentence import SentenceError, parse, slots_of
 from nep_studio.blocks.slots import KINDS, RESULT_SHAPES, RESULTS
 from nep_studio.run.installation import load_language
 

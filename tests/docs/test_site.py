@@ -15,8 +15,7 @@ from nep_core.cli import COMMANDS
 from nep_core.places import node_folders
 from nep_core.processes.manifest import NodeCatalog, read_manifest
 from nep_core.wire.messages import BY_TOPIC
-from nep_studio.help.page_names import error_anchor
-from nep_studio.help.texts import error_texts
+from nep_studio.help.texts import error_anchor, error_texts
 from nep_studio.run.installation import studio_language
 from tests.conftest import PROJECT
 from tests.docs.conftest import LANGUAGES, MadeSite

@@ -14,10 +14,9 @@ from pathlib import Path
 import psutil
 import pytest
 
-from nep_core.networks.broker import Broker, BrokerNetwork
 from nep_core.networks.master import Master
 from nep_core.networks.master_messages import ask_master, ask_to_stop
-from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.networks.zmq_networks import Broker, BrokerNetwork, PeerNetwork
 from nep_core.places import NODES_VARIABLE
 from nep_core.processes.launcher import LaunchedNode, Launcher
 from nep_core.processes.manifest import NodeCatalog, Value

@@ -15,9 +15,8 @@ import pytest
 import zmq
 
 from nep_core.errors import NetworkError
-from nep_core.networks.broker import Broker, BrokerNetwork
 from nep_core.networks.network import Network
-from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
+from nep_core.networks.zmq_networks import Broker, BrokerNetwork, DirectNetwork, PeerNetwork
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
@@ -29,7 +28,7 @@ ALLOWANCE_BYTES = 30_000_000
 
 HEARER = """
 import sys
-from nep_core.networks.broker import BrokerNetwork
+from nep_core.networks.zmq_networks import BrokerNetwork
 from nep_core.wire.pubsub import Subscriber
 from nep_core.networks.zmq_networks import DirectNetwork
 

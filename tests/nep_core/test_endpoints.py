@@ -6,7 +6,6 @@ import pytest
 
 from nep_core.cli import main
 from nep_core.errors import NetworkError
-from nep_core.networks.broker import Broker
 from nep_core.networks.endpoints import (
     BROKER_VARIABLE,
     MASTER_VARIABLE,
@@ -18,6 +17,7 @@ from nep_core.networks.endpoints import (
     master_endpoint,
 )
 from nep_core.networks.master_messages import ask_master
+from nep_core.networks.zmq_networks import Broker
 
 GOOD = ("tcp://127.0.0.1:7100", "tcp://robot-1.local:1", "tcp://[::1]:65535", "tcp://127.0.0.1:*")
 WRONG = (

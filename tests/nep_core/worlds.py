@@ -9,12 +9,11 @@ from typing import Protocol
 
 import pytest
 
-from nep_core.networks.broker import Broker, BrokerNetwork
 from nep_core.networks.master import Master
 from nep_core.networks.network import Network
 from nep_core.networks.zenoh_network import ZenohNetwork
 from nep_core.networks.zenoh_session import ZenohRouter
-from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
+from nep_core.networks.zmq_networks import Broker, BrokerNetwork, DirectNetwork, PeerNetwork
 
 WITH_ZENOH = pytest.param(
     "zenoh", marks=pytest.mark.skipif(find_spec("zenoh") is None, reason="zenoh is not installed")

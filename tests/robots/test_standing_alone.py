@@ -12,7 +12,7 @@ import pytest
 
 from nep_core.program import human
 from nep_core.wire import messages as wire
-from robots.body import messages
+from robots.body import driver as messages
 
 ROOT = Path(__file__).resolve().parents[2]
 REFUSED = ("nep_core", "nep_studio", "nodes", "PySide6", "zmq")

@@ -26,7 +26,7 @@ from nep_studio.ui.robot_view.view import RoomPicture
 from nep_studio.ui.theme.look import Look
 from robots.naoqi.client.session import Session
 from robots.naoqi.wire.errors import LoginRefused, NoConnection
-from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.line import Login
 from tests.node_running import until
 
 GREETER = Path(__file__).parent.parent / "nodes" / "action" / "naoqi" / "greeter.py"

@@ -46,7 +46,7 @@ PARTS = {
         "something else",
     ],
     "robots/body/repertoire.py": ["animal"],
-    "robots/body/gaze.py": [
+    "robots/body/inverse.py": [
         "a face",
         "a mark",
         "the red ball",
@@ -54,7 +54,7 @@ PARTS = {
         "the mark {name}",
     ],
     "robots/body/surroundings.py": ["a person", "a ball", "a wall"],
-    "robots/naoqi/client/reaching.py": [
+    "robots/naoqi/client/session.py": [
         "does not accept this user and password",
         "wants a user and a password",
     ],
@@ -87,7 +87,7 @@ PARTS = {
         "The node {id} has no function run(node, ...) in {module}.",
         "Write one: def run(node, **parameters).",
     ],
-    "nodes/sensory/hearing.py": [
+    "nodes/sensory/smartwatch.py": [
         "{sender} sends {rate_hz} samples a second",
         "{sender} sends {rate_hz} samples a second, {loss} % get lost",
         "{sender} sends {rate_hz} samples a second: {columns}",

@@ -30,7 +30,7 @@ LEFT_OUT = (
     "nep_studio/blocks/definition_files.py",
     "nep_studio/blocks/edits/history.py",
     "nep_studio/blocks/editor.py",
-    "nep_studio/blocks/sentence.py",
+    "nep_studio/blocks/definitions.py",
     "nep_studio/blocks/language.py",
     "nep_studio/ui/theme/colours.py",
     "nep_studio/ui/theme/icons.py",
@@ -49,7 +49,7 @@ NOT_SHOWN = (
     "nep_studio/ui/shell/window_picture.py",
     "nodes/perceptual/recognition/command.py",
     # What the robot on the screen answers to programs of others, in the language of NAOqi.
-    "robots/naoqi/server/directory.py",
+    "robots/naoqi/server/server.py",
     "robots/naoqi/wire/service.py",
 )
 STILL_SAID = {

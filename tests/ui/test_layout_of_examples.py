@@ -13,12 +13,12 @@ from PySide6.QtGui import QFont, QFontMetricsF
 from PySide6.QtWidgets import QApplication
 
 from nep_studio import paths
+from nep_studio.blocks.definitions import Group, Part
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddGroup, SetField
 from nep_studio.blocks.files import load
 from nep_studio.blocks.language import Language, translated
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.sentence import Group, Part
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, TextWidths

@@ -14,8 +14,17 @@ from nep_studio import paths
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.text import sentence
-from nep_studio.help.page_names import BLOCK, CATEGORY, HOME, HOW_TO, NODE, split
-from nep_studio.help.texts import category_texts, examples, page_texts
+from nep_studio.help.texts import (
+    BLOCK,
+    CATEGORY,
+    HOME,
+    HOW_TO,
+    NODE,
+    category_texts,
+    examples,
+    page_texts,
+    split,
+)
 from nep_studio.ui.canvas.fields.editors import slot_name
 from nep_studio.ui.plugins.help.pages import DRAG, EXAMPLE, PICTURE, sample_clip, text_of
 from nep_studio.ui.plugins.help.repository import Book

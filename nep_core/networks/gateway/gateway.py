@@ -19,8 +19,7 @@ from nep_core.wire.frames import to_json
 from nep_core.wire.io_thread import Wake
 from nep_core.wire.outbox import bind
 
-from .doors import Context, Warner, Watch, WayOut
-from .formats import Shape, granted, read, read_request, refused
+from .doors import Context, Shape, Warner, Watch, WayOut, granted, read, read_request, refused
 from .lines import Line, Lines, Listener, Speaker, recall, remember
 
 log = logging.getLogger(__name__)

@@ -28,8 +28,7 @@ from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError,
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.pubsub import Publisher, Subscriber
 
-from .doors import Context, Door, Warner, Watch, WayIn, WayOut
-from .formats import Request, Shape
+from .doors import Context, Door, Request, Shape, Warner, Watch, WayIn, WayOut
 
 log = logging.getLogger(__name__)
 

@@ -8,12 +8,11 @@ from typing import NamedTuple
 from faults import Text, text_of
 from nep_studio.blocks.arithmetic import number_of
 from nep_studio.blocks.code_text import CodeTextRefused, read_lines, read_value
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.deployment import chains
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER, RETURN, procedure_of, title
 from nep_studio.blocks.program import Block, Project
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 

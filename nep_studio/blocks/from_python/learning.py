@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 from faults import Words, text_of
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.expressions import (
     Assignment,
@@ -26,11 +26,10 @@ from nep_studio.blocks.generate.expressions import (
     show,
 )
 from nep_studio.blocks.generate.names import ProgramNames
-from nep_studio.blocks.generate.registry import HATS, REPORTERS, STATEMENTS
+from nep_studio.blocks.generate.rules import HATS, REPORTERS, STATEMENTS
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project, split_slot
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import FieldValue, constant
 
 # Names and numbers that stand for slots in a learned piece of Python, and how they are told.

@@ -21,8 +21,7 @@ from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
 
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
-from .names import SourceNames, names_in
-from .values import ValueReader, match
+from .values import SourceNames, ValueReader, match, names_in
 
 # The text of a Python file by lines, with its comments, and the tree of it.
 

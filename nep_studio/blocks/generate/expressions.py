@@ -9,11 +9,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
-from nep_studio.blocks.definitions import Call, Definition
+from nep_studio.blocks.definitions import Call, Definition, Slot
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
 from .names import NameTable, ProgramNames

@@ -15,10 +15,8 @@ from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, show
-from .hats import Hat
 from .names import NameTable, ProgramNames
-from .registry import HATS, REPORTERS
-from .rules import RuleWriter
+from .rules import HATS, REPORTERS, Hat, RuleWriter
 from .source_map import Code
 
 

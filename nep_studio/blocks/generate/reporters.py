@@ -24,8 +24,7 @@ from .expressions import (
     show,
     whole,
 )
-from .lists import LIST_REPORTERS, plus_one
-from .statements import OWN_REPORTERS
+from .statements import LIST_REPORTERS, OWN_REPORTERS, plus_one
 
 # The generator functions of blocks about numbers, texts and colours.
 

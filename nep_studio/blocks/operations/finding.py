@@ -9,6 +9,7 @@ from difflib import SequenceMatcher
 from typing import Literal
 
 from faults import Text, text_of
+from nep_studio.blocks.definitions import Group
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NODE_BLOCK,
@@ -22,7 +23,6 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import header_of, parameter_of, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, Block, Parent, Project
-from nep_studio.blocks.sentence import Group
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import field_text, sentence
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.edits.project import AddVariable
@@ -17,11 +17,9 @@ from nep_studio.blocks.operations.finding import folded
 from nep_studio.blocks.operations.moving import Point, create_and_drop, why_not_create
 from nep_studio.blocks.places import NewStack, Place
 from nep_studio.blocks.program import Parent, Project, Variable
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.text import sentence
 
-from .filling import Filler, Filling, is_quoted, number_in
-from .vocabulary import Entry, Vocabulary, spaced, vocabulary
+from .vocabulary import Entry, Filler, Filling, Vocabulary, is_quoted, number_in, spaced, vocabulary
 
 # The sentence of a suggested block, and where in it the typed words are.
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFrame, QPushButton, QTextBrowser, QVBoxLayout
 
 from nep_studio.blocks.operations.finding import Subject, subjects_of
 from nep_studio.blocks.procedures import CALL, header_of, procedure_of
-from nep_studio.help.page_names import block_page
+from nep_studio.help.texts import block_page
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.field_edit import beside
 from nep_studio.ui.widgets.labels import room_around

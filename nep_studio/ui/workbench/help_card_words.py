@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from html import escape
 from itertools import islice
 
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import RESULTS
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.canvas.fields.editors import hint_of

@@ -8,9 +8,8 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .features import POINTS, Channels, Integers, Windows, cut_windows, describe
+from .features import POINTS, Channels, Gesture, Integers, Scan, Windows, cut_windows, describe
 from .streams import RATE_HZ, Floats, Passage, Take
-from .windows import Gesture, Scan
 
 # The same gesture as others would make it: stronger or weaker, turned, and with another rhythm.
 

@@ -24,24 +24,24 @@ from nep_core.wire.messages import Wrist
 
 from .features import (
     Channels,
+    Gesture,
     Integers,
     Windows,
     describe,
-    describe_1,
     feature_count,
-    feature_count_1,
+    fitting,
+    window_lengths,
 )
 from .gmr import Both, Gmr
 from .streams import LONGEST_S, RATE_HZ, SHORTEST_S, Floats, is_gesture_name
 from .trees import Trees
-from .windows import Gesture, fitting, window_lengths
 
 METHODS = ("trees", "gmr")
 TRIGGER = 0.75
 """The certainty at which a gesture counts as made."""
 LOWEST_TRIGGER, HIGHEST_TRIGGER = 0.05, 1.0
 FEATURES = 2
-"""How windows are described now; models of version 1 know the first way."""
+"""The way in which windows are described; a file names it."""
 
 
 class Scorer(Protocol):
@@ -56,20 +56,16 @@ class Scorer(Protocol):
 
 @dataclass(frozen=True)
 class Recogniser:
-    """A scorer for certain channels; ``usual`` (gestures,) are the scores of left-out takes.
-
-    ``features`` is the way in which windows are described for it: 1 or FEATURES.
-    """
+    """A scorer for certain channels; ``usual`` (gestures,) are the scores of left-out takes."""
 
     method: str
     channels: Channels
     scorer: Scorer
     usual: Floats
-    features: int = FEATURES
 
     def windows(self, raw: Floats, lengths: Integers) -> Windows:
         """Raw windows (n, 32, 3 or 6), described as this recogniser knows them."""
-        return (describe_1 if self.features == 1 else describe)(raw, lengths, self.channels)
+        return describe(raw, lengths, self.channels)
 
     def certainties(self, windows: Windows) -> Floats:
         """Certainties from 0 to 1; (n, gestures)."""
@@ -205,12 +201,7 @@ class AboutRecogniser(msgspec.Struct):
     method: str
     gravity: bool
     gyroscope: bool
-    features: Literal[1, 2] = 1
-
-    @property
-    def is_known(self) -> bool:
-        """Whether it can still be asked: expected curves are others since version 2."""
-        return self.features == FEATURES or self.method != "gmr"
+    features: Literal[2]
 
 
 class AboutGesture(msgspec.Struct):
@@ -221,7 +212,7 @@ class AboutGesture(msgspec.Struct):
     typical_s: float
     longest_s: float
     takes: int
-    trigger: float = TRIGGER
+    trigger: float
 
     def checked(self) -> Gesture:
         """The gesture; ValueError when there can be none like it."""
@@ -251,7 +242,7 @@ class AboutSensor(msgspec.Struct):
 
 
 class About(msgspec.Struct):
-    """All that a model file tells in words; what came with version 2 has defaults."""
+    """All that a model file tells in words."""
 
     rate_hz: float
     units: dict[str, str]
@@ -259,8 +250,8 @@ class About(msgspec.Struct):
     recognisers: list[AboutRecogniser]
     trained_on: str
     report: dict[str, Any]
-    wrist: Wrist = ""
-    sensors: list[AboutSensor] = []
+    wrist: Wrist
+    sensors: list[AboutSensor]
 
     def check(self) -> None:
         """ValueError when there can be no such model."""
@@ -285,7 +276,7 @@ def about_text(model: Model) -> str:
             {**vars(one), "trigger": round(model.triggers[one.name], 4)} for one in model.gestures
         ],
         "recognisers": [
-            {"method": one.method, **vars(one.channels), "features": one.features}
+            {"method": one.method, **vars(one.channels), "features": FEATURES}
             for one in model.recognisers
         ],
         "wrist": model.wrist,
@@ -372,7 +363,6 @@ def with_prefix(arrays: Mapping[str, NDArray[Any]], prefix: str) -> dict[str, ND
 # docs/gesture_models.md tells all of it. The same model gives the same bytes.
 
 SUFFIX = ".gestures"
-_READS = (1, VERSION)
 _TRAIN_AGAIN = (
     "Choose a file that `nep-studio train` has written.",
     "Or train the gestures again from their recordings.",
@@ -484,13 +474,13 @@ def _check_version(path: Path, text: bytes) -> None:
     found = msgspec.json.decode(text, type=_Version)
     if found.format != FORMAT:
         raise ValueError("it is another kind of file")
-    if found.version not in _READS:
+    if found.version != VERSION:
         raise RecordingError(
             "{name} is a gesture model of version {version}; this program reads version {map}.",
             checklist=("Train the gestures again from their recordings.", "Update NEP Studio."),
             name=path.name,
             version=found.version,
-            map=" and ".join(map(str, _READS)),
+            map=VERSION,
         )
 
 
@@ -499,10 +489,7 @@ def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:
     recognisers = tuple(
         _recogniser(one, len(about.gestures), with_prefix(arrays, f"{number}."))
         for number, one in enumerate(about.recognisers)
-        if one.is_known
     )
-    if not recognisers:
-        raise _too_old()
     return Model(
         tuple(one.checked() for one in about.gestures),
         recognisers,
@@ -511,13 +498,6 @@ def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:
         triggers={one.name: one.trigger for one in about.gestures},
         wrist=about.wrist,
         sensors=tuple(one.checked() for one in about.sensors),
-    )
-
-
-def _too_old() -> RecordingError:
-    return RecordingError(
-        "This gesture model was learned by an earlier version in a way that is no longer used.",
-        checklist=("Train the gestures again from their recordings.",),
     )
 
 
@@ -531,13 +511,12 @@ def _recogniser(
     scorer: Scorer
     match found.method:
         case "trees":
-            count = feature_count_1 if found.features == 1 else feature_count
             if "mean" in arrays:  # several people have taught it
                 scorer = Both.from_arrays(arrays, gestures, channels)
             else:
-                scorer = Trees.from_arrays(arrays, gestures, count(channels))
+                scorer = Trees.from_arrays(arrays, gestures, feature_count(channels))
         case "gmr":
             scorer = Gmr.from_arrays(arrays, gestures, channels)
         case _:
             raise ValueError(f"it uses a method other than {' and '.join(METHODS)}")
-    return Recogniser(found.method, channels, scorer, usual, found.features)
+    return Recogniser(found.method, channels, scorer, usual)

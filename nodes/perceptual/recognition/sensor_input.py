@@ -13,10 +13,10 @@ from faults import Text, Words, text_of
 from nep_core.processes.node import Node
 from nep_core.wire.messages import Imu
 
+from .features import Detection
 from .model import Model
 from .spotting import Spotter
 from .streams import MAX_GAP_S, Floats, mirrored
-from .windows import Detection
 
 Worn = Literal["as recorded", "turned", "automatic"]
 """How a watch sits: as in the recordings, the strap the other way round, or either."""

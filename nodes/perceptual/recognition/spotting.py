@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from nodes.perceptual.recognition.features import cut_windows
 from nodes.perceptual.recognition.model import TRIGGER, Model, Recogniser, unknown_gesture
 
+from .features import HOP, Detection, PeakPicker, best_lengths
 from .streams import RATE_HZ, EvenStream, Floats, Memory
-from .windows import HOP, Detection, PeakPicker, best_lengths
 
 
 class Spotter:

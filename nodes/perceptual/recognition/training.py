@@ -13,13 +13,21 @@ from nep_core.errors import RecordingError
 from nodes.recordings import Recording
 
 from .examples import Examples, collect
-from .features import Channels, Integers
+from .features import (
+    Channels,
+    Gesture,
+    Integers,
+    Scan,
+    gestures_in,
+    is_long_enough,
+    scan,
+    window_lengths,
+)
 from .gmr import Both, fit_gmr
 from .model import METHODS, Model, Recogniser, Scorer
 from .streams import Passage, passages_of
 from .trees import TREES, fit_trees
 from .validation import NOTHING, USUAL_SCORE, Tally, Validation, cross_validate, unchecked
-from .windows import Gesture, Scan, gestures_in, is_long_enough, scan, window_lengths
 
 # What a training found out, as data for the model file and in plain words.
 

@@ -8,10 +8,18 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .examples import Examples
-from .features import Integers
+from .features import (
+    Detection,
+    Gesture,
+    Integers,
+    PeakPicker,
+    Scan,
+    best_lengths,
+    fitting,
+    window_lengths,
+)
 from .model import TRIGGER, Scorer, certainty_of
 from .streams import RATE_HZ, Floats, Passage, Take
-from .windows import Detection, Gesture, PeakPicker, Scan, best_lengths, fitting, window_lengths
 
 # How the gestures that were found agree with the gestures that were made.
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from faults import Text, text_of
 from nodes.sensory.line_reader import LineSenders, own_columns
 
-from .addresses import missing_words, open_tcp, open_udp
 from .connector import Arrived, Settings
+from .servers import missing_words, open_tcp, open_udp
 
 _MOST_CLIENTS = 16
 _GONE_S = 10.0  # a connection that was silent for so long makes room: its device may be gone

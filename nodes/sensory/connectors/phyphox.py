@@ -13,9 +13,8 @@ import msgspec
 from faults import Text, Words, text_of
 from nodes.sensory.reading import Reading, finite_number, scaled, vector
 
-from .addresses import phone_address
 from .connector import Arrived, Settings, Timed, nearest
-from .servers import Background
+from .servers import Background, phone_address
 
 if TYPE_CHECKING:
     from aiohttp import ClientSession

@@ -16,9 +16,8 @@ import msgspec
 from faults import Text, text_of
 from nodes.sensory.reading import G_M_S2, NS, Reading, Vector, added, finite_number, scaled, vector
 
-from .addresses import missing_words, open_tcp, own_addresses
 from .connector import Arrived, Ordering, Settings, Timed, nearest
-from .servers import Background, body_of, serve
+from .servers import Background, body_of, missing_words, open_tcp, own_addresses, serve
 
 if TYPE_CHECKING:
     from aiohttp import web

@@ -16,11 +16,10 @@ import time
 from typing import TYPE_CHECKING
 
 from faults import Text, Words, text_of
-from nodes.sensory.lines import read_android, read_json
+from nodes.sensory.reading import read_android, read_json
 
-from .addresses import phone_address
 from .connector import Arrived, Settings
-from .servers import Background
+from .servers import Background, phone_address
 
 if TYPE_CHECKING:
     from aiohttp import ClientSession

@@ -22,12 +22,10 @@ import platformdirs
 from faults import Text, reason_of, text_of
 from nep_core.errors import NodeStartError
 from nep_core.places import portable_folder
-from nodes.sensory.connectors.addresses import lan_addresses, open_tcp
 from nodes.sensory.connectors.connector import Arrived, Settings
-from nodes.sensory.connectors.servers import Background
+from nodes.sensory.connectors.servers import Background, lan_addresses, open_tcp
 
-from .receiving import Receiving
-from .site import PageFiles, Site, new_token, page_files
+from .site import PageFiles, Receiving, Site, new_token, page_files
 
 if TYPE_CHECKING:
     from aiohttp import web

@@ -29,7 +29,7 @@ from robots.naoqi.wire.errors import (
     StrangeCertificate,
     WrongArguments,
 )
-from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.line import Login
 from robots.naoqi.wire.metaobject import Signature
 from robots.naoqi.wire.promise import Pending
 from robots.naoqi.wire.remote import PATIENCE_S, RemoteObject

@@ -16,22 +16,21 @@ from robots.body import actions as s
 from robots.body import repertoire as virtual
 from robots.body.actions import Action, Listen
 from robots.body.body import SINGLE_PARTS
-from robots.body.driver import Connection, Ended
-from robots.body.gaze import from_world
+from robots.body.driver import Connection, Ended, RobotState, SenseRequest, Thing
+from robots.body.inverse import from_world
 from robots.body.limbs import MOVING, Limb
-from robots.body.messages import RobotState, SenseRequest, Thing
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Running, Task, advance
 from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
 
-from . import link, media, moving, speech, walking
+from . import link, media, moving, speech
+from . import moving as walking
 from .calls import Calls, waited
 from .link import Heard, Link, Reached, reach
-from .noticing import Noticing
 from .real import RealRobot
 from .speech import Hearing
-from .watching import Watching
+from .watching import Noticing, Watching
 
 log = logging.getLogger(__name__)
 

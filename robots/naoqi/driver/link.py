@@ -30,10 +30,10 @@ from robots.naoqi.wire.errors import (
     Refused,
     StrangeCertificate,
 )
-from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.line import Login
 from robots.naoqi.wire.remote import RemoteObject
 
-from .noticing import EVENTS, EXTRACTORS
+from .watching import EVENTS, EXTRACTORS
 
 log = logging.getLogger(__name__)
 

@@ -13,7 +13,7 @@ gets; ``signal`` and ``Property`` declare what callers can listen to.
 """
 
 from robots.naoqi.wire.errors import CallCancelled, CallFailed
-from robots.naoqi.wire.frames import Login, TlsFiles
+from robots.naoqi.wire.line import Login, TlsFiles
 from robots.naoqi.wire.promise import Pending, Promise
 from robots.naoqi.wire.service import Property, Signal, caller, method, signal
 

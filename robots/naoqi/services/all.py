@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from robots.body.actor import Actor
-from robots.body.messages import ActionResult, RobotState, SenseRequest
+from robots.body.driver import ActionResult, RobotState, SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.naoqi.server.server import Server
 from robots.naoqi.serving import ServedRobot
-from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.line import Login
 
 from . import body, life, media, perception
 from .animations import ALAnimationPlayer, ALBehaviorManager, load_animation_names

@@ -6,7 +6,7 @@ import contextlib
 from typing import Any
 
 from robots.body.camera import frames_in
-from robots.body.messages import ActionResult
+from robots.body.driver import ActionResult
 from robots.body.sense_tasks import picture_path, video_path
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from robots.body.messages import RobotState
+from robots.body.driver import RobotState
 from robots.body.motor_tasks import stiffness
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Generator
 from typing import Any
 
 from faults import Text
-from robots.body.messages import ActionResult
+from robots.body.driver import ActionResult
 from robots.naoqi.server.module import Module as NaoqiModule
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed

@@ -7,8 +7,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from robots.body.gaze import NECK_M
-from robots.body.messages import RobotState, plain
+from robots.body.driver import RobotState, plain
+from robots.body.inverse import NECK_M
 from robots.body.sense_tasks import forget_all_faces
 from robots.body.surroundings import SONAR_RANGE_M
 from robots.naoqi.serving import ServedRobot

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from robots.body.gaze import Place, in_torso, to_world
+from robots.body.inverse import Place, in_torso, to_world
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method

@@ -20,8 +20,7 @@ from faults import Words
 
 from .codec import Read, Reader, encode, read_value, reader_of
 from .errors import BadFrame, CallCancelled, CallFailed, ConnectionLost, NaoqiError
-from .frames import DYNAMIC_PAYLOAD, Frame, Kind
-from .line import Line
+from .line import DYNAMIC_PAYLOAD, Frame, Kind, Line
 from .promise import Pending
 from .remote import Trade
 from .service import TERMINATE, Bound, Turns

@@ -13,7 +13,7 @@ from faults import text_of
 
 from .codec import ObjectSource, Reader, encode, read_value, reader_of
 from .errors import BadFrame, NaoqiError, NoAnswer, NoSuchMethod, WrongArguments
-from .frames import DYNAMIC_PAYLOAD, Frame
+from .line import DYNAMIC_PAYLOAD, Frame
 from .metaobject import MetaObject, Signature
 from .promise import Pending
 from .service import GET, PROPERTIES, REGISTER, SET, UNREGISTER, Heard, description_of

@@ -32,7 +32,7 @@ from .errors import (
     NoSuchMethod,
     WrongArguments,
 )
-from .frames import DYNAMIC_PAYLOAD, RETURN_TYPE, Frame, Kind
+from .line import DYNAMIC_PAYLOAD, RETURN_TYPE, Frame, Kind
 from .metaobject import META_OBJECT, MetaObject, Signature
 from .promise import Pending, Promise
 from .types import MARK

@@ -9,8 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from operating import one_step, say
 
-from nep_studio.blocks.operations.moving import bumped
-from nep_studio.blocks.operations.tidy import GAP, Box, apart, in_columns, pushed_apart, tidy
+from nep_studio.blocks.operations.moving import (
+    GAP,
+    Box,
+    apart,
+    bumped,
+    in_columns,
+    pushed_apart,
+    tidy,
+)
 
 BOXES = st.lists(
     st.builds(Box, *[st.integers(-300, 300)] * 2, *[st.integers(1, 300)] * 2), max_size=25

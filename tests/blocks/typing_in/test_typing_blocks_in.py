@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 from block_building import B, build
 
+from nep_studio.blocks.definitions import parse, slots_of
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InInput, InStack
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.sentence import parse, slots_of
 from nep_studio.blocks.typing_in.suggesting import create, fitting, suggestions
 
 

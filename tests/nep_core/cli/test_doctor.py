@@ -13,9 +13,9 @@ import pytest
 
 from nep_core.cli import doctor as network
 from nep_core.cli import doctor as system
-from nep_core.networks.broker import Broker
 from nep_core.networks.endpoints import BROKER_VARIABLE, MASTER_VARIABLE
 from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import Broker
 from nep_core.places import NODES_VARIABLE
 from tests.nep_core.cli.conftest import Call
 

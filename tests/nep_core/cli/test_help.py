@@ -172,7 +172,7 @@ def test_the_page_of_the_command_line_has_the_help_of_every_command(
 
     told = parser_of(command).format_help()
 
-    assert f"## nep {command}\n\n```\n{told}```\n" in page, "run: python -m nep_core.cli.page"
+    assert f"## nep {command}\n\n```\n{told}```\n" in page, "run: python -m tools.command_line_page"
     assert overview() in page
 
 

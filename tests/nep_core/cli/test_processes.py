@@ -16,8 +16,7 @@ import pytest
 from nep_core.networks.master import Master
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.recordings.file import overview
-from nep_core.recordings.player import Player
-from nep_core.recordings.recorder import Recorder
+from nep_core.recordings.recorder import Player, Recorder
 from nep_core.wire.pubsub import Publisher
 from tests.nep_core.cli.conftest import nep, until
 

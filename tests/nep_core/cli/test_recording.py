@@ -21,9 +21,8 @@ from mcap.reader import make_reader
 from nep_core.errors import RecordingError
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.recordings.file import Recording, overview, plain_schema, read_recording
-from nep_core.recordings.player import Player
 from nep_core.recordings.raw import RawMessage, RawSubscriber
-from nep_core.recordings.recorder import Recorder
+from nep_core.recordings.recorder import Player, Recorder
 from nep_core.wire.messages import BY_TOPIC, HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior
 from nep_core.wire.pubsub import Publisher
 from tests.nep_core.cli.conftest import until

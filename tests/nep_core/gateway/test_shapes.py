@@ -11,7 +11,7 @@ from hypothesis import example, given
 from hypothesis import strategies as some
 
 from nep_core.errors import BadMessage
-from nep_core.networks.gateway.formats import Kind, Shape, read, shape_of, write
+from nep_core.networks.gateway.doors import Kind, Shape, read, shape_of, write
 
 PICTURE = b"\xff\xd8 a picture"
 

@@ -11,13 +11,12 @@ import zmq
 from nep_core.errors import NetworkError, NotLetIn, PortTaken
 from nep_core.networks import master_client
 from nep_core.networks import master_messages as says
-from nep_core.networks.broker import Broker, BrokerNetwork
 from nep_core.networks.master import Master
 from nep_core.networks.master_client import MasterFeed
 from nep_core.networks.master_messages import MasterProbe, ask_master
 from nep_core.networks.security.curve import Refusals
 from nep_core.networks.security.keys import KeyFile
-from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
+from nep_core.networks.zmq_networks import Broker, BrokerNetwork, DirectNetwork, PeerNetwork
 from nep_core.processes.node import Node
 from nep_core.wire.messages import NODE_STATE, NodeState
 from nep_core.wire.pubsub import Publisher, Subscriber

@@ -22,7 +22,7 @@ from nodes.resources import model_folder, model_of, resource_folder
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import NO_GESTURE, load_animations
 from robots.body.body import Body, load_body
-from robots.body.messages import ActionRequest, ActionResult, RobotState, Thing
+from robots.body.driver import ActionRequest, ActionResult, RobotState, Thing
 from robots.body.motion import keyframe_motion
 from robots.body.pose import VirtualRobot
 from robots.body.speech import CONTEXTUAL, RANDOM

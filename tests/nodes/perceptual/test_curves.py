@@ -5,17 +5,17 @@ from dataclasses import replace
 import numpy as np
 
 from nodes.perceptual.recognition.examples import NEITHER, label_scan
-from nodes.perceptual.recognition.features import Channels
-from nodes.perceptual.recognition.gmr import Curves
-from nodes.perceptual.recognition.streams import UNKNOWN, Passage, Take, passages_of, takes_of
-from nodes.perceptual.recognition.validation import CERTAINTIES, curves_of, rises, spot
-from nodes.perceptual.recognition.windows import (
+from nodes.perceptual.recognition.features import (
+    Channels,
     Detection,
     Gesture,
     gestures_in,
     scan,
     window_lengths,
 )
+from nodes.perceptual.recognition.gmr import Curves
+from nodes.perceptual.recognition.streams import UNKNOWN, Passage, Take, passages_of, takes_of
+from nodes.perceptual.recognition.validation import CERTAINTIES, curves_of, rises, spot
 
 GESTURES = (Gesture("left", 0.9, 1.0, 1.1, 2), Gesture("right", 0.9, 1.0, 1.1, 1))
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from nodes.perceptual.recognition.features import scan
 from nodes.perceptual.recognition.gmr import Curves, Mixture, expected_curve, fit_mixture
 from nodes.perceptual.recognition.streams import passages_of
 from nodes.perceptual.recognition.training import train
 from nodes.perceptual.recognition.trees import Trees
-from nodes.perceptual.recognition.windows import scan
 
 
 def test_one_gaussian_is_linear_regression():

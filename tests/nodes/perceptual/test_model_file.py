@@ -2,13 +2,10 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from nep_core.errors import RecordingError
-from nodes.perceptual.recognition.features import Channels, describe_1, feature_count_1
 from nodes.perceptual.recognition.model import (
-    TRIGGER,
     Sensor,
     model_bytes,
     read_model,
@@ -19,11 +16,6 @@ from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.training import train
 from tests.nodes.perceptual.changed_models import rewritten
 
-SIGNALS_1 = (
-    1.17683, 1.61665, 0.72346, 1.7472, -2.1769, 1.86131, 1.30244, 2.38787, -0.12307,
-    -0.16018, -0.00716,
-)  # fmt: skip
-FEATURES_1 = 0.33601  # the mean; both as version 1 computed them
 SENSOR = {"device": "watch", "rate_hz": 50.0, "gravity": True, "gyroscope": True}
 
 
@@ -63,49 +55,13 @@ def test_triggers_wrist_and_sensors_are_kept(tmp_path, model):
     assert (again.wrist, again.sensors) == ("left", sensors)
 
 
-def test_a_model_of_version_1_is_still_read(tmp_path, model):
+def test_a_model_of_another_version_is_refused_with_what_to_do(file):
     def be_old(about):
         about["version"] = 1
-        del about["wrist"], about["sensors"]
-        for gesture in about["gestures"]:
-            del gesture["trigger"]
-        for recogniser in about["recognisers"]:
-            del recogniser["features"]
 
-    path = tmp_path / "old.gestures"
-    old = [one for one in model.recognisers if not one.channels.gyroscope]
-    write_model(path, replace(model, recognisers=tuple(old)))
-
-    again = read_model(rewritten(path, be_old))
-
-    assert again.names == model.names
-    assert set(again.triggers.values()) == {TRIGGER}
-    assert (again.wrist, again.sensors) == ("", ())
-    assert {(one.method, one.features) for one in again.recognisers} == {("trees", 1)}
-    write_model(path, again)
-    assert {one.features for one in read_model(path).recognisers} == {1}
-
-
-def test_a_model_of_version_1_that_has_no_trees_must_be_trained_again(file):
-    def be_old(about):
-        about["recognisers"] = [
-            one | {"features": 1} for one in about["recognisers"] if one["method"] == "gmr"
-        ]
-
-    with pytest.raises(RecordingError, match="learned by an earlier version") as told:
+    with pytest.raises(RecordingError, match="version 1; this program reads version 2") as told:
         read_model(rewritten(file, be_old))
     assert told.value.checklist
-
-
-def test_models_of_version_1_see_windows_as_they_did():
-    raw = np.random.default_rng(1).normal(0, 3, (2, 32, 6))
-
-    windows = describe_1(raw, np.array([20, 60]), Channels(gravity=True, gyroscope=True))
-
-    assert windows.features.shape == (2, feature_count_1(Channels(True, True)))
-    assert windows.signals[0, 0] == pytest.approx(SIGNALS_1, abs=1e-4)
-    assert windows.features[:, -1] == pytest.approx(np.log([0.4, 1.2]))
-    assert windows.features.mean() == pytest.approx(FEATURES_1, abs=1e-4)
 
 
 @pytest.mark.parametrize("triggers", [{"jump": 0.5}, {"karate": 0.0}, {"karate": 1.2}])

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from nodes.perceptual.recognition.features import Detection, Gesture, PeakPicker, best_lengths
 from nodes.perceptual.recognition.streams import Take
 from nodes.perceptual.recognition.validation import Tally, match
-from nodes.perceptual.recognition.windows import Detection, Gesture, PeakPicker, best_lengths
 
 GESTURES = (Gesture("left", 0.9, 1.0, 1.1, 5), Gesture("right", 0.9, 1.0, 1.1, 5))
 SECOND = np.array([1.0, 1.0])

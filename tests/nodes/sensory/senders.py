@@ -1,7 +1,7 @@
 """Programs that send as phones and watches do, over real sockets, by the apps' documented formats.
 
 ``python -m tests.nodes.sensory.senders sensor_logger http://127.0.0.1:8000/data recording.csv``
-plays one from a process of its own. Sources of the formats: nodes/sensory/lines.py and
+plays one from a process of its own. Sources of the formats: nodes/sensory/reading.py and
 nodes/sensory/connectors/.
 """
 

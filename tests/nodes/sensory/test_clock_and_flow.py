@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import pytest
 
-from nodes.sensory.hearing import Thinning
 from nodes.sensory.sample_stream import ClockFit, Flow
+from nodes.sensory.smartwatch import Thinning
 
 
 def arrivals(seconds, *, drift_ppm=0.0, rate_hz=50, delay_s=0.005):

@@ -6,8 +6,8 @@ import pytest
 
 from faults import plain
 from nodes.sensory.connectors.connector import Arrived
-from nodes.sensory.hearing import Hearing
 from nodes.sensory.reading import Reading
+from nodes.sensory.smartwatch import Hearing
 
 ACC, GYR = (0.0, 0.0, 9.81), (0.1, 0.2, 0.3)
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nodes.sensory.phone_page.receiving import (
+from nodes.sensory.phone_page.site import (
     MOST_SAMPLES,
     Allowance,
     Receiving,

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 from cryptography import x509
 
-from nodes.sensory.connectors import addresses
+from nodes.sensory.connectors import servers as addresses
 from nodes.sensory.phone_page import server
 from nodes.sensory.phone_page.server import own_certificate
 

@@ -12,7 +12,7 @@ from nodes.sensory.connectors import lines
 from nodes.sensory.connectors.sensor_logger import read_message
 from nodes.sensory.connectors.servers import Background
 from nodes.sensory.line_reader import LineReader
-from nodes.sensory.phone_page.receiving import read_message as read_batch
+from nodes.sensory.phone_page.site import read_message as read_batch
 from nodes.sensory.reading import Reading
 from nodes.sensory.sample_stream import SampleStream
 from tests.nodes.sensory.senders import TcpSender

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_core.errors import ParameterError
-from nodes.sensory.connectors.addresses import phone_address
 from nodes.sensory.connectors.phyphox import read_answer, read_config
+from nodes.sensory.connectors.servers import phone_address
 from tests.nodes.sensory.phones import NAMES, PhyphoxPhone
 from tests.nodes.sensory.way_hearing import assert_same, free_port, opened, turned
 

@@ -13,7 +13,7 @@ from nodes.perceptual.recognition.training import train
 from nodes.recordings import write_recording
 from nodes.sensory.arm.gestures import gesture_named
 from nodes.sensory.arm.people import simulate_session
-from nodes.sensory.wearer import LEAD_S, OwnGesture, Wearer, read_repertoire, recorded_take
+from nodes.sensory.virtual_watch import LEAD_S, OwnGesture, Wearer, read_repertoire, recorded_take
 
 RATE_HZ = 50
 

@@ -11,7 +11,7 @@ from nep_core.places import robot_folder
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import load_animations
 from robots.body.body import Angles, load_body
-from robots.body.messages import ActionRequest, ActionResult
+from robots.body.driver import ActionRequest, ActionResult
 from robots.body.pose import VirtualRobot
 from robots.body.speech import load_gesture_words
 from robots.body.virtual import VirtualDriver

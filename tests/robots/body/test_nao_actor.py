@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from nao_stage import ANIMATIONS, BODY, Stage
 
 from robots.body.actor import FINAL, REMEMBERED_REQUESTS
-from robots.body.messages import ActionRequest
+from robots.body.driver import ActionRequest
 
 
 def test_a_request_is_accepted_started_and_done() -> None:

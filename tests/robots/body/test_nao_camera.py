@@ -16,7 +16,7 @@ from nao_stage import Stage
 
 from robots.body import sense_tasks
 from robots.body.camera import SIZE, Picture, frames_in, picture, safe_name, write_picture
-from robots.body.messages import Thing
+from robots.body.driver import Thing
 
 BALL = Thing(id="b", kind="ball", place=(0.7, 0.0, 0.3), size=(0.12, 0.12, 0.12))
 WALL = Thing(id="w", kind="wall", place=(0.5, 0.0, 0.0), heading=math.pi, size=(2.0, 0.1, 2.0))

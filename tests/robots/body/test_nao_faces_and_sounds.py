@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from nao_stage import Stage
 
-from robots.body.messages import SenseRequest, Thing
+from robots.body.driver import SenseRequest, Thing
 from robots.body.sense_tasks import length_s
 
 NOBODY = [Thing(id="b", kind="ball", place=(5.0, 0.0, 0.0), size=(0.1, 0.1, 0.1))]

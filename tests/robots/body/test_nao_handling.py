@@ -9,7 +9,7 @@ import pytest
 from nodes.resources import resource_folder
 from robots.body.animations import load_animations
 from robots.body.body import load_body
-from robots.body.messages import SenseRequest
+from robots.body.driver import SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.body.virtual import VirtualDriver
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from nao_skeleton import frames
 from nao_stage import BODY, Stage
 
-from robots.body.gaze import arm_angles
-from robots.body.messages import SenseRequest
+from robots.body.driver import SenseRequest
+from robots.body.inverse import arm_angles
 
 
 def angle_deg(stage: Stage, joint: str) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from nao_stage import Stage
 
-from robots.body.messages import RobotState, SenseRequest
+from robots.body.driver import RobotState, SenseRequest
 
 
 def sense(stage: Stage, what: str, value: float = 1.0, **more: object) -> list[str]:

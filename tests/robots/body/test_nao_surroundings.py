@@ -7,7 +7,7 @@ import math
 import pytest
 from nao_stage import Stage
 
-from robots.body.messages import RobotState, Thing
+from robots.body.driver import RobotState, Thing
 
 ANNA = Thing(id="a", kind="person", place=(1.5, 0.0, 0.0), heading=math.pi, name="Anna")
 WALL = Thing(id="w", kind="wall", place=(0.8, 0.0, 0.0), heading=math.pi, size=(2.0, 0.1, 2.0))

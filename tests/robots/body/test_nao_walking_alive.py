@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nao_stage import Stage
 
-from robots.body.messages import ActionRequest
+from robots.body.driver import ActionRequest
 
 
 def test_a_driven_walk_goes_on_while_it_is_asked_for_and_stops_soon_after() -> None:

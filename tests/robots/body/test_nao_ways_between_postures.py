@@ -9,7 +9,7 @@ import pytest
 from nao_skeleton import POINTS, point, rotation
 from nao_stage import BODY, Stage
 
-from robots.body.messages import RobotState
+from robots.body.driver import RobotState
 from robots.body.stance import Stance
 
 NAMES = [name for name in BODY.postures if name != "Rest"]

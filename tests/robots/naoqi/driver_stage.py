@@ -15,7 +15,7 @@ from nodes.resources import model_folder, resource_folder
 from robots.body.actor import FINAL, Actor
 from robots.body.animations import load_animations
 from robots.body.body import load_body
-from robots.body.messages import ActionRequest, ActionResult, RobotState, SenseRequest
+from robots.body.driver import ActionRequest, ActionResult, RobotState, SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.naoqi.driver.driver import NaoqiDriver
 

@@ -19,13 +19,13 @@ from nodes.resources import model_folder
 from robots.body.actor import Actor
 from robots.body.animations import load_animations
 from robots.body.body import load_body
-from robots.body.messages import SenseRequest
+from robots.body.driver import SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.body.virtual import VirtualDriver
 from robots.naoqi.server.server import Server
 from robots.naoqi.services.all import Services
 from robots.naoqi.serving import ServedRobot
-from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.line import Login
 
 TICK_S = 0.005
 

@@ -14,7 +14,7 @@ from nodes.resources import model_of
 from robots.body.actor import Actor
 from robots.body.animations import Animations, load_animations
 from robots.body.body import Body, load_body
-from robots.body.messages import ActionRequest, ActionResult, RobotState, SenseRequest
+from robots.body.driver import ActionRequest, ActionResult, RobotState, SenseRequest
 from robots.body.pose import VirtualRobot
 from robots.body.speech import load_gesture_words
 from robots.body.virtual import VirtualDriver

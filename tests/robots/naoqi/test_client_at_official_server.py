@@ -17,7 +17,7 @@ from robots.naoqi.wire.errors import (
     NoTls,
     WrongArguments,
 )
-from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.line import Login
 from robots.naoqi.wire.remote import RemoteObject
 from robots.naoqi.wire.service import method
 

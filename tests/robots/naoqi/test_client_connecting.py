@@ -10,7 +10,7 @@ from robots.errors import PortTaken
 from robots.naoqi.client.session import Session
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.errors import ConnectionLost
-from robots.naoqi.wire.frames import Login, TlsFiles
+from robots.naoqi.wire.line import Login, TlsFiles
 from robots.naoqi.wire.remote import RemoteObject
 
 LOGIN = Login("nao", "secret")

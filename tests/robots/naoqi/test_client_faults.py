@@ -26,7 +26,7 @@ from robots.naoqi.wire.errors import (
     Refused,
     StrangeCertificate,
 )
-from robots.naoqi.wire.frames import HEADER, MAGIC, Frame, Kind, Login, TlsFiles
+from robots.naoqi.wire.line import HEADER, MAGIC, Frame, Kind, Login, TlsFiles
 from robots.naoqi.wire.remote import RemoteObject
 
 LOGIN = Login("nao", "secret")

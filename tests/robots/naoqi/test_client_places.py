@@ -2,7 +2,7 @@
 
 import pytest
 
-from robots.naoqi.client.reaching import Place, best_place
+from robots.naoqi.client.session import Place, best_place
 
 ROBOT = ("192.168.1.10", 9559)
 HERE = Place(1, "robot", ("tcp://127.0.0.1:9559", "tcp://192.168.1.10:9559"))

@@ -14,8 +14,8 @@ from robots.body.pose import VirtualRobot
 from robots.naoqi.driver.calls import Calls
 from robots.naoqi.driver.driver import TASKS
 from robots.naoqi.driver.moving import bezier_call
-from robots.naoqi.driver.noticing import Noticing
 from robots.naoqi.driver.real import RealRobot
+from robots.naoqi.driver.watching import Noticing
 
 
 def test_there_is_a_task_for_every_action_of_the_language() -> None:

@@ -15,7 +15,7 @@ from zeroconf import ServiceInfo, Zeroconf
 from robots.naoqi.discovery import SERVICE, FoundRobot, find_robots
 from robots.naoqi.probe import STEPS, Check, probe
 from robots.naoqi.server.server import Server
-from robots.naoqi.wire.frames import Login
+from robots.naoqi.wire.line import Login
 from robots.naoqi.wire.service import method
 
 LOOPBACK = "127.0.0.1"

@@ -10,7 +10,7 @@ from driver_stage import ANIMATIONS, BODY, DriverStage, ServedNao
 
 from robots.body.actor import Actor
 from robots.body.animations import with_own
-from robots.body.messages import RobotState
+from robots.body.driver import RobotState
 from robots.body.pose import VirtualRobot
 from robots.naoqi.discovery import FOLDER_VARIABLE
 from robots.naoqi.driver.driver import NaoqiDriver

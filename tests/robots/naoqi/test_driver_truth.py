@@ -9,11 +9,11 @@ from driver_held_nao import SERVICES, HeldNao
 from driver_stage import DriverStage, ServedNao
 from naoqi_lamp import CERTIFICATE, KEY
 
-from robots.body.messages import RobotState
+from robots.body.driver import RobotState
 from robots.naoqi.discovery import FOLDER_VARIABLE, SavedLogin, save_login
 from robots.naoqi.probe import probe
 from robots.naoqi.server.server import Server
-from robots.naoqi.wire.frames import Login, TlsFiles
+from robots.naoqi.wire.line import Login, TlsFiles
 
 
 @pytest.fixture(autouse=True)

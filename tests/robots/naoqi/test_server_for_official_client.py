@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from naoqi_lamp import CERTIFICATE, HERE, KEY, CallingLamp, lamp_server, needs_oracle
 
-from robots.naoqi.wire.frames import Login, TlsFiles
+from robots.naoqi.wire.line import Login, TlsFiles
 
 pytestmark = needs_oracle
 LOGIN = Login("nao", "secret")

@@ -9,7 +9,7 @@ from naoqi_lamp import CallingLamp, lamp_server
 
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.codec import decode, encode
-from robots.naoqi.wire.frames import Frame, FrameReader, Kind, Login
+from robots.naoqi.wire.line import Frame, FrameReader, Kind, Login
 from robots.naoqi.wire.service import description_of
 
 LAMP = 2

@@ -9,7 +9,7 @@ import pytest
 from naoqi_theatre import NaoqiTheatre
 
 from robots.body.actor import FINAL
-from robots.body.messages import ActionResult
+from robots.body.driver import ActionResult
 
 
 @pytest.fixture

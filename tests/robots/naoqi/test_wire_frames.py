@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robots.naoqi.wire.errors import BadFrame
-from robots.naoqi.wire.frames import HEADER, MAGIC, Frame, FrameReader, Kind
+from robots.naoqi.wire.line import HEADER, MAGIC, Frame, FrameReader, Kind
 
 NUMBERS = st.integers(0, 2**32 - 1)
 FRAMES = st.builds(

@@ -15,7 +15,7 @@ from robots.naoqi.client.session import Session
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.codec import encode
 from robots.naoqi.wire.errors import NaoqiError
-from robots.naoqi.wire.frames import Frame, Kind
+from robots.naoqi.wire.line import Frame, Kind
 from robots.naoqi.wire.remote import RemoteObject
 
 BOUNDED = settings(

@@ -8,7 +8,7 @@ from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QDialog
 
 from nep_core.errors import RobotNotAnswering
-from nep_studio.help.page_names import HOME
+from nep_studio.help.texts import HOME
 from nep_studio.ui.message_cards import MessageCard
 from nep_studio.ui.plugins.help.help_controller import page_of_action
 from nep_studio.ui.shell.settings_dialog import SettingsDialog

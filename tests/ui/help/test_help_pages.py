@@ -13,17 +13,20 @@ from nep_core.processes.manifest import NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.help import markdown
-from nep_studio.help.page_names import (
+from nep_studio.help.texts import (
     BLOCK,
     HOME,
     HOW_TO,
     NODE,
     OWN_BLOCKS,
     block_page,
+    block_texts,
+    category_texts,
     error_anchor,
+    error_texts,
+    page_texts,
     split,
 )
-from nep_studio.help.texts import block_texts, category_texts, error_texts, page_texts
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.plugins.help.pages import EVERY_BLOCK
 from nep_studio.ui.plugins.help.repository import Book

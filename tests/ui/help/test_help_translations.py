@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from nep_studio.help import markdown
-from nep_studio.help.page_names import split
 from nep_studio.help.texts import (
     ENGLISH,
     block_texts,
@@ -20,6 +19,7 @@ from nep_studio.help.texts import (
     help_folder,
     node_texts,
     page_texts,
+    split,
 )
 from nep_studio.ui.words import use_language
 

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.edits.project import RenameProject
-from nep_studio.help.page_names import block_page
+from nep_studio.help.texts import block_page
 from nep_studio.problems import Problem
 from nep_studio.run.controller import Ended
 from nep_studio.run.session import Ending

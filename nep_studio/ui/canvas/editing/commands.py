@@ -22,7 +22,7 @@ from nep_studio.blocks.operations.copying import (
     python_of,
     to_text,
 )
-from nep_studio.blocks.operations.tidy import tidy
+from nep_studio.blocks.operations.moving import tidy
 from nep_studio.blocks.operations.wrapping import Flag, toggle
 from nep_studio.ui.words import count_words, tr
 

@@ -12,10 +12,9 @@ from PySide6.QtWidgets import QWidget
 from faults import Text
 from nep_studio.blocks.errors import ProjectFileError
 from nep_studio.blocks.operations.copying import Clip, copy, from_text
-from nep_studio.blocks.operations.moving import bumped, reporter_of, without_hat
+from nep_studio.blocks.operations.moving import GAP, bumped, reporter_of, without_hat
+from nep_studio.blocks.operations.moving import Box as PageBox
 from nep_studio.blocks.operations.selection import Run, runs
-from nep_studio.blocks.operations.tidy import GAP
-from nep_studio.blocks.operations.tidy import Box as PageBox
 from nep_studio.blocks.places import InBody, InInput, InStack
 from nep_studio.blocks.program import FARTHEST
 from nep_studio.ui.canvas.layout.boxes import Chain

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QMenu
 
+from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.operations.copying import delete
 from nep_studio.blocks.operations.finding import definition_of, subjects_of
 from nep_studio.blocks.operations.moving import set_aside, why_not_enclose
 from nep_studio.blocks.operations.selection import Run, members, run_from, runs
 from nep_studio.blocks.operations.wrapping import unwrap, why_not_wrap, wrap
 from nep_studio.blocks.program import Block
-from nep_studio.blocks.sentence import Slot
 from nep_studio.ui.canvas.layout.page import Hit
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import count_words, tr

@@ -11,9 +11,9 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
+from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import GESTURE_STATE
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr

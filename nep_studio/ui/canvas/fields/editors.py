@@ -9,10 +9,10 @@ from PySide6.QtCore import QEvent, QObject
 from PySide6.QtGui import QHelpEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
+from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.wrapping import add_part, move_part, remove_part, set_collapsed
 from nep_studio.blocks.program import Project, split_slot
-from nep_studio.blocks.sentence import Slot
 from nep_studio.ui.words import tr
 
 from .angle import AnglePopup

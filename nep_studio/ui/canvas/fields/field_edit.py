@@ -9,12 +9,12 @@ from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 
 from faults import Text, Words
+from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import ChangeProcedure, SetField
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Parameter, Procedure
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import FieldValue, why_not_name
 from nep_studio.ui.canvas.layout.boxes import Piece
 from nep_studio.ui.canvas.layout.index import Rect

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Group, Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project
-from nep_studio.blocks.sentence import Group, Slot
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.words import count_words
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.slots import Kind
 
 from .boxes import Measures, Piece, Plug

@@ -7,10 +7,9 @@ from itertools import pairwise
 from typing import cast
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, number_of
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Group, Part, Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
-from nep_studio.blocks.sentence import Group, Part, Slot
 from nep_studio.blocks.slots import RESULT_SHAPES, FieldValue, Kind
 from nep_studio.ui.words import tr
 

@@ -63,7 +63,7 @@ class RobotTest(Job):
 
         def work(cancelled: threading.Event, tell: Tell) -> None:
             from robots.naoqi.probe import probe
-            from robots.naoqi.wire.frames import Login
+            from robots.naoqi.wire.line import Login
 
             login = Login(user, password) if password else None
             for check in probe(address, login, robot):

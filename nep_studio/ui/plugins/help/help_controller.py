@@ -17,8 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.program import split_slot
-from nep_studio.help.page_names import HOME, PROBLEMS, block_page, error_anchor
-from nep_studio.help.texts import error_texts
+from nep_studio.help.texts import HOME, PROBLEMS, block_page, error_anchor, error_texts
 from nep_studio.paths import first_page
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.popup import FieldPopup

@@ -8,18 +8,25 @@ from html import escape
 from nep_core.errors import ManifestError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog, Parameter, read_manifest
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.edits.project import AddVariable
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_launch
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, clip_of, python_of
 from nep_studio.blocks.program import Block, Project
-from nep_studio.blocks.sentence import Slot
 from nep_studio.blocks.text import field_text, sentence
 from nep_studio.help.markdown import code_html, inline
-from nep_studio.help.page_names import BLOCK, CATEGORY, HOW_TO
-from nep_studio.help.texts import BlockText, Example, block_texts, example_of, node_texts
+from nep_studio.help.texts import (
+    BLOCK,
+    CATEGORY,
+    HOW_TO,
+    BlockText,
+    Example,
+    block_texts,
+    example_of,
+    node_texts,
+)
 from nep_studio.ui.canvas.fields.editors import slot_name
 from nep_studio.ui.words import language_code, tr
 from nep_studio.ui.workbench.help_card_words import shape_words

@@ -28,7 +28,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.language import Language
 from nep_studio.help.index import Findable, Hit, Index
-from nep_studio.help.page_names import BLOCK, CATEGORY, HOME, NODE, split
+from nep_studio.help.texts import BLOCK, CATEGORY, HOME, NODE, split
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.colours import Theme

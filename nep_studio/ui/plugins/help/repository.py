@@ -13,8 +13,20 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.typing_in.vocabulary import vocabulary
 from nep_studio.help import markdown
 from nep_studio.help.index import Findable, Index
-from nep_studio.help.page_names import BLOCK, CATEGORY, HOME, HOW_TO, NODE, error_anchor, split
-from nep_studio.help.texts import Example, category_texts, error_texts, example_of, page_texts
+from nep_studio.help.texts import (
+    BLOCK,
+    CATEGORY,
+    HOME,
+    HOW_TO,
+    NODE,
+    Example,
+    category_texts,
+    error_anchor,
+    error_texts,
+    example_of,
+    page_texts,
+    split,
+)
 from nep_studio.ui.theme.icons import category_icon_name
 from nep_studio.ui.words import language_code, tr
 

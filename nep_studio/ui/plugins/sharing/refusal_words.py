@@ -91,7 +91,7 @@ def own_places() -> list[Place]:
     """Where this computer can be reached, the most likely one first."""
     import psutil
 
-    from nodes.sensory.connectors.addresses import lan_addresses
+    from nodes.sensory.connectors.servers import lan_addresses
 
     cards = {
         address.address: card

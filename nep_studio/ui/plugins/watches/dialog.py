@@ -280,6 +280,6 @@ def _asked_first(page: WayPage) -> list[QWidget]:
 
 
 def _own_addresses() -> Sequence[str]:
-    from nodes.sensory.connectors.addresses import lan_addresses
+    from nodes.sensory.connectors.servers import lan_addresses
 
     return lan_addresses()

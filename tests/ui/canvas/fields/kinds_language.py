@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, parse, slots_of
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.sentence import parse, slots_of
 from nep_studio.run.installation import studio_language
 
 SENTENCES = {

@@ -17,11 +17,10 @@ from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
-from nodes.perceptual.recognition.features import POINTS, Integers, Singles, cut_windows
+from nodes.perceptual.recognition.features import POINTS, Detection, Integers, Singles, cut_windows
 from nodes.perceptual.recognition.gmr import Gmr
 from nodes.perceptual.recognition.model import Model, Recogniser
 from nodes.perceptual.recognition.streams import EvenStream, mirrored
-from nodes.perceptual.recognition.windows import Detection
 
 from .certainties import Looks, is_mirrored
 from .labels import Words

@@ -18,10 +18,10 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from nep_core.errors import RecordingError
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
+from nodes.perceptual.recognition.features import Detection, Gesture, PeakPicker
 from nodes.perceptual.recognition.model import TRIGGER, Model, read_model
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.streams import mirrored
-from nodes.perceptual.recognition.windows import Detection, Gesture, PeakPicker
 
 log = logging.getLogger(__name__)
 

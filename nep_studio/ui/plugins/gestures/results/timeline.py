@@ -12,7 +12,7 @@ from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
-from nodes.perceptual.recognition.windows import Detection
+from nodes.perceptual.recognition.features import Detection
 
 from .certainties import KEPT_S, Looks
 from .threshold import PointSlider

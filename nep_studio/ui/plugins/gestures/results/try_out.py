@@ -16,8 +16,8 @@ from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
 from nep_studio.ui.widgets.layouts import FlowLayout, Halves, scrolled
 from nep_studio.ui.words import tr
+from nodes.perceptual.recognition.features import Detection
 from nodes.perceptual.recognition.model import Model
-from nodes.perceptual.recognition.windows import Detection
 
 from .band import BandPanel
 from .certainties import KEPT_S, Listening, LookedAt, Looks, Wanted

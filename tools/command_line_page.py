@@ -1,4 +1,4 @@
-"""Writes docs/command_line.md from the commands' own help: ``python -m nep_core.cli.page``."""
+"""Writes docs/command_line.md from the commands' help: ``python -m tools.command_line_page``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ START = """\
 # The command line `nep`
 
 For robot developers: look into a running network, take part in it, record and play what is sent.
-This page is what `nep` and `nep COMMAND --help` say; `python -m nep_core.cli.page` writes it.
+This page is what `nep` and `nep COMMAND --help` say; `python -m tools.command_line_page` writes it.
 
 ```
 {overview}
@@ -39,14 +39,13 @@ a second: of a recording that ended by a power cut everything but the last chunk
 From Python:
 
 ```python
-from nep_core.recordings.player import read_recording
+from nep_core.recordings.recorder import read_recording
 
 for message in read_recording("walk.mcap"):
     print(message.topic, message.arrived_ns, message.node, message.encoding, message.payload)
 ```
 
-`Recorder` in `nep_core.recordings.recorder` and `Player` in `nep_core.recordings.player` do what
-the two commands do.
+`Recorder` and `Player` in `nep_core.recordings.recorder` do what the two commands do.
 """
 
 

@@ -1,6 +1,6 @@
 """Makes the shipped model of the paper's five gestures, from simulated people.
 
-    python -m nodes.perceptual.recognition.make_paper_model
+    python -m tools.make_paper_model
 
 The people are numbers 0 to 99: examples and tests show others, whom the model has never seen.
 """
@@ -10,16 +10,13 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from nodes.perceptual.recognition.model import Model
-from nodes.perceptual.recognition.training import train
+from nodes.perceptual.recognition.model import Model, write_model
+from nodes.perceptual.recognition.streams import mirrored
+from nodes.perceptual.recognition.training import in_words, train
 from nodes.recordings import Recording
 from nodes.resources import resource_folder
 from nodes.sensory.arm.gestures import GESTURES
 from nodes.sensory.arm.people import simulate_everyday, simulate_session
-
-from .model import write_model
-from .streams import mirrored
-from .training import in_words
 
 _PEOPLE = range(0, 4)
 _REPETITIONS = 2
