@@ -84,7 +84,7 @@ def at_best(scores: Sequence[Score]) -> list[Score]:
 
 
 def _worth(score: Score) -> tuple[float, int]:
-    return score.tally.f1, -score.false
+    return score.totals.f1, -score.false
 
 
 def _about(folder: Folder) -> Iterator[Row]:
@@ -104,20 +104,20 @@ def _clean_rows(name: str, score: Score, best: Sequence[Score]) -> Iterator[Row]
     who = f"{name}: {score.trial}, {_named(score)}"
     if score.problem:
         yield _row(f"{who}: left out: {score.problem}", None, "")
-    if not score.tally.pairs:
+    if not score.totals.pairs:
         return
     is_ours = score.method not in REFERENCES
     goal = F1_GOALS.get(score.trial) if is_ours else None
-    f1 = _row(f"{who}: F1", score.tally.f1, "", at_least=goal)
+    f1 = _row(f"{who}: F1", score.totals.f1, "", at_least=goal)
     rival = next((one for one in best if (one.trial, one.method) == (score.trial, WARPING)), None)
-    if is_ours and rival and rival.tally.f1:
+    if is_ours and rival and rival.totals.f1:
         f1 |= {
-            "reference": round(rival.tally.f1, 3),
-            "ratio": round(score.tally.f1 / rival.tally.f1, 2),
+            "reference": round(rival.totals.f1, 3),
+            "ratio": round(score.totals.f1 / rival.totals.f1, 2),
         }
     yield f1
-    yield _row(f"{who}: recall", score.tally.recall, "of gestures")
-    yield _row(f"{who}: precision", score.tally.precision, "of triggers")
+    yield _row(f"{who}: recall", score.totals.recall, "of gestures")
+    yield _row(f"{who}: precision", score.totals.precision, "of triggers")
     if score.false_a_minute is not None:
         most = MOST_FALSE_A_MINUTE if goal else None
         yield _row(f"{who}: false triggers", score.false_a_minute, "a minute", at_most=most)
@@ -137,7 +137,7 @@ def _f1_when_calm(score: Score, scores: Sequence[Score]) -> float | None:
     """The best F1 of all thresholds with no more false triggers than are allowed."""
     same = (one for one in scores if one.key[:3] == score.key[:3])
     calm = [
-        one.tally.f1
+        one.totals.f1
         for one in same
         if one.false_a_minute is not None and one.false_a_minute <= MOST_FALSE_A_MINUTE
     ]
@@ -150,7 +150,7 @@ def _other_rows(name: str, score: Score) -> Iterator[Row]:
         if score.problem:
             yield _row(f"{who}, {score.sensor}: left out: {score.problem}", None, "")
         else:
-            yield _row(f"{who}, {score.sensor}: F1", score.tally.f1, "")
+            yield _row(f"{who}, {score.sensor}: F1", score.totals.f1, "")
     elif score.sensor in (SIMULATED, SIMULATED_LIVELY) and score.false_a_minute is not None:
         what = f"{who}, {score.sensor} movement: false triggers"
         yield _row(what, score.false_a_minute, "a minute")
@@ -159,13 +159,13 @@ def _other_rows(name: str, score: Score) -> Iterator[Row]:
 def _figure_rows(score: Score) -> Iterator[Row]:
     who = f"simulated people, paper's five gestures, {score.method}"
     is_ours = score.method not in REFERENCES
-    if score.tally.pairs and score.sensor:
-        yield _row(f"{who}, {score.sensor} unsaid: recall", score.tally.recall, "of gestures")
-    elif score.tally.pairs:
+    if score.totals.pairs and score.sensor:
+        yield _row(f"{who}, {score.sensor} unsaid: recall", score.totals.recall, "of gestures")
+    elif score.totals.pairs:
         goal = SIMULATED_RECALL if is_ours else None
-        yield _row(f"{who}: recall", score.tally.recall, "of gestures", at_least=goal)
-        yield _row(f"{who}: precision", score.tally.precision, "of triggers")
-        yield _row(f"{who}: F1", score.tally.f1, "")
+        yield _row(f"{who}: recall", score.totals.recall, "of gestures", at_least=goal)
+        yield _row(f"{who}: precision", score.totals.precision, "of triggers")
+        yield _row(f"{who}: F1", score.totals.f1, "")
     if score.false_a_minute is not None:
         movement = score.sensor or SIMULATED
         most = SIMULATED_FALSE_A_MINUTE if is_ours and movement == SIMULATED else None
@@ -180,17 +180,17 @@ def _named(score: Score) -> str:
 
 
 def _score_data(score: Score) -> dict[str, Any]:
-    pairs = Counter(score.tally.pairs)
+    pairs = Counter(score.totals.pairs)
     return {
         "trial": score.trial,
         "method": score.method,
         "sensor": score.sensor,
         "threshold": score.threshold,
-        "f1": round(score.tally.f1, 4),
-        "recall": round(score.tally.recall, 4),
-        "precision": round(score.tally.precision, 4),
-        "made": score.tally.made,
-        "fired": score.tally.fired,
+        "f1": round(score.totals.f1, 4),
+        "recall": round(score.totals.recall, 4),
+        "precision": round(score.totals.precision, 4),
+        "made": score.totals.made,
+        "fired": score.totals.fired,
         "from_nothing": sum(count for (made, _), count in pairs.items() if made == NOTHING),
         "false_a_minute": _rounded(score.false_a_minute),
         "told_apart": _rounded(score.accuracy),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from nodes.perceptual.recognition.validation import Tally
+from nodes.perceptual.recognition.validation import Totals
 
 CLEAN = ""
 """The sensor as it is: nothing is worse about it."""
@@ -22,7 +22,7 @@ class Score:
     method: str
     sensor: str
     threshold: float
-    tally: Tally = field(default_factory=Tally)
+    totals: Totals = field(default_factory=Totals)
     false: int = 0
     idle_s: float = 0.0
     right: int = 0
@@ -37,7 +37,7 @@ class Score:
     def __add__(self, other: Score) -> Score:
         return replace(
             self,
-            tally=self.tally + other.tally,
+            totals=self.totals + other.totals,
             false=self.false + other.false,
             idle_s=self.idle_s + other.idle_s,
             right=self.right + other.right,

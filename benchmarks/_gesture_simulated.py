@@ -20,7 +20,7 @@ from benchmarks._gesture_scores import CLEAN, Score
 from benchmarks._gesture_trials import PAPER, SIMULATED, SIMULATED_LIVELY, triggers
 from nodes.perceptual.recognition.model import METHODS, TRIGGER, Model, read_model
 from nodes.perceptual.recognition.streams import takes_of
-from nodes.perceptual.recognition.validation import Tally, match
+from nodes.perceptual.recognition.validation import Totals, match
 from nodes.recordings import Recording
 from nodes.resources import resource_folder
 from nodes.sensory.arm.everyday import LIVELY
@@ -66,8 +66,8 @@ def _scores_of(takes: int, person: int) -> list[Score]:
 
 
 def _spotted(model: Model, method: str, session: Recording, sensor: str) -> Score:
-    tally = match(takes_of(session), triggers(model, session, method))
-    return Score(NAME, method, sensor, TRIGGER, tally)
+    totals = match(takes_of(session), triggers(model, session, method))
+    return Score(NAME, method, sensor, TRIGGER, totals)
 
 
 def _of_ours(
@@ -75,7 +75,7 @@ def _of_ours(
 ) -> tuple[Score, ...]:
     clean = _spotted(model, method, session, CLEAN)
     idle = [
-        Score(NAME, method, sensor, TRIGGER, Tally(), false, _EVERYDAY_S)
+        Score(NAME, method, sensor, TRIGGER, Totals(), false, _EVERYDAY_S)
         for sensor, false in (
             (SIMULATED, len(triggers(model, plain, method))),
             (SIMULATED_LIVELY, len(triggers(model, lively, method))),
@@ -94,5 +94,5 @@ def _of_the_paper(session: Recording, plain: Recording) -> Score:
     matching = PaperMatching(lessons, _LIMITS)
     found = fire(matching.look(session), matching.names, _PAPERS_THRESHOLD)
     false = len(fire(matching.look(plain), matching.names, _PAPERS_THRESHOLD))
-    tally = match(takes_of(session), found)
-    return Score(NAME, PAPER, CLEAN, _PAPERS_THRESHOLD, tally, false, _EVERYDAY_S)
+    totals = match(takes_of(session), found)
+    return Score(NAME, PAPER, CLEAN, _PAPERS_THRESHOLD, totals, false, _EVERYDAY_S)

@@ -27,7 +27,7 @@ from nodes.perceptual.recognition.model import METHODS, TRIGGER, Model
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.streams import RATE_HZ, UNKNOWN, Take, takes_of
 from nodes.perceptual.recognition.training import train
-from nodes.perceptual.recognition.validation import Tally, match
+from nodes.perceptual.recognition.validation import Totals, match
 from nodes.recordings import Recording
 from nodes.sensory.arm.everyday import LIVELY
 from nodes.sensory.arm.people import simulate_everyday
@@ -139,20 +139,20 @@ def classify(model: Model, recording: Recording, method: str, take: Take) -> str
 def _of_ours(trial: Trial, model: Model, method: str) -> Iterator[Score]:
     score = Score(trial.name, method, CLEAN, TRIGGER)
     try:
-        yield _idle(replace(score, tally=_tally(model, trial.rest, method)), model, trial.everyday)
+        yield _idle(replace(score, totals=_tally(model, trial.rest, method)), model, trial.everyday)
         yield _told_apart(score, trial, lambda one, take: classify(model, one, method, take))
         for sensor in WORSE if trial.is_thorough else ():
             rest = [worse(one, sensor) for one in trial.rest]
-            yield replace(score, sensor=sensor, tally=_tally(model, rest, method))
+            yield replace(score, sensor=sensor, totals=_tally(model, rest, method))
         for sensor, idle in _simulated_idle() if trial.is_thorough else ():
             yield _idle(replace(score, sensor=sensor), model, idle)
     except RecordingError as error:
         yield replace(score, problem=f"{trial.person}: {error.sentence}")
 
 
-def _tally(model: Model, recordings: Sequence[Recording], method: str) -> Tally:
+def _tally(model: Model, recordings: Sequence[Recording], method: str) -> Totals:
     pairs = (match(takes_of(one), triggers(model, one, method)) for one in recordings)
-    return sum(pairs, Tally())
+    return sum(pairs, Totals())
 
 
 def _idle(score: Score, model: Model, recordings: Sequence[Recording]) -> Score:
@@ -178,7 +178,7 @@ def _of_reference(trial: Trial, name: str) -> Iterator[Score]:
     for threshold in THRESHOLDS[name]:
         tallies = (match(takes, fire(looks, names, threshold)) for takes, looks in heard)
         false = sum(len(fire(looks, names, threshold)) for looks in idle)
-        score = Score(trial.name, name, CLEAN, threshold, sum(tallies, Tally()), false, idle_s)
+        score = Score(trial.name, name, CLEAN, threshold, sum(tallies, Totals()), false, idle_s)
         yield replace(score, right=told.right, marked=told.marked)
 
 

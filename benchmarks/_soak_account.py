@@ -93,12 +93,12 @@ def account(folder: Path, killed_s: Mapping[str, float]) -> Account:
     ]
     return Account(
         sent=sum(len(one.messages) for one in sent.values()),
-        owed=sum(way.owed for way in ways),
-        received=sum(way.received for way in ways),
-        excused=sum(way.excused for way in ways),
-        lost=sum(way.lost for way in ways),
-        disordered=sum(way.disordered for way in ways),
-        losses=tuple(line for way in ways for line in way.losses)[:20],
+        owed=sum(connector.owed for connector in ways),
+        received=sum(connector.received for connector in ways),
+        excused=sum(connector.excused for connector in ways),
+        lost=sum(connector.lost for connector in ways),
+        disordered=sum(connector.disordered for connector in ways),
+        losses=tuple(line for connector in ways for line in connector.losses)[:20],
     )
 
 

@@ -54,14 +54,16 @@ def run() -> list[dict[str, Any]]:
             "a node that raises": ("lamp", lambda _node: orders.send({"now": True})),
             "a shell node that is killed": ("shell", _kill_shell),
         }
-        times_ms: dict[str, list[float]] = {way: [] for way in ways}
+        times_ms: dict[str, list[float]] = {connector: [] for connector in ways}
         bare_ms = []
         for _ in range(ROUNDS):
             bare_ms.append(_bare_ms())
-            for way, (node, crash) in ways.items():
-                times_ms[way].append(_crash_ms(launcher, states, node, crash))
+            for connector, (node, crash) in ways.items():
+                times_ms[connector].append(_crash_ms(launcher, states, node, crash))
     master.close()
-    return [_row(way, times, statistics.median(bare_ms)) for way, times in times_ms.items()]
+    return [
+        _row(connector, times, statistics.median(bare_ms)) for connector, times in times_ms.items()
+    ]
 
 
 def _write_nodes(folder: Path) -> None:
@@ -106,10 +108,10 @@ def _bare_ms() -> float:
     return (time.perf_counter() - started_s) * 1000
 
 
-def _row(way: str, times_ms: list[float], bare_ms: float) -> dict[str, Any]:
+def _row(connector: str, times_ms: list[float], bare_ms: float) -> dict[str, Any]:
     median = statistics.median(times_ms)
     return {
-        "name": f"crash of {way} is heard",
+        "name": f"crash of {connector} is heard",
         "value": round(median, 1),
         "unit": "ms",
         "reference": round(bare_ms, 1),

@@ -14,7 +14,7 @@ from benchmarks._gesture_scores import CLEAN, Score
 from benchmarks._gesture_sensors import LOSSY, NO_GYROSCOPE, SLOW, TURNED, worse
 from nep_core.errors import RecordingError
 from nodes.perceptual.recognition.streams import takes_of
-from nodes.perceptual.recognition.validation import Tally
+from nodes.perceptual.recognition.validation import Totals
 from nodes.recordings import write_recording
 from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
@@ -192,17 +192,17 @@ def test_a_whole_trial_tells_ours_and_the_references_at_once(folder, idle, monke
     assert set(by_method) == {trials.METHODS[0], trials.WARPING, trials.PAPER}
     ours = by_method[trials.METHODS[0]]
     assert ours.problem == ""
-    assert (ours.tally.made, ours.marked) == (2, 2)
+    assert (ours.totals.made, ours.marked) == (2, 2)
     assert ours.idle_s == pytest.approx(10, abs=0.1)
     assert by_method[trials.WARPING].accuracy == 1.0
 
 
 def test_goals_are_for_ours_and_a_reference_is_named_with_its_threshold(folder, idle):
     name = "personal, 5 examples"
-    pairs = Tally((("karate", "karate"), ("karate", "")))
+    pairs = Totals((("karate", "karate"), ("karate", "")))
     ours = Score(name, "trees", CLEAN, 0.75, pairs, false=1, idle_s=60.0)
-    low = Score(name, trials.WARPING, CLEAN, 0.5, Tally(), idle_s=60.0)
-    high = replace(low, threshold=0.6, tally=pairs)
+    low = Score(name, trials.WARPING, CLEAN, 0.5, Totals(), idle_s=60.0)
+    high = replace(low, threshold=0.6, totals=pairs)
 
     rows = rows_of(read_gesture_folder(folder), [ours, low, high], [], ["something"])
 
@@ -216,10 +216,10 @@ def test_goals_are_for_ours_and_a_reference_is_named_with_its_threshold(folder, 
 
 
 def test_a_reference_is_also_told_with_no_more_false_triggers_than_ours_may_have(folder, idle):
-    good = Tally((("karate", "karate"),))
-    half = Tally((("karate", "karate"), ("karate", "")))
+    good = Totals((("karate", "karate"),))
+    half = Totals((("karate", "karate"), ("karate", "")))
     loose = Score("other people", trials.WARPING, CLEAN, 0.5, good, false=3, idle_s=60.0)
-    strict = replace(loose, threshold=0.6, tally=half, false=0)
+    strict = replace(loose, threshold=0.6, totals=half, false=0)
 
     rows = rows_of(read_gesture_folder(folder), [loose, strict], [], [])
 
@@ -230,7 +230,7 @@ def test_a_reference_is_also_told_with_no_more_false_triggers_than_ours_may_have
 
 
 def test_the_data_for_programs_counts_every_pair(folder):
-    score = Score("personal", "trees", CLEAN, 0.75, Tally((("a", "a"), ("a", "a"), ("", "b"))))
+    score = Score("personal", "trees", CLEAN, 0.75, Totals((("a", "a"), ("a", "a"), ("", "b"))))
 
     data = as_data(read_gesture_folder(folder), [score], [score], [])
 

@@ -124,16 +124,15 @@ def _wait(recorder: Recorder, most_s: float | None, stop: Wake) -> None:
 
 
 def _progress(recorder: Recorder) -> str:
-    tally = recorder.tally
-    return (
-        f"{many(tally.messages, 'message')}   {amount(tally.payload_bytes)}   {recorder.lost} lost"
-    )
+    totals = recorder.totals
+    size = amount(totals.payload_bytes)
+    return f"{many(totals.messages, 'message')}   {size}   {recorder.lost} lost"
 
 
 def _say_recorded(recorder: Recorder) -> None:
-    tally = recorder.tally
+    totals = recorder.totals
     say(
-        f"Recorded {many(tally.messages, 'message')} of {many(len(tally.topics), 'topic')} "
+        f"Recorded {many(totals.messages, 'message')} of {many(len(totals.topics), 'topic')} "
         f"to {recorder.path} ({amount(recorder.file_bytes)})."
     )
     if recorder.lost:

@@ -86,7 +86,7 @@ class _Output:
 
 
 @dataclass
-class Tally:
+class Totals:
     """How much was recorded; ``topics`` counts messages."""
 
     messages: int = 0
@@ -107,7 +107,7 @@ class Recorder:
         from mcap.writer import Writer
 
         self.path = Path(path)
-        self.tally = Tally()
+        self.totals = Totals()
         self.failure: RecordingError | None = None
         self._ended = threading.Event()
         self._network = network
@@ -211,9 +211,9 @@ class Recorder:
             max(0, message.sent_ns),
             message.sequence % SEQUENCES,
         )
-        self.tally.messages += 1
-        self.tally.payload_bytes += len(message.payload)
-        self.tally.topics[message.topic] = self.tally.topics.get(message.topic, 0) + 1
+        self.totals.messages += 1
+        self.totals.payload_bytes += len(message.payload)
+        self.totals.topics[message.topic] = self.totals.topics.get(message.topic, 0) + 1
 
     def _open_channel(self, channel: Channel) -> int:
         schema = self._schemas.get(channel.schema_name)
@@ -227,8 +227,8 @@ class Recorder:
     def _keep_on_disk(self) -> None:
         kept = 0
         while not self._ended.wait(CHUNK_S):
-            if self.tally.messages > kept:
-                kept = self.tally.messages
+            if self.totals.messages > kept:
+                kept = self.totals.messages
                 self._do(self._writer.flush)
                 self._do(self._output.sync)
 

@@ -29,7 +29,7 @@ MOST_PUBLISHERS = 1_000
 """Starts of publishers that are remembered, those heard last: a topic may live for weeks."""
 
 
-class Tally:
+class Totals:
     """Counts by the numbers of messages; told of each frame in the order of arrival."""
 
     def __init__(self) -> None:
@@ -95,7 +95,7 @@ class Backlog:
     def __init__(self, topic: str, policy: Policy = "events") -> None:
         self.policy = policy
         self._head_at = len(subscription(topic))
-        self._tally = Tally()
+        self._tally = Totals()
         self._frames: deque[bytes] = deque()
         self._bytes = 0
         self._newest: dict[tuple[str, str], bytes] = {}

@@ -41,7 +41,7 @@ REMEMBER = "sensing.remember"
 
 
 @dataclass(frozen=True)
-class Happening:
+class Occurrence:
     """Something that can happen, and to which robot ("*": whichever).
 
     ``value`` is the word, the name of a face ("": anybody), the number of a mark, the part that is
@@ -63,14 +63,14 @@ class Happening:
         return self.kind, plain(self.value), self.robot, self.amount
 
 
-def happenings_of(project: Project, language: Language) -> list[Happening]:
+def happenings_of(project: Project, language: Language) -> list[Occurrence]:
     """What the program waits for, then what it asks about; each once, in its order."""
     waited_for = _waited_for(project, language, leave_out=REMEMBER)
     found = {one.key: one for one in reversed(list(waited_for))}
     return list(found.values())[::-1]
 
 
-def _waited_for(project: Project, language: Language, leave_out: str = "") -> Iterator[Happening]:
+def _waited_for(project: Project, language: Language, leave_out: str = "") -> Iterator[Occurrence]:
     """What the rules begin with comes first, then what they ask about."""
     hats = [chain[0] for chain in rules(project, language)]
     for hat in hats:
@@ -81,7 +81,7 @@ def _waited_for(project: Project, language: Language, leave_out: str = "") -> It
                 yield from _of_block(project, block, language)
 
 
-def _of_block(project: Project, block: Block, language: Language) -> Iterator[Happening]:
+def _of_block(project: Project, block: Block, language: Language) -> Iterator[Occurrence]:
     definition = language.of(project).definitions.get(block.type)
     if definition is None:
         return
@@ -97,10 +97,10 @@ def _of_block(project: Project, block: Block, language: Language) -> Iterator[Ha
         elif slot.kind.name == "gesture":
             value = asked.value(key)
             state = f"{GESTURE_STATE}{value}" if value else ""
-            yield Happening("gesture", value, asked.label(key), state=state)
+            yield Occurrence("gesture", value, asked.label(key), state=state)
 
 
-def of_state(state: str, language: Language) -> Happening:
+def of_state(state: str, language: Language) -> Occurrence:
     """What must happen for a human state to be told: a touch, a word, ..., else the state itself.
 
     Of the look of a person and of distances robots tell as they notice them.
@@ -108,26 +108,26 @@ def of_state(state: str, language: Language) -> Happening:
     return replace(_told_by(state, language), state=state)
 
 
-def _told_by(state: str, language: Language) -> Happening:
+def _told_by(state: str, language: Language) -> Occurrence:
     if state.startswith(GESTURE_STATE):
         name = state.removeprefix(GESTURE_STATE)
         known = language.choices.get("gestures", {}).get(name, name.replace("_", " "))
-        return Happening("gesture", name, known)
+        return Occurrence("gesture", name, known)
     for beginning, kind, table in _STATES:
         value = state.removeprefix(beginning)
         if state.startswith(beginning) and value in language.choices.get(table, {}):
-            return Happening(kind, value, language.choices[table][value])
+            return Occurrence(kind, value, language.choices[table][value])
     for thing, kind in _THINGS.items():
         beginning = state_of_thing(thing)
         if state == beginning or state.startswith(f"{beginning}_"):
             name = state.removeprefix(beginning).strip("_").replace("_", " ")
-            return Happening(kind, name, name)
+            return Occurrence(kind, name, name)
     if word := word_of_state(state):
-        return Happening("word", word, word)
-    return Happening("state", state, state.replace("_", " "))
+        return Occurrence("word", word, word)
+    return Occurrence("state", state, state.replace("_", " "))
 
 
-def state_of(happening: Happening) -> str:
+def state_of(happening: Occurrence) -> str:
     """The human state that tells of something."""
     value = happening.value
     match happening.kind:
@@ -183,19 +183,19 @@ class _Asked:
         except ValueError:
             return None
 
-    def of(self, kind: Kind, key: str = "", amount: float | None = None) -> Happening:
+    def of(self, kind: Kind, key: str = "", amount: float | None = None) -> Occurrence:
         robot = self.value("robot") or ALL_ROBOTS
-        return Happening(kind, self.value(key), self.label(key), robot, amount)
+        return Occurrence(kind, self.value(key), self.label(key), robot, amount)
 
-    def word(self, key: str) -> Iterator[Happening]:
+    def word(self, key: str) -> Iterator[Occurrence]:
         if plain(self.value(key)):
             word = self.value(key)
-            yield Happening("word", word, word, state=state_of_word(word))
+            yield Occurrence("word", word, word, state=state_of_word(word))
 
-    def thing(self) -> Happening:
+    def thing(self) -> Occurrence:
         return self.of(_THINGS.get(self.value("thing"), "face"))
 
-    def sensor(self) -> Happening:
+    def sensor(self) -> Occurrence:
         """One that it waits for is a little past what is asked."""
         amount = self.number("value")
         if amount is None or "side" not in self._keys():
@@ -204,12 +204,12 @@ class _Asked:
         is_under = self.value("side") == "under"
         return self.of("sensor", "sensor", amount - past if is_under else amount + past)
 
-    def current(self) -> Happening:
+    def current(self) -> Occurrence:
         joint, name = self.value("joint"), self.label("joint")
         return replace(self.of("sensor"), value=f"current_{joint}", words=name)
 
-    def idle(self) -> Happening:
-        return Happening("idle", amount=self.number("seconds"))
+    def idle(self) -> Occurrence:
+        return Occurrence("idle", amount=self.number("seconds"))
 
     def _keys(self) -> dict[str, Slot]:
         return dict(self.definition.keys(self.block.groups))
@@ -219,7 +219,7 @@ def _name_of(definition: Definition) -> str:
     return definition.generator or (definition.call.name if definition.call else "")
 
 
-_BY_BLOCK: dict[str, Callable[[_Asked], Happening]] = {
+_BY_BLOCK: dict[str, Callable[[_Asked], Occurrence]] = {
     "when_touched": lambda asked: asked.of("touch", "part"),
     "is_touched": lambda asked: asked.of("touch", "part"),
     "when_sees": _Asked.thing,
@@ -242,8 +242,8 @@ _BY_BLOCK: dict[str, Callable[[_Asked], Happening]] = {
     "when_emotion": lambda asked: asked.of("emotion", "emotion"),
     "emotion": lambda asked: asked.of("emotion", "emotion"),
     "when_idle": _Asked.idle,
-    "human_state": lambda asked: Happening("state"),
-    "heard_word": lambda asked: Happening("word"),
+    "human_state": lambda asked: Occurrence("state"),
+    "heard_word": lambda asked: Occurrence("word"),
 }
 """What the blocks wait for or ask about, by what makes their code."""
 
@@ -259,7 +259,7 @@ _TOLD = {
 """The blocks that a human state tells of, by what makes their code, and whether of one by name."""
 
 
-def _is_told(name: str, found: Happening) -> bool:
+def _is_told(name: str, found: Occurrence) -> bool:
     return name in _TOLD and (not _TOLD[name] or bool(plain(found.value)))
 
 
@@ -330,7 +330,7 @@ def cues_of(project: Project, language: Language) -> list[Cue]:
     return list({cue.id: cue for cue in reversed(cues)}.values())[::-1]
 
 
-def _cue(happening: Happening, language: Language) -> Cue:
+def _cue(happening: Occurrence, language: Language) -> Cue:
     """The button for something; a rule may hear of it from one robot only."""
     kind, words = _CUE_KINDS.get(happening.kind, "state"), happening.words
     if kind == "sight" and not words:

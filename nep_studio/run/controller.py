@@ -326,7 +326,7 @@ class RunController:
 
     def _end(self, session: Session) -> None:
         """The robots first; the rest follows in the session's thread."""
-        session.hush()
+        session.stop_robots()
         session.end()
 
     # While it runs

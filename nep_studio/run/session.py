@@ -99,7 +99,7 @@ class Session:
             self._is_over.set()
             self._changed.notify_all()
 
-    def hush(self) -> None:
+    def stop_robots(self) -> None:
         """Stop the robots and ask the program to end; waits for nothing."""
         voice = self.network.voice
         if voice is not None:
@@ -199,7 +199,7 @@ class Session:
             voice.order(order)
 
     def _stop_program(self) -> None:
-        self.hush()
+        self.stop_robots()
         program = self.network.launcher.nodes.get(PROGRAM)
         if program is not None and program.process is not None:
             program.stopping = True

@@ -16,7 +16,7 @@ from nodes.resources import resource_folder
 
 from .recognition.features import Detection
 from .recognition.model import read_model
-from .recognition.sensor_input import Measures, SensorEar, Worn
+from .recognition.sensor_input import Measures, SensorInput, Worn
 
 _MOST_SENSORS = 8
 _FORGOTTEN_S = 10.0
@@ -122,7 +122,7 @@ class _Ears:
         self._worn = worn
         self._measures = measures
         make_spotter(gravity_included=True)  # what the model lacks is told at the start
-        self._ears: dict[_Sensor, SensorEar | None] = {}
+        self._ears: dict[_Sensor, SensorInput | None] = {}
         self._heard_s: dict[str, float] = {}
         self._waiting: set[_Sensor] = set()
         self._is_full = False
@@ -175,11 +175,11 @@ class _Ears:
         self._ears[sensor] = self._listen_to(batch)
         return True
 
-    def _listen_to(self, batch: Imu) -> SensorEar | None:
+    def _listen_to(self, batch: Imu) -> SensorInput | None:
         make = partial(self._make_spotter, gravity_included=batch.gravity_included)
         node, source = self._node, batch.sender
         try:
-            ear = SensorEar(batch, self._model, make, self._worn, self._remark, node.warn)
+            ear = SensorInput(batch, self._model, make, self._worn, self._remark, node.warn)
         except RecordingError as error:
             node.warn(error.fault)
             return None

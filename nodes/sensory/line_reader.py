@@ -217,7 +217,10 @@ def _threes(columns: Sequence[Row], rest: Sequence[int]) -> list[tuple[int, ...]
         places = rest[start:]
         threes = [tuple(places[at : at + 3]) for at in range(0, len(places) - 2, 3)]
         ways.append([three for three in threes if three[2] - three[0] == 2])
-    fits = [min((_gravity_error(columns, it) for it in way), default=math.inf) for way in ways]
+    fits = [
+        min((_gravity_error(columns, it) for it in connector), default=math.inf)
+        for connector in ways
+    ]
     return ways[fits.index(min(fits))]
 
 

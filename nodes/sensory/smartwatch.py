@@ -13,7 +13,7 @@ from faults import Words, text_of
 from nep_core.processes.node import MEASURES_S, Node
 from nep_core.wire.messages import IMU, Imu, Wrist
 
-from .connectors import WAYS
+from .connectors import CONNECTORS
 from .connectors.connector import Arrived, Settings
 from .sample_stream import Sample, SampleStream
 
@@ -303,17 +303,17 @@ def run(
     units: str,
 ) -> None:
     """Publish ``/imu`` from what one sender sends; PortTaken or ParameterError when it cannot."""
-    kind = WAYS[through]
-    way = kind.make(Settings(port or kind.port, address, listen_on, token, columns, units))
+    kind = CONNECTORS[through]
+    connector = kind.make(Settings(port or kind.port, address, listen_on, token, columns, units))
     publisher = node.publisher(IMU)
     try:
-        way.open()
-        node.ready(way.where)
-        hearing = Hearing(node, way.missing)
+        connector.open()
+        node.ready(connector.where)
+        hearing = Hearing(node, connector.missing)
         while not node.stopping:
-            arrivals = way.readings(time.monotonic() + _BATCH_S)
-            hearing.wrist = wrist or getattr(way, "hand", "")  # a phone's page asks for it
+            arrivals = connector.readings(time.monotonic() + _BATCH_S)
+            hearing.wrist = wrist or getattr(connector, "hand", "")  # a phone's page asks for it
             if batch := hearing.hear(arrivals, time.monotonic()):
                 publisher.send(batch)
     finally:
-        way.close()
+        connector.close()

@@ -81,7 +81,7 @@ class KeyPose(msgspec.Struct, frozen=True):
     angles: tuple[float, ...]
 
 
-class Way(msgspec.Struct, frozen=True):
+class PostureTransition(msgspec.Struct, frozen=True):
     """The key poses through which a robot gets from one posture to another, and back."""
 
     between: tuple[str, str]
@@ -110,7 +110,7 @@ class _BodyFile(msgspec.Struct, frozen=True):
     postures: dict[str, Posture]
     links: dict[str, Link] = {}
     key_poses: dict[str, KeyPose] = {}
-    ways: tuple[Way, ...] = ()
+    ways: tuple[PostureTransition, ...] = ()
     cameras: tuple[Camera, ...] = ()
     sonars: dict[str, Sonar] = {}
 

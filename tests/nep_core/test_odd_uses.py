@@ -18,7 +18,7 @@ from nep_core.networks.network import Network
 from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
 from nep_core.wire import frames, outbox
 from nep_core.wire.frames import Header
-from nep_core.wire.inbox import MOST_PUBLISHERS, Tally
+from nep_core.wire.inbox import MOST_PUBLISHERS, Totals
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
@@ -198,13 +198,13 @@ with DirectNetwork(sys.argv[1]) as network:
 
 
 def test_a_publisher_that_is_heard_is_remembered_though_another_starts_again_and_again() -> None:
-    tally = Tally()
-    tally.note(Header("lasting", 1, 0), 1)
+    totals = Totals()
+    totals.note(Header("lasting", 1, 0), 1)
     for start in range(2 * MOST_PUBLISHERS):
-        tally.note(Header("restarting", 1, 0, "json", str(start)), 1)
+        totals.note(Header("restarting", 1, 0, "json", str(start)), 1)
         if start % 100 == 0:
-            tally.note(Header("lasting", 2 + start // 100, 0), 1)
+            totals.note(Header("lasting", 2 + start // 100, 0), 1)
 
-    tally.note(Header("lasting", 100, 0), 1)
+    totals.note(Header("lasting", 100, 0), 1)
 
-    assert tally.lost == 100 - 22
+    assert totals.lost == 100 - 22

@@ -8,7 +8,7 @@ import pytest
 
 from nep_studio import paths
 from nep_studio.blocks.files import load
-from nep_studio.project.triggers import Happening, cues_of, happenings_of, of_state
+from nep_studio.project.triggers import Occurrence, cues_of, happenings_of, of_state
 from nep_studio.run.installation import studio_language
 from tests.blocks.block_building import B, build
 
@@ -16,7 +16,7 @@ LANGUAGE = studio_language()
 EXAMPLES = sorted(paths.examples().glob("*.nep"))
 
 
-def happenings(*stacks: list[B]) -> list[Happening]:
+def happenings(*stacks: list[B]) -> list[Occurrence]:
     editor = build(LANGUAGE, *stacks, variables=("x",))
     return happenings_of(editor.project, editor.language)
 

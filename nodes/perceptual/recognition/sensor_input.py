@@ -42,7 +42,7 @@ class _Way:
         return self.spotter.push(t, acc, gyr)
 
 
-class SensorEar:
+class SensorInput:
     """Spots gestures in the samples of one sensor.
 
     ``tell`` gets a sentence when it finds out how the watch is worn, ``warn`` one for each trouble.

@@ -27,7 +27,7 @@ from .gmr import Both, fit_gmr
 from .model import METHODS, Model, Recogniser, Scorer
 from .streams import Passage, passages_of
 from .trees import TREES, fit_trees
-from .validation import NOTHING, USUAL_SCORE, Tally, Validation, cross_validate, unchecked
+from .validation import NOTHING, USUAL_SCORE, Totals, Validation, cross_validate, unchecked
 
 # What a training found out, as data for the model file and in plain words.
 
@@ -40,13 +40,13 @@ def report_of(gestures: Sequence[Gesture], validation: Validation) -> dict[str, 
     ``curves`` tell by gesture what each certainty would catch and let through, ``left_out`` how
     each take fared, ``people`` how each person did where there are several.
     """
-    pairs = Counter(validation.tally.pairs)
+    pairs = Counter(validation.totals.pairs)
     return {
         "takes": {gesture.name: gesture.takes for gesture in gestures},
         "confusion": [[made, found, count] for (made, found), count in sorted(pairs.items())],
-        "recall": round(validation.tally.recall, 4),
-        "precision": round(validation.tally.precision, 4),
-        "f1": round(validation.tally.f1, 4),
+        "recall": round(validation.totals.recall, 4),
+        "precision": round(validation.totals.precision, 4),
+        "f1": round(validation.totals.f1, 4),
         "everyday_triggers": validation.everyday_triggers,
         "everyday_s": round(validation.everyday_s, 1),
         "curves": {
@@ -54,7 +54,7 @@ def report_of(gestures: Sequence[Gesture], validation: Validation) -> dict[str, 
             for name, points in validation.curves.items()
         },
         "left_out": [_rounded(vars(take)) for take in validation.takes],
-        "people": {person: _score(tally) for person, tally in validation.people.items()},
+        "people": {person: _score(totals) for person, totals in validation.people.items()},
     }
 
 
@@ -65,9 +65,9 @@ def _rounded(figures: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _score(tally: Tally) -> dict[str, float]:
-    score = {"made": tally.made, "right": tally.right, "fired": tally.fired}
-    return score | {"f1": round(tally.f1, 4)}
+def _score(totals: Totals) -> dict[str, float]:
+    score = {"made": totals.made, "right": totals.right, "fired": totals.fired}
+    return score | {"f1": round(totals.f1, 4)}
 
 
 def in_words(method: str, report: Mapping[str, Any]) -> list[str]:

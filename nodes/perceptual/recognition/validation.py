@@ -28,13 +28,13 @@ _SHARED = 0.25  # of the shorter of the two
 
 
 @dataclass(frozen=True)
-class Tally:
+class Totals:
     """Pairs (made, recognised), NOTHING standing for none: one for each take and each extra."""
 
     pairs: tuple[tuple[str, str], ...] = ()
 
-    def __add__(self, other: Tally) -> Tally:
-        return Tally(self.pairs + other.pairs)
+    def __add__(self, other: Totals) -> Totals:
+        return Totals(self.pairs + other.pairs)
 
     @property
     def made(self) -> int:
@@ -67,7 +67,7 @@ class Tally:
         return 2 * self.right / (self.made + self.fired) if self.made + self.fired else 0.0
 
 
-def match(takes: Sequence[Take], detections: Sequence[Detection]) -> Tally:
+def match(takes: Sequence[Take], detections: Sequence[Detection]) -> Totals:
     """Pair each take with the trigger it caused, the right one if there are several.
 
     A trigger that no take caused, and one more than the first for the same take, counts as made
@@ -81,7 +81,7 @@ def match(takes: Sequence[Take], detections: Sequence[Detection]) -> Tally:
         pairs.append((take.gesture, caused[0].gesture if caused else NOTHING))
         if caused:
             left.remove(caused[0])
-    return Tally((*pairs, *((NOTHING, found.gesture) for found in left)))
+    return Totals((*pairs, *((NOTHING, found.gesture) for found in left)))
 
 
 def meets(take: Take, found: Detection) -> bool:
@@ -211,17 +211,17 @@ class LeftOutTake:
 class Validation:
     """``usual`` scores of left-out takes (gestures,), and what was found in left-out stretches.
 
-    ``tally`` and ``everyday_triggers`` are at TRIGGER, ``curves`` by gesture at every certainty;
+    ``totals`` and ``everyday_triggers`` are at TRIGGER, ``curves`` by gesture at every certainty;
     ``people`` are the tallies of each person where there are several.
     """
 
     usual: Floats
-    tally: Tally
+    totals: Totals
     everyday_triggers: int
     everyday_s: float
     curves: Mapping[str, tuple[CurvePoint, ...]] = field(default_factory=dict)
     takes: tuple[LeftOutTake, ...] = ()
-    people: Mapping[str, Tally] = field(default_factory=dict)
+    people: Mapping[str, Totals] = field(default_factory=dict)
 
 
 def cross_validate(
@@ -243,8 +243,8 @@ def _validate(
     usual = _usual_scores(gestures, scans, scores)
     certainties = [certainty_of(score, usual) for score in scores]
     takes: list[LeftOutTake] = []
-    people: dict[str, Tally] = {}
-    tally, triggers, everyday_s = Tally(), 0, 0.0
+    people: dict[str, Totals] = {}
+    totals, triggers, everyday_s = Totals(), 0, 0.0
     for found, certainty in zip(scans, certainties, strict=True):
         passage = found.passage
         detections = spot(found, gestures, certainty)
@@ -252,7 +252,7 @@ def _validate(
             triggers, everyday_s = triggers + len(detections), everyday_s + passage.duration_s
             continue
         here = _tally(passage, detections)
-        tally, people[passage.person] = tally + here, people.get(passage.person, Tally()) + here
+        totals, people[passage.person] = totals + here, people.get(passage.person, Totals()) + here
         takes += _left_out_takes(found, gestures, certainty, here)
     seen = [
         (found.passage, rises(found, gestures, certainty))
@@ -260,7 +260,7 @@ def _validate(
     ]
     return Validation(
         usual,
-        tally,
+        totals,
         triggers,
         everyday_s,
         curves_of(gestures, seen),
@@ -287,7 +287,7 @@ def spot(
     return [one for one in (*detections, picker.flush()) if one is not None]
 
 
-def _tally(passage: Passage, detections: Sequence[Detection]) -> Tally:
+def _tally(passage: Passage, detections: Sequence[Detection]) -> Totals:
     """How triggers agree with the takes; those where nobody knows what was made do not count."""
     takes = passage.takes
     known = [
@@ -299,7 +299,7 @@ def _tally(passage: Passage, detections: Sequence[Detection]) -> Tally:
 
 
 def _left_out_takes(
-    found: Scan, gestures: Sequence[Gesture], certainties: Floats, tally: Tally
+    found: Scan, gestures: Sequence[Gesture], certainties: Floats, totals: Totals
 ) -> list[LeftOutTake]:
     names = [gesture.name for gesture in gestures]
     return [
@@ -310,7 +310,7 @@ def _left_out_takes(
             _best_near(found, take, certainties[:, names.index(take.gesture)]),
             recognised,
         )
-        for take, (_, recognised) in zip(found.passage.takes, tally.pairs, strict=False)
+        for take, (_, recognised) in zip(found.passage.takes, totals.pairs, strict=False)
     ]
 
 

@@ -180,8 +180,8 @@ def open_door(motion: Motion, start_s: float, rng: np.random.Generator) -> float
     now_s = settle(motion, start_s, arm(40, 8, 15, 40, 40), rng, haste=1.3)
     motion.move({Joint.PRONATION: 75}, now_s, 0.35)
     jolt(motion, now_s + 0.3, 0.001)
-    way = rng.choice([-1, 1]) * rng.uniform(20, 35)
-    motion.move({Joint.FLEXION: 40 + way, Joint.ELBOW: 55 - way}, now_s + 0.35, 0.8)
+    connector = rng.choice([-1, 1]) * rng.uniform(20, 35)
+    motion.move({Joint.FLEXION: 40 + connector, Joint.ELBOW: 55 - connector}, now_s + 0.35, 0.8)
     return settle(motion, now_s + 1.2, _HANGING, rng)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .connector import Settings, Way
+from .connector import Connector, Settings
 
 
 @dataclass(frozen=True)
@@ -18,58 +18,58 @@ class WayKind:
     title: str
     port: int
     needs_address: bool
-    make: Callable[[Settings], Way]
+    make: Callable[[Settings], Connector]
 
 
-def _phone_page(settings: Settings) -> Way:
-    from nodes.sensory.phone_page.server import PhonePageWay
+def _phone_page(settings: Settings) -> Connector:
+    from nodes.sensory.phone_page.server import PhonePageConnector
 
-    return PhonePageWay(settings)
-
-
-def _sensor_logger(settings: Settings) -> Way:
-    from .sensor_logger import SensorLoggerWay
-
-    return SensorLoggerWay(settings)
+    return PhonePageConnector(settings)
 
 
-def _udp(settings: Settings) -> Way:
-    from .lines import UdpWay
+def _sensor_logger(settings: Settings) -> Connector:
+    from .sensor_logger import SensorLoggerConnector
 
-    return UdpWay(settings)
-
-
-def _tcp(settings: Settings) -> Way:
-    from .lines import TcpWay
-
-    return TcpWay(settings)
+    return SensorLoggerConnector(settings)
 
 
-def _paper_watch(settings: Settings) -> Way:
-    from .lines import PaperWatchWay
+def _udp(settings: Settings) -> Connector:
+    from .lines import UdpConnector
 
-    return PaperWatchWay(settings)
-
-
-def _phyphox(settings: Settings) -> Way:
-    from .phyphox import PhyphoxWay
-
-    return PhyphoxWay(settings)
+    return UdpConnector(settings)
 
 
-def _sensor_server(settings: Settings) -> Way:
-    from .sensor_server import SensorServerWay
+def _tcp(settings: Settings) -> Connector:
+    from .lines import TcpConnector
 
-    return SensorServerWay(settings)
-
-
-def _bluetooth(settings: Settings) -> Way:
-    from .bluetooth import BluetoothWay
-
-    return BluetoothWay(settings)
+    return TcpConnector(settings)
 
 
-WAYS: dict[str, WayKind] = {
+def _paper_watch(settings: Settings) -> Connector:
+    from .lines import PaperWatchConnector
+
+    return PaperWatchConnector(settings)
+
+
+def _phyphox(settings: Settings) -> Connector:
+    from .phyphox import PhyphoxConnector
+
+    return PhyphoxConnector(settings)
+
+
+def _sensor_server(settings: Settings) -> Connector:
+    from .sensor_server import SensorServerConnector
+
+    return SensorServerConnector(settings)
+
+
+def _bluetooth(settings: Settings) -> Connector:
+    from .bluetooth import BluetoothConnector
+
+    return BluetoothConnector(settings)
+
+
+CONNECTORS: dict[str, WayKind] = {
     "phone_page": WayKind("A page in the phone's browser", 8443, False, _phone_page),
     "sensor_logger": WayKind("The app Sensor Logger", 8000, False, _sensor_logger),
     "phyphox": WayKind("The app phyphox", 8080, True, _phyphox),

@@ -224,7 +224,7 @@ UNKNOWN = (
 )
 
 
-class BluetoothWay:
+class BluetoothConnector:
     """Looks for a device, listens to it, and looks again when it is gone.
 
     ``address`` in the settings is its name or Bluetooth address; empty: any that is known.

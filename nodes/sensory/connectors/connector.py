@@ -66,7 +66,7 @@ class Arrived:
     dropped: int = 0
 
 
-class Way(Protocol):
+class Connector(Protocol):
     """A way that sensor data come in; used by one thread, the node's.
 
     Servers and clients that run in a thread of their own hand over through a bounded queue

@@ -39,7 +39,7 @@ class Client:
         return whole
 
 
-class TcpWay:
+class TcpConnector:
     """A server for lines: many may connect, the node follows one of them."""
 
     def __init__(self, settings: Settings) -> None:
@@ -152,7 +152,7 @@ class TcpWay:
         connection.close()
 
 
-class PaperWatchWay(TcpWay):
+class PaperWatchConnector(TcpConnector):
     """The watch and phone apps of the NEP paper, which connect to TCP port 8080.
 
     Source: enriquecoronadozu/smartwatches_apps; lines ``a;ns;x;y;z`` are the accelerometer in
@@ -166,7 +166,7 @@ _MOST_PACKETS = 500  # in one batch; a flood beyond that is left to the system, 
 _PACKET_BYTES = 65_536
 
 
-class UdpWay:
+class UdpConnector:
     """Packets of one or more lines each; every address is a sender."""
 
     def __init__(self, settings: Settings) -> None:

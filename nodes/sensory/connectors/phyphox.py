@@ -182,7 +182,7 @@ _LOST_S = 2.0  # so long without anything new, and its times are asked for anew
 _MOST_READINGS = 2_000  # of one answer: the last ones, after a pause
 
 
-class PhyphoxWay:
+class PhyphoxConnector:
     """Asks a phone some twenty times a second, and again when it was away."""
 
     def __init__(self, settings: Settings) -> None:

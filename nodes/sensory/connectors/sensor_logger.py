@@ -207,7 +207,7 @@ class _Device:
         self.wears_watch = False
 
 
-class SensorLoggerWay:
+class SensorLoggerConnector:
     """A web server that takes what the app pushes, at every path."""
 
     def __init__(self, settings: Settings) -> None:

@@ -33,7 +33,7 @@ _MOST_BYTES = 8_192
 _LONG_S = 3.0  # a connection that lasted so long was a good one
 
 
-class SensorServerWay:
+class SensorServerConnector:
     """Connects to a phone, and again when it was away."""
 
     def __init__(self, settings: Settings) -> None:

@@ -351,7 +351,7 @@ class _Connections:
 # The phone page as a way that a phone's sensors reach the node.
 
 
-class PhonePageWay:
+class PhonePageConnector:
     """Serves the page while the node runs; ``folder`` is where the certificate is kept."""
 
     def __init__(self, settings: Settings, folder: Path | None = None) -> None:

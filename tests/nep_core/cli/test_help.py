@@ -66,7 +66,7 @@ def test_every_example_of_the_help_works(
     if command == "play":
         with Recorder("walk.mcap", network=join("recorder")) as recorder:
             recorder.add(["/imu"])
-            until(lambda: recorder.tally.messages >= 20)
+            until(lambda: recorder.totals.messages >= 20)
     if command in ENDS and "--count" not in line and "--seconds" not in line:
         line = f"{line} {ENDS[command]}"
     if command == "doctor":

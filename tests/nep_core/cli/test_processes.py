@@ -138,7 +138,7 @@ def test_a_player_that_waits_for_subscribers_is_stopped_at_once(
     path = tmp_path / "short.mcap"
     with Recorder(path, network=busy) as recorder:
         recorder.add(["/speed"])
-        until(lambda: recorder.tally.messages)
+        until(lambda: recorder.totals.messages)
     end_s = time.monotonic() + 20
 
     with Player(path, prefix="/old") as player:

@@ -52,7 +52,7 @@ def recording(join: Join, tmp_path: Path) -> Path:
             for publisher, (_, message, _) in zip(publishers, SENT, strict=True):
                 publisher.send(message)
             time.sleep(0.02)
-        until(lambda: recorder.tally.messages == 2 * len(SENT))
+        until(lambda: recorder.totals.messages == 2 * len(SENT))
     talker.close()  # else its latched message would come once more
     return path
 
@@ -72,7 +72,7 @@ def test_what_is_played_is_what_was_recorded_byte_for_byte(
         recorder.add(topic for topic, _, _ in SENT)
         player.wait_for_subscribers(10)
         player.play()
-        until(lambda: recorder.tally.messages == 2 * len(SENT))
+        until(lambda: recorder.totals.messages == 2 * len(SENT))
 
     first, second = list(read_recording(recording)), list(read_recording(again))
     assert kept(second) == kept(first)
@@ -168,7 +168,7 @@ def test_a_topic_with_texts_and_msgpack_is_played_by_two_publishers(
         recorder.add(["/x"])
         Publisher("/x", network=join("one"), encoding="msgpack").send({"n": 1})
         Publisher("/x", network=join("two")).send("text")
-        until(lambda: recorder.tally.messages == 2)
+        until(lambda: recorder.totals.messages == 2)
     heard = RawSubscriber("/x", network=join("hearer"))
 
     with Player(path, join=join) as player:
@@ -187,7 +187,7 @@ def test_topics_that_appear_later_are_recorded_too(join: Join, tmp_path: Path) -
         publishers[0].wait_for_subscribers(1, 10)
         for publisher in publishers:
             publisher.send({"n": 1})
-        until(lambda: recorder.tally.messages == 1)
+        until(lambda: recorder.totals.messages == 1)
 
     assert list(overview(recorder.path).topics) == ["/later"]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from nep_core.wire.messages import Imu
-from nodes.perceptual.recognition.sensor_input import SensorEar
+from nodes.perceptual.recognition.sensor_input import SensorInput
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.streams import mirrored, takes_of
 from nodes.perceptual.recognition.training import train
@@ -43,7 +43,7 @@ class Listening:
         for batch in batches:
             if self.ear is None:
                 make = partial(Spotter, self.model)
-                self.ear = SensorEar(batch, self.model, make, self.worn, *[self._tell] * 2)
+                self.ear = SensorInput(batch, self.model, make, self.worn, *[self._tell] * 2)
             found += self.ear.hear(batch)
         return found + self.ear.flush()
 
@@ -126,10 +126,10 @@ def at_rates(recording, *rates_hz, pause_s=0.0):
 
 @pytest.mark.parametrize("rate_hz", [100, 50, 25, 16])
 def test_the_rate_of_the_sensor_does_not_matter(model, stranger, rate_hz):
-    tally = match(takes_of(stranger), Listening(model).hear(at_rates(stranger, rate_hz)))
+    totals = match(takes_of(stranger), Listening(model).hear(at_rates(stranger, rate_hz)))
 
-    assert tally.recall >= 5 / 6
-    assert tally.fired <= tally.made + 1
+    assert totals.recall >= 5 / 6
+    assert totals.fired <= totals.made + 1
 
 
 def test_a_rate_that_changes_in_the_middle_does_not_matter(model, stranger):
@@ -177,11 +177,11 @@ def test_real_people_are_understood_at_every_rate(shared_data):
             listening = Listening(model)
             make = partial(Spotter, model, method="gmr")
             batches = list(at_rates(rest, *rates_hz))
-            listening.ear = SensorEar(
+            listening.ear = SensorInput(
                 batches[0], model, make, "as recorded", *[listening.told.append] * 2
             )
-            tally = match(takes_of(rest), listening.hear(batches))
-            caught, made = caught + tally.right, made + tally.made
+            totals = match(takes_of(rest), listening.hear(batches))
+            caught, made = caught + totals.right, made + totals.made
         return caught / made
 
     found = [recall(100), recall(16), recall(100, 16, 50, 25)]

@@ -4,7 +4,7 @@ import numpy as np
 
 from nodes.perceptual.recognition.features import Detection, Gesture, PeakPicker, best_lengths
 from nodes.perceptual.recognition.streams import Take
-from nodes.perceptual.recognition.validation import Tally, match
+from nodes.perceptual.recognition.validation import Totals, match
 
 GESTURES = (Gesture("left", 0.9, 1.0, 1.1, 5), Gesture("right", 0.9, 1.0, 1.1, 5))
 SECOND = np.array([1.0, 1.0])
@@ -71,15 +71,15 @@ def test_triggers_are_paired_with_the_takes_that_caused_them():
         Detection("left", 0.9, 20.0, 21.0),
     ]
 
-    tally = match(takes, detections)
+    totals = match(takes, detections)
 
-    assert sorted(tally.pairs) == [
+    assert sorted(totals.pairs) == [
         ("", "left"),
         ("", "right"),
         ("left", ""),
         ("left", "left"),
         ("right", "left"),
     ]
-    assert (tally.made, tally.right, tally.fired) == (3, 1, 4)
-    assert (tally.recall, tally.precision, tally.f1) == (1 / 3, 1 / 4, 2 / 7)
-    assert (Tally().recall, Tally().f1) == (0.0, 0.0)
+    assert (totals.made, totals.right, totals.fired) == (3, 1, 4)
+    assert (totals.recall, totals.precision, totals.f1) == (1 / 3, 1 / 4, 2 / 7)
+    assert (Totals().recall, Totals().f1) == (0.0, 0.0)

@@ -9,7 +9,7 @@ from nodes.perceptual.recognition.dataset import simulated_everyday
 from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.streams import takes_of
 from nodes.perceptual.recognition.training import train
-from nodes.perceptual.recognition.validation import Tally, match
+from nodes.perceptual.recognition.validation import Totals, match
 from nodes.recordings import read_recordings
 
 
@@ -43,11 +43,11 @@ def test_the_right_trigger_fires_for_most_gestures_and_hardly_ever_else(shared_d
     parts = [first_takes(one, 5) for one in sessions]
     model = train([first for first, _ in parts], simulated_everyday(), ["trees"])
 
-    tally = sum((match(takes_of(rest), triggers(model, rest)) for _, rest in parts), Tally())
+    totals = sum((match(takes_of(rest), triggers(model, rest)) for _, rest in parts), Totals())
 
-    assert tally.made == 50
-    assert tally.recall >= 0.85
-    assert tally.precision >= 0.85
+    assert totals.made == 50
+    assert totals.recall >= 0.85
+    assert totals.precision >= 0.85
     everyday = [
         replace(one, labels=None) for one in read_recordings(shared_data / "everyday_watch")
     ]

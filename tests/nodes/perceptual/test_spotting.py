@@ -30,9 +30,9 @@ def usual(model, stranger):
 def test_each_gesture_of_a_stranger_fires_once(model, stranger, method, gyroscope):
     found = spotted(model, stranger, method=method, gyroscope=gyroscope)
 
-    tally = match(takes_of(stranger), found)
-    assert tally.recall >= 5 / 6
-    assert tally.fired - tally.right <= (2 if method == "trees" else 4)
+    totals = match(takes_of(stranger), found)
+    assert totals.recall >= 5 / 6
+    assert totals.fired - totals.right <= (2 if method == "trees" else 4)
 
 
 def test_everyday_movement_fires_nothing(model):
@@ -58,9 +58,9 @@ def test_one_sample_at_a_time_gives_the_same_as_all_at_once_and_soon(model, stra
 def test_the_rate_of_the_sensor_does_not_matter(model, rate_hz):
     recording = simulate_session(152, ("hand_up", "karate"), 2, rate_hz=rate_hz)
 
-    tally = match(takes_of(recording), spotted(model, recording))
+    totals = match(takes_of(recording), spotted(model, recording))
 
-    assert (tally.right, tally.made) == (4, 4)
+    assert (totals.right, totals.made) == (4, 4)
 
 
 def test_a_spotter_of_one_gesture_tells_that_one_only(model, stranger, usual):

@@ -12,7 +12,7 @@ import pytest
 from nep_core.errors import PortTaken
 from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.phone_page import server, site
-from nodes.sensory.phone_page.server import PhonePage, PhonePageWay
+from nodes.sensory.phone_page.server import PhonePage, PhonePageConnector
 from tests.nodes.sensory.page_client import (
     TOKEN,
     ask,
@@ -147,8 +147,8 @@ def test_without_a_token_a_new_one_is_made_each_time(folder):
 
 
 def test_the_way_tells_where_and_keeps_the_users_token_for_itself(folder):
-    own = PhonePageWay(Settings(port=8443, token="secret"), folder)
-    made = PhonePageWay(Settings(port=8443), folder)
+    own = PhonePageConnector(Settings(port=8443, token="secret"), folder)
+    made = PhonePageConnector(Settings(port=8443), folder)
 
     assert (
         str(own.where)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 # Walk from block to block with the keyboard; what is arrived at is selected, shown and told.
 
-Way = Callable[[Project, Sequence[str], str], str]
+Direction = Callable[[Project, Sequence[str], str], str]
 """From a block to another one, given the stacks in the order of reading."""
 
 
@@ -44,7 +44,7 @@ class Walk:
         stacks = reading_order(self._canvas)
         return self._canvas.editor.project.stacks[stacks[0]].body[0] if stacks else ""
 
-    def go(self, way: Way) -> None:
+    def go(self, way: Direction) -> None:
         """Go one block further."""
         cursor, project = self.cursor(), self._canvas.editor.project
         if not cursor:
@@ -71,7 +71,7 @@ class Walk:
         if stacks:
             self._arrive(self._canvas.editor.project.stacks[stacks[index]].body[0])
 
-    def extend(self, way: Way) -> None:
+    def extend(self, way: Direction) -> None:
         """Stretch the selection from where it began to the next block."""
         canvas, cursor = self._canvas, self.cursor()
         if not cursor:

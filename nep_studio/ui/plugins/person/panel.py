@@ -23,7 +23,7 @@ from nep_core.program.human import plain
 from nep_core.wire import messages as m
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.blocks.slots import why_not_line
-from nep_studio.project.triggers import Happening, happenings_of
+from nep_studio.project.triggers import Occurrence, happenings_of
 from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.messages import announce
@@ -50,13 +50,13 @@ class WaitingBoard(QWidget):
     def __init__(
         self,
         look: Look,
-        begin: Callable[[Happening], bool],
-        end: Callable[[Happening], None],
+        begin: Callable[[Occurrence], bool],
+        end: Callable[[Occurrence], None],
         nothing: str,
     ) -> None:
         super().__init__()
         self._look, self._begin, self._end, self._nothing = look, begin, end, nothing
-        self._shown: list[Happening] | None = None
+        self._shown: list[Occurrence] | None = None
         self.buttons: list[HappeningButton] = []
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
@@ -68,7 +68,7 @@ class WaitingBoard(QWidget):
         box.addWidget(self._rows)
         box.addWidget(self.words)
 
-    def show_happenings(self, happenings: list[Happening], here: dict[str, str]) -> None:
+    def show_happenings(self, happenings: list[Occurrence], here: dict[str, str]) -> None:
         """Show these; ``here`` are the visitors that are there now, with their names."""
         if happenings != self._shown:
             self._shown = happenings
@@ -81,7 +81,7 @@ class WaitingBoard(QWidget):
             if button.isCheckable():
                 button.setChecked(_is_here(button.happening, here))
 
-    def _make_buttons(self, happenings: list[Happening]) -> None:
+    def _make_buttons(self, happenings: list[Occurrence]) -> None:
         for button in self.buttons:
             button.let_go()
             self._flow.removeWidget(button)
@@ -96,7 +96,7 @@ class WaitingBoard(QWidget):
         self._rows.setVisible(bool(self.buttons))
 
 
-def _is_here(happening: Happening, here: dict[str, str]) -> bool:
+def _is_here(happening: Occurrence, here: dict[str, str]) -> bool:
     if happening.kind not in here:
         return False
     return not happening.value or plain(happening.value) == plain(here[happening.kind])
@@ -223,7 +223,7 @@ class HumanPanel(QScrollArea):
         self._show_waiting()
         self._show_state()
 
-    def happenings(self) -> list[Happening]:
+    def happenings(self) -> list[Occurrence]:
         """What the open program waits for."""
         editor = self._ear.editor
         return [] if editor is None else happenings_of(editor.project, editor.language)
@@ -278,7 +278,7 @@ class HumanPanel(QScrollArea):
         self.visitors.states |= {heard.message.robot: heard.message for heard in batch}
         robots = [state for state in self.visitors.states.values() if state.listening]
         words = dict.fromkeys(word for state in robots for word in state.listening)
-        self.listening.show_happenings([Happening("word", word, word) for word in words], {})
+        self.listening.show_happenings([Occurrence("word", word, word) for word in words], {})
 
     def _on_robot_chosen(self, robot: str) -> None:
         self.stimuli.robot = robot
@@ -288,7 +288,7 @@ class HumanPanel(QScrollArea):
         text = self.words.text().strip()
         if why_not_line(text) is not None or not plain(text):
             self.words.setFocus()
-        elif self.stimuli.begin(Happening("word", text, text)):
+        elif self.stimuli.begin(Occurrence("word", text, text)):
             self.words.clear()
 
     def _on_told(self, words: str) -> None:

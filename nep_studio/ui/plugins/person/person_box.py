@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 from nep_core.program.human import plain
 from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import FIRST_NAMES, LONGEST_NAME
-from nep_studio.project.triggers import Happening
+from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import FlowLayout
@@ -62,7 +62,7 @@ class PersonBox(QWidget):
         self.before = WordsButton(tr("Step before its eyes"), look, "eye")
         self.looks = [
             HappeningButton(
-                Happening("emotion", value, label),
+                Occurrence("emotion", value, label),
                 look,
                 stimuli.begin,
                 stimuli.end,
@@ -207,10 +207,10 @@ class HappeningButton(WordsButton):
 
     def __init__(
         self,
-        happening: Happening,
+        happening: Occurrence,
         look: Look,
-        begin: Callable[[Happening], bool],
-        end: Callable[[Happening], None],
+        begin: Callable[[Occurrence], bool],
+        end: Callable[[Occurrence], None],
         words: str = "",
     ) -> None:
         super().__init__(words or words_of(happening), look, ICONS[happening.kind])

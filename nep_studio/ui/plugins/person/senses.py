@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import FIRST_MARK
-from nep_studio.project.triggers import Happening
+from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import tr
@@ -255,7 +255,7 @@ class TouchBox(QWidget):
         names = language.choices.get("touch_parts", {})
         self.buttons = [
             HappeningButton(
-                Happening("touch", part, names.get(part, part)),
+                Occurrence("touch", part, names.get(part, part)),
                 look,
                 stimuli.begin,
                 stimuli.end,
@@ -300,7 +300,7 @@ class GestureBox(QWidget):
         box.addWidget(self._certain)
         self.show_gestures([], language.choices.get("gestures", {}))
 
-    def show_gestures(self, of_program: Iterable[Happening], known: Mapping[str, str]) -> None:
+    def show_gestures(self, of_program: Iterable[Occurrence], known: Mapping[str, str]) -> None:
         """Offer the gestures of the program, and all that the watch on the screen knows."""
         wanted = {one.value: one.words for one in of_program if one.kind == "gesture"}
         offered = {**wanted, **known}
@@ -324,7 +324,7 @@ class GestureBox(QWidget):
             button.deleteLater()
         self.buttons = [
             HappeningButton(
-                Happening("gesture", name, label),
+                Occurrence("gesture", name, label),
                 self._look,
                 self._stimuli.begin,
                 self._stimuli.end,

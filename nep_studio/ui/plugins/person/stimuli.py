@@ -15,7 +15,7 @@ from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState, Thing, ThingKind
 from nep_studio.blocks.program import ALL_ROBOTS
 from nep_studio.project.surroundings import AHEAD_M, SIZES, named
-from nep_studio.project.triggers import Happening, Kind, state_of
+from nep_studio.project.triggers import Kind, Occurrence, state_of
 from nep_studio.run.plan import VIRTUAL_WATCH
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.running.runner import Runner
@@ -41,7 +41,7 @@ ICONS: dict[Kind, str] = {
 """The sign of each kind."""
 
 
-def words_of(happening: Happening) -> str:
+def words_of(happening: Occurrence) -> str:
     """What one does so that something happens, on a button: "Touch the head"."""
     about = happening.words or happening.value
     words = _words(happening, about)
@@ -49,7 +49,7 @@ def words_of(happening: Happening) -> str:
     return tr("{what} ({robot})", what=words, robot=happening.robot) if is_named else words
 
 
-def _words(happening: Happening, about: str) -> str:
+def _words(happening: Occurrence, about: str) -> str:
     match happening.kind:
         case "word":
             return tr("Say “{word}”", word=about or tr("hello"))
@@ -72,7 +72,7 @@ def _words(happening: Happening, about: str) -> str:
     return _measured_words(happening, about)
 
 
-def _measured_words(happening: Happening, about: str) -> str:
+def _measured_words(happening: Occurrence, about: str) -> str:
     amount = happening.amount
     match happening.kind:
         case "sensor" if amount is not None:
@@ -256,12 +256,12 @@ class Stimuli(QObject):
         nodes = self._runner.board.nodes
         return any(name in nodes and nodes[name].is_there for name in planned)
 
-    def noticing(self, happening: Happening) -> str:
+    def noticing(self, happening: Occurrence) -> str:
         """The robot on the screen that notices something; "" when none is there."""
         wanted = self.robot if happening.robot in (ALL_ROBOTS, "") else happening.robot
         return wanted if self._is_there(wanted) else ""
 
-    def begin(self, happening: Happening) -> bool:
+    def begin(self, happening: Occurrence) -> bool:
         """Let something happen; what lasts goes on until ``end``."""
         reason = self.why_not
         if reason:
@@ -277,7 +277,7 @@ class Stimuli(QObject):
         self._let(robot, happening)
         return True
 
-    def end(self, happening: Happening) -> None:
+    def end(self, happening: Occurrence) -> None:
         """Let go, or take away, what was begun."""
         robot = self.noticing(happening)
         if happening.kind == "touch" and robot:
@@ -326,7 +326,7 @@ class Stimuli(QObject):
     def _on_changed(self, _what: object) -> None:
         self.changed.emit()
 
-    def _let(self, robot: str, happening: Happening) -> None:
+    def _let(self, robot: str, happening: Occurrence) -> None:
         value, amount = happening.value, happening.amount
         match happening.kind:
             case "word":
@@ -355,7 +355,7 @@ class Stimuli(QObject):
         """Touch the first sensor of a part: one finger touches one place."""
         self._sense(robot, TOUCHES.get(part, (part,))[0], value)
 
-    def _gesture(self, happening: Happening) -> bool:
+    def _gesture(self, happening: Occurrence) -> bool:
         if self.can_move_watch(happening.value):
             is_sent = self._runner.send(
                 m.GESTURE_REQUEST, m.GestureRequest(gesture=happening.value)
@@ -364,7 +364,7 @@ class Stimuli(QObject):
             return is_sent
         return self._tell(state_of(happening), SOURCE, happening)
 
-    def _without_robot(self, happening: Happening) -> bool:
+    def _without_robot(self, happening: Occurrence) -> bool:
         """Tell the program what a robot would have noticed; what is measured cannot be told."""
         if happening.kind in TOLD_BY_HAND:
             source = SOURCE if happening.robot in (ALL_ROBOTS, "") else happening.robot
@@ -378,7 +378,7 @@ class Stimuli(QObject):
         )
         return False
 
-    def _tell(self, state: str, source: str, happening: Happening) -> bool:
+    def _tell(self, state: str, source: str, happening: Occurrence) -> bool:
         told = m.HumanBehavior(human_state=state, source=source, certainty=self.certainty)
         if not self._runner.send(m.HUMAN_BEHAVIOR, told):
             return False

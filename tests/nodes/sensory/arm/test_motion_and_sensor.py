@@ -72,11 +72,11 @@ def test_the_acceleration_summed_up_twice_gives_the_way_of_the_wrist():
 
     acc, _gyr = felt_exactly(motion, BODY, t)
     in_world = np.einsum("nij,nj->ni", rotations, acc) - [0, 0, GRAVITY_M_S2]
-    way = (np.cumsum(np.cumsum(in_world, axis=0), axis=0) * step_s**2)[-1]
+    connector = (np.cumsum(np.cumsum(in_world, axis=0), axis=0) * step_s**2)[-1]
 
     moved = positions[-1] - positions[0]
     assert np.linalg.norm(moved) > 0.3
-    assert way == pytest.approx(moved, abs=0.003)
+    assert connector == pytest.approx(moved, abs=0.003)
 
 
 def test_a_stroke_that_begins_during_another_makes_no_jump():

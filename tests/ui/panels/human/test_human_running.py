@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
-from nep_studio.project.triggers import Happening
+from nep_studio.project.triggers import Occurrence
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.plugins.person.panel import HumanPanel
 from nep_studio.ui.shell.main_window import MainWindow
@@ -133,8 +133,8 @@ def test_what_a_robot_elsewhere_would_notice_is_told_by_hand_but_not_what_it_mea
     panel = human(rule("robot_events.heard"))
     heard = run()
 
-    is_told = panel.stimuli.begin(Happening("touch", "head", "the head", "Anna"))
-    is_measured = panel.stimuli.begin(Happening("sensor", "battery", "battery", "Anna", 5.0))
+    is_told = panel.stimuli.begin(Occurrence("touch", "head", "the head", "Anna"))
+    is_measured = panel.stimuli.begin(Occurrence("sensor", "battery", "battery", "Anna", 5.0))
 
     def told() -> list[tuple[str, str]]:
         return [(one.human_state, one.source) for one in heard if isinstance(one, m.HumanBehavior)]

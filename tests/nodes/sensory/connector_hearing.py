@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from nodes.recordings import Recording
-from nodes.sensory.connectors import WAYS
-from nodes.sensory.connectors.connector import Arrived, Settings, Way
+from nodes.sensory.connectors import CONNECTORS
+from nodes.sensory.connectors.connector import Arrived, Connector, Settings
 
 WAIT_S = 8.0
 G = 9.80665
@@ -37,8 +37,8 @@ def free_port(kind: socket.SocketKind = socket.SOCK_STREAM) -> int:
 class Collected:
     """All that has arrived by a way."""
 
-    def __init__(self, way: Way, port: int) -> None:
-        self.way, self.port = way, port
+    def __init__(self, connector: Connector, port: int) -> None:
+        self.connector, self.port = connector, port
         self.arrivals: list[Arrived] = []
 
     @property
@@ -59,7 +59,7 @@ class Collected:
         while not wanted():
             if time.monotonic() > end_s:
                 pytest.fail(f"what was wanted did not come, but {self.arrivals[-3:]}")
-            self.arrivals += self.way.readings(time.monotonic() + 0.02)
+            self.arrivals += self.connector.readings(time.monotonic() + 0.02)
 
 
 @contextmanager
@@ -67,13 +67,13 @@ def opened(through: str, **settings: object) -> Iterator[Collected]:
     """A way that is open, on a port of its own unless one is given."""
     kind = socket.SOCK_DGRAM if through == "udp" else socket.SOCK_STREAM
     given = Settings(**({"port": free_port(kind)} | settings))
-    way = WAYS[through].make(given)
+    connector = CONNECTORS[through].make(given)
     try:
-        way.open()
-        yield Collected(way, given.port)
+        connector.open()
+        yield Collected(connector, given.port)
     finally:
         began_s = time.monotonic()
-        way.close()
+        connector.close()
         assert time.monotonic() - began_s < 1.5
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from nodes.sensory.connectors.sensor_logger import read_message, readings_of
 from tests.nodes.sensory.senders import SensorLogger, resting
-from tests.nodes.sensory.way_hearing import assert_same, opened, turned
+from tests.nodes.sensory.connector_hearing import assert_same, opened, turned
 
 
 def logger(heard, **about):
@@ -229,8 +229,8 @@ def test_a_flood_of_messages_keeps_memory_bounded():
             count += 1
             sender.push(message | {"messageId": count, "deviceId": str(random.random())})
 
-        assert len(heard.way._devices) <= 16
-        assert len(heard.way._background._arrived) <= 256
+        assert len(heard.connector._devices) <= 16
+        assert len(heard.connector._background._arrived) <= 256
 
 
 parts = st.dictionaries(

@@ -4,7 +4,7 @@ import pytest
 
 from nep_core.errors import ParameterError
 from tests.nodes.sensory.phones import SensorServerPhone
-from tests.nodes.sensory.way_hearing import free_port, opened, turned
+from tests.nodes.sensory.connector_hearing import free_port, opened, turned
 
 
 def of(phone):
@@ -55,7 +55,7 @@ def test_a_server_that_is_not_started_is_told_and_found_later():
     with opened("sensor_server", address="127.0.0.1", port=free_port()) as heard:
         heard.until(lambda: "does not answer" in heard.troubles)
         with SensorServerPhone(turned()) as phone:
-            heard.way._port = phone.port
+            heard.connector._port = phone.port
             heard.until(lambda: accelerations(heard))
 
 

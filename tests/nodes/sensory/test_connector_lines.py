@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nep_core.errors import PortTaken
-from nodes.sensory.connectors import WAYS
+from nodes.sensory.connectors import CONNECTORS
 from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.connectors.lines import Client
 from tests.nodes.sensory.senders import (
@@ -19,7 +19,7 @@ from tests.nodes.sensory.senders import (
     paper_line,
     sensagram_line,
 )
-from tests.nodes.sensory.way_hearing import opened, turned
+from tests.nodes.sensory.connector_hearing import opened, turned
 
 
 @pytest.mark.parametrize("line", [paper_line, sensagram_line])
@@ -72,7 +72,7 @@ def test_each_of_many_clients_is_a_sender_of_its_own():
 
 def test_a_taken_port_is_told_with_what_to_do():
     with opened("tcp") as heard:
-        other = WAYS["paper_watch"].make(Settings(heard.port))
+        other = CONNECTORS["paper_watch"].make(Settings(heard.port))
         with pytest.raises(PortTaken) as told:
             other.open()
         other.close()
@@ -94,7 +94,7 @@ def test_a_line_that_does_not_end_is_told_once_and_takes_no_memory():
         client.settimeout(5)
         for _ in range(100):
             client.sendall(b"1" * 10_000)
-            heard.arrivals += heard.way.readings(time.monotonic() + 0.002)
+            heard.arrivals += heard.connector.readings(time.monotonic() + 0.002)
         client.sendall(b"\na;1;0;0;9.81\n")
         heard.until(lambda: heard.readings)
 
@@ -167,24 +167,24 @@ def test_many_senders_take_no_more_memory():
                 client.sendto(b"a;1;0;0;9.81", ("127.0.0.1", heard.port))
         heard.until(lambda: len(heard.readings) == len(senders))
 
-        assert len(heard.way._senders._readers) <= 32
+        assert len(heard.connector._senders._readers) <= 32
 
 
 @pytest.mark.parametrize("through", ["udp", "tcp", "sensor_logger", "phyphox", "sensor_server"])
 def test_a_way_that_was_never_opened_can_be_closed(through):
-    way = WAYS[through].make(Settings(port=1))
+    connector = CONNECTORS[through].make(Settings(port=1))
 
-    way.close()
+    connector.close()
 
-    assert way.where
-    assert way.missing
+    assert connector.where
+    assert connector.missing
 
 
 def test_when_nothing_comes_the_user_is_told_where_to_send():
     alone, open_to_all = Settings(8086), Settings(8086, listen_on="network")
 
     for kind in ("udp", "tcp", "paper_watch", "sensor_logger"):
-        assert "set “listen on” to network" in str(WAYS[kind].make(alone).missing)
-        told = str(WAYS[kind].make(open_to_all).missing)
+        assert "set “listen on” to network" in str(CONNECTORS[kind].make(alone).missing)
+        told = str(CONNECTORS[kind].make(open_to_all).missing)
         assert "8086" in told
         assert "firewall" in told

@@ -13,7 +13,7 @@ from nep_core.errors import ParameterError
 from nodes.sensory.connectors.phyphox import read_answer, read_config
 from nodes.sensory.connectors.servers import phone_address
 from tests.nodes.sensory.phones import NAMES, PhyphoxPhone
-from tests.nodes.sensory.way_hearing import assert_same, free_port, opened, turned
+from tests.nodes.sensory.connector_hearing import assert_same, free_port, opened, turned
 
 OTHER_NAMES = {
     "accelerometer": ("t", "x axis", "y", "z|raw"),
@@ -65,7 +65,7 @@ def test_a_phone_that_was_away_is_found_again():
     with opened("phyphox", address="127.0.0.1", port=port) as heard:
         heard.until(lambda: "does not answer" in heard.troubles)
         phone = PhyphoxPhone(turned(3.0))
-        heard.way._port = phone.port
+        heard.connector._port = phone.port
         with phone:
             heard.until(lambda: len(heard.readings) >= 10)
 
