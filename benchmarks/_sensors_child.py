@@ -19,7 +19,7 @@ from nep_studio.ui.plugins.sensors.feed import SensorFeed
 from nep_studio.ui.plugins.sensors.measuring import TimeView
 from nep_studio.ui.plugins.sensors.plots import Plots
 from nep_studio.ui.plugins.sensors.streams import MAGNITUDE, ImuStream, StreamKey
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.look import Look, load_fonts
 
 RATE_HZ = 1000

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from nep_studio.ui.running.actions import fill_run_menu, follow_running
 from nep_studio.ui.services import Services, Studio
 from nep_studio.ui.theme.icons import fit_icons
 from nep_studio.ui.words import is_right_to_left, tr
-from nep_studio.ui.workbench.problem_style import style_check
+from nep_studio.ui.workbench.problems import style_check
 
 from .dialogs import offer_recovery, open_settings
 from .menus import (

@@ -44,7 +44,7 @@ from nep_studio.ui.background import Background
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import available_languages, tr
 
 if TYPE_CHECKING:

@@ -37,7 +37,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font, load_fonts
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 from nep_studio.ui.workbench.workbench import block_font
 

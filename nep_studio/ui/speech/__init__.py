@@ -10,8 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.wire import messages as m
 from nep_studio.settings import Settings
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Runner, Tap
 
 from .robot_voices import MakeVoice, RobotSounds, RobotVoices
 from .voices import find_voice

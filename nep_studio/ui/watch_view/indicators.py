@@ -17,8 +17,7 @@ from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr

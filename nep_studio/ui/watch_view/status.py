@@ -13,7 +13,7 @@ from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH, PlannedNode
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import tr
 
 from .indicators import SILENT_S, WatchListener, figure_lines, figures, rate_words

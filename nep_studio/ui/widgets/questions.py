@@ -17,7 +17,7 @@ from nep_studio.ui.messages import Message, Messages
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.words import tr
 
-from .labels import room_around
+from .forms import room_around
 
 
 class Asking(QFrame):

@@ -22,7 +22,7 @@ from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import tr
 
 from .code_text import CodeText

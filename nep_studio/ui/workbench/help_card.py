@@ -13,7 +13,7 @@ from nep_studio.blocks.procedures import CALL, header_of, procedure_of
 from nep_studio.help.texts import block_page
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.field_edit import beside
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
 from .find_bar import FindBar

@@ -15,8 +15,8 @@ from nodes.sensory.line_reader import LineReader
 from nodes.sensory.phone_page.site import read_message as read_batch
 from nodes.sensory.reading import Reading
 from nodes.sensory.sample_stream import SampleStream
-from tests.nodes.sensory.senders import TcpSender
 from tests.nodes.sensory.connector_hearing import free_port, opened, turned
+from tests.nodes.sensory.senders import TcpSender
 
 GRAVITY_M_S2 = 9.81
 

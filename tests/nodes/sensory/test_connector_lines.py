@@ -12,6 +12,7 @@ from nep_core.errors import PortTaken
 from nodes.sensory.connectors import CONNECTORS
 from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.connectors.lines import Client
+from tests.nodes.sensory.connector_hearing import opened, turned
 from tests.nodes.sensory.senders import (
     TcpSender,
     UdpSender,
@@ -19,7 +20,6 @@ from tests.nodes.sensory.senders import (
     paper_line,
     sensagram_line,
 )
-from tests.nodes.sensory.connector_hearing import opened, turned
 
 
 @pytest.mark.parametrize("line", [paper_line, sensagram_line])

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from nep_core.errors import ParameterError
 from nodes.sensory.connectors.phyphox import read_answer, read_config
 from nodes.sensory.connectors.servers import phone_address
-from tests.nodes.sensory.phones import NAMES, PhyphoxPhone
 from tests.nodes.sensory.connector_hearing import assert_same, free_port, opened, turned
+from tests.nodes.sensory.phones import NAMES, PhyphoxPhone
 
 OTHER_NAMES = {
     "accelerometer": ("t", "x axis", "y", "z|raw"),

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nodes.sensory.connectors.sensor_logger import read_message, readings_of
-from tests.nodes.sensory.senders import SensorLogger, resting
 from tests.nodes.sensory.connector_hearing import assert_same, opened, turned
+from tests.nodes.sensory.senders import SensorLogger, resting
 
 
 def logger(heard, **about):

@@ -3,8 +3,8 @@
 import pytest
 
 from nep_core.errors import ParameterError
-from tests.nodes.sensory.phones import SensorServerPhone
 from tests.nodes.sensory.connector_hearing import free_port, opened, turned
+from tests.nodes.sensory.phones import SensorServerPhone
 
 
 def of(phone):

@@ -10,8 +10,8 @@ import psutil
 import pytest
 
 from tests.node_running import until
-from tests.nodes.sensory.senders import SensorLogger
 from tests.nodes.sensory.connector_hearing import free_port, turned
+from tests.nodes.sensory.senders import SensorLogger
 
 
 @pytest.fixture

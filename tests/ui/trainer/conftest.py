@@ -10,7 +10,6 @@ import pytest
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QApplication, QSplitter, QWidget
 from pytestqt.qtbot import QtBot
-from tests.ui.trainer.results_controller import OpenProject
 
 from nep_core.wire.messages import Imu
 from nep_studio.ui.canvas.canvas import Canvas
@@ -18,9 +17,9 @@ from nep_studio.ui.messages import Messages
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage
 from nep_studio.ui.plugins.gestures.results.training import Training
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.look import Look
+from tests.ui.trainer.results_controller import OpenProject
 from tests.ui.window.conftest import answer, chooser, home, studio, window
 
 __all__ = ["answer", "chooser", "home", "studio", "window"]

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
-from tests.ui.trainer.results_controller import desk, look
 
 from nep_core.wire.messages import Imu
 from nep_studio.blocks.own_gestures import OwnGesture, keep_gesture, keep_recogniser
@@ -18,9 +17,10 @@ from nep_studio.ui.plugins.gestures.results.band import band_of, in_words
 from nep_studio.ui.plugins.gestures.results.certainties import LookedAt, Looks
 from nep_studio.ui.plugins.gestures.results.training import Training
 from nep_studio.ui.plugins.gestures.results.try_out import TryOut
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard
 from nodes.recordings import Recording
 from nodes.sensory.arm.people import perform
+from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.results_material import samples_of, spans_of
 from tests.ui.trainer.results_model import GESTURES, small_model, small_recogniser
 

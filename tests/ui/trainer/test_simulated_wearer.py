@@ -13,8 +13,7 @@ from nep_core.wire.messages import Imu, NodeState, described
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard, Runner
 from nodes.perceptual.recognition.segments import Movement
 from nodes.sensory.arm.gestures import MAKES_GESTURE
 

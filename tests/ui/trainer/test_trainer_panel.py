@@ -12,7 +12,7 @@ from nep_core.wire.messages import Imu
 from nep_studio.ui.plugins.gestures import TrainerPanel
 from nep_studio.ui.plugins.gestures.page import next_step
 from nep_studio.ui.plugins.gestures.results.training import Training
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 

@@ -14,8 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.wire.messages import Imu, NodeState
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard, Runner
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.watch_view.indicators import Flow, Receiving, figures
 from nep_studio.ui.watch_view.status import WatchStatus

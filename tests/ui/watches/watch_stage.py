@@ -15,8 +15,7 @@ from nep_core.wire.messages import Imu, NodeState
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.plugins.watches import dialog as dialog_module
 from nep_studio.ui.plugins.watches.dialog import Plan, WatchDialog
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard, Runner
 from nep_studio.ui.theme.look import Look
 
 ADDRESS, TOKEN = "192.168.1.23", "abcDEF123456"

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.slots import FieldValue
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing, ReasonBubble, beside, piece_of, view_rect_of

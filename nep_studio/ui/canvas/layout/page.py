@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Changes, Project
-from nep_studio.ui.canvas.editing.gc_pause import paused_garbage_collection
 
 from .boxes import Box, Chain, Measures, Piece
 from .index import GridIndex, Rect
 from .layout import Gap, Layout
+
+
+@contextmanager
+def paused_garbage_collection() -> Iterator[None]:
+    """Search again afterwards; without this a third of a large layout's time is the search."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+
 
 # The stacks of a page as chains of boxes, each laid out when somebody first looks at it.
 

@@ -24,8 +24,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import card_around
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import card_around, room_around
 from nep_studio.ui.words import tr
 
 from .search import FoundList, RobotTest

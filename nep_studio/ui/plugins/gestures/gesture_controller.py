@@ -23,7 +23,7 @@ from nep_studio.blocks.own_gestures import (
     training_digest,
 )
 from nep_studio.ui.edits import OpenProject
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.words import tr
 
 from .live import LiveStream, Samples

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import Message
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.widgets.labels import add_title
+from nep_studio.ui.widgets.forms import add_title
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards

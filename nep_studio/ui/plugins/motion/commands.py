@@ -20,7 +20,7 @@ from nep_studio.project.kept_files import to_toml
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.messages import Answer, Message, Messages, announce
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.widgets.labels import add_title
+from nep_studio.ui.widgets.forms import add_title
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import count_words, tr
 

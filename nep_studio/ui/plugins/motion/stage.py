@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QMenu
 from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.view import RobotView
-from nep_studio.ui.widgets.labels import add_title
+from nep_studio.ui.widgets.forms import add_title
 from nep_studio.ui.words import tr
 from robots.body.body import Angles
 from robots.body.inverse import Goal, Reach
@@ -27,8 +27,7 @@ from .rehearsal import starting_posture, torso_for_posing
 if TYPE_CHECKING:
     from nep_studio.blocks.language import Language
     from nep_studio.run.plan import PlannedNode
-    from nep_studio.ui.running.runner import Runner
-    from nep_studio.ui.running.tap import Heard
+    from nep_studio.ui.running.runner import Heard, Runner
 
 
 ROBOT = "motion"

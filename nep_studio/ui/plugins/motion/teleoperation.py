@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 from nep_core.wire import messages as m
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
 from .drive import SILENT_S, STILL, Drive, Pilot, Tilt, sum_of
@@ -32,7 +32,7 @@ from .stage import ACTION
 
 if TYPE_CHECKING:
     from nep_studio.ui.host import Host
-    from nep_studio.ui.running.tap import Heard
+    from nep_studio.ui.running.runner import Heard
 
 LOOK_MS = 100
 WALK, ARM = "walk", "arm"

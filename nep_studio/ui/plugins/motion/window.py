@@ -22,7 +22,7 @@ from nep_studio.blocks.own_animations import OwnAnimation
 from nep_studio.ui.actions import Actions
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons, icon_room
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 from nodes.resources import NAO, model_folder
 from robots.body.body import load_body

@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 
 from nep_studio.ui.node_style import as_json
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard
 
 
 def as_json_lines(messages: Iterable[Heard]) -> str:

@@ -39,10 +39,10 @@ from PySide6.QtWidgets import (
 from nep_core.wire.messages import BY_TOPIC
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import count_words, tr
 
 from .saving import number_fields, save

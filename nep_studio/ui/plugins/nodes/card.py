@@ -33,7 +33,7 @@ from nep_studio.ui.node_style import (
 )
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import count_words, tr
 
 # What the node panel has cards for: nodes that the project needs, and nodes that are there.

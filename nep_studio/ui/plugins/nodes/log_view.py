@@ -32,7 +32,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import count_words, tr
 
 # The end of a node's log, read bit by bit; however much it writes, a piece stays small.

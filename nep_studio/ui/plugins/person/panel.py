@@ -27,7 +27,7 @@ from nep_studio.project.triggers import Occurrence, happenings_of
 from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.messages import announce
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Columns, FlowLayout

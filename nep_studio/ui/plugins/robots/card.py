@@ -27,7 +27,7 @@ from nep_studio.ui.node_style import StateLook
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap, icon_room
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS

@@ -24,11 +24,10 @@ from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import action_words
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.node_style import state_look
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
 from .card import Asking, RobotCard

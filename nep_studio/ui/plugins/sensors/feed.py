@@ -14,7 +14,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Tap
 
 from .streams import Channel, ImuStream, Stream, StreamKey, imu_key
 

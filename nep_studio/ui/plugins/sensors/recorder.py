@@ -29,7 +29,7 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import REPLAY, PlannedNode
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.words import tr
 from nodes.recordings import MAX_SAMPLES
 

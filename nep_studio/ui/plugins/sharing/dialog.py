@@ -24,7 +24,7 @@ from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Message, announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import fit_on_screen, room_around
+from nep_studio.ui.widgets.forms import fit_on_screen, room_around
 from nep_studio.ui.widgets.layouts import scrolled
 from nep_studio.ui.words import tr
 

@@ -41,7 +41,7 @@ from nep_studio.support.startup import Place, StartupFile, startup_files
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, code_font
-from nep_studio.ui.widgets.labels import ElidedLabel, screen_around
+from nep_studio.ui.widgets.forms import ElidedLabel, screen_around
 from nep_studio.ui.words import count_words, tr
 
 from .leaving import HoldBar, Holding, PinQuestion, StayingAwake

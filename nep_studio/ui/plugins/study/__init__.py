@@ -14,7 +14,7 @@ from nep_studio.ui.host import Host, Parts, Plugin
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import count_words, tr
 

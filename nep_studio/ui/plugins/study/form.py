@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
 from nep_studio.study.records import Reply, StudyFolder
 from nep_studio.study.sus import BROOKE, PAPER, Answers, Questionnaire, questionnaire
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import count_words, tr
 
 from .start import ParticipantFields

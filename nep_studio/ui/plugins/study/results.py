@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.study.records import Spread, StudyFolder, Summary, summarize
 from nep_studio.study.sus import BROOKE, PAPER, questionnaire
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import count_words, tr
 
 

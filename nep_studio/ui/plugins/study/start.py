@@ -30,7 +30,7 @@ from nep_studio.study.records import Event, Sitting, StudyFolder, What
 from nep_studio.study.sus import conditions_for, next_code, participant_number
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Message, Told
-from nep_studio.ui.widgets.labels import room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:

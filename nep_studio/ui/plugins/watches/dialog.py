@@ -22,7 +22,7 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.watch_view.indicators import WatchListener
-from nep_studio.ui.widgets.labels import fit_on_screen, room_around
+from nep_studio.ui.widgets.forms import fit_on_screen, room_around
 from nep_studio.ui.widgets.layouts import scrolled, show_top
 from nep_studio.ui.words import is_right_to_left, tr
 

@@ -9,12 +9,11 @@ from dataclasses import dataclass, field
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFont, QPainter, QPen
 
-from nep_studio.ui.canvas.editing.gc_pause import paused_garbage_collection
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.boxes import Chain, Measures
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
-from nep_studio.ui.canvas.layout.page import boxes_of
+from nep_studio.ui.canvas.layout.page import boxes_of, paused_garbage_collection
 from nep_studio.ui.canvas.painting.painter import BlockPainter
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon

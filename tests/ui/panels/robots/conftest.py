@@ -19,8 +19,7 @@ from nep_studio.settings import Settings
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.plugins.robots.participants import Starts
-from nep_studio.ui.running.runner import Runner
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard, Runner
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look, load_fonts
 

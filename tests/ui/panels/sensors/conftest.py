@@ -13,7 +13,7 @@ from nep_core.wire.messages import Imu
 from nep_studio.ui.plugins.sensors.feed import SensorFeed
 from nep_studio.ui.plugins.sensors.plots import Plots
 from nep_studio.ui.plugins.sensors.pointing import Hand
-from nep_studio.ui.running.tap import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.look import Look
 
 

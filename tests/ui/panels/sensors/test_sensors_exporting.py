@@ -10,7 +10,7 @@ from nep_core.errors import RecordingError
 from nep_studio.ui.plugins.sensors.exporting import export_csv, export_picture
 from nep_studio.ui.plugins.sensors.feed import Field
 from nep_studio.ui.plugins.sensors.plots import Plots
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard
 from nodes.recordings import read_recording
 from tests.ui.panels.sensors.conftest import hear
 

@@ -11,7 +11,7 @@ from nep_core.wire.messages import HumanBehavior
 from nep_studio.ui.plugins.sensors.curve_list import CurveList
 from nep_studio.ui.plugins.sensors.feed import Field
 from nep_studio.ui.plugins.sensors.plots import Plots
-from nep_studio.ui.running.tap import Heard
+from nep_studio.ui.running.runner import Heard
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
 from tests.ui.panels.sensors.conftest import hear
