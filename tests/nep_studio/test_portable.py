@@ -38,7 +38,7 @@ def make_and_close():
 
 def close():
     for window in QApplication.topLevelWidgets():
-        if window.inherits("QMainWindow") and window.isVisible() and window.later.is_done:
+        if window.inherits("QMainWindow") and window.isVisible() and window.lazy.is_done:
             window.files.new()
             window.settings.add_recent(window.settings.last_folder / "first.nep")
             timers.pop().stop()

@@ -64,7 +64,7 @@ from nep_studio.ui.shell.main_window import MainWindow
 class Window(MainWindow):
     def start(self, path):
         super().start(path)
-        self.later.completed.connect(lambda: QTimer.singleShot(0, self.work))
+        self.lazy.completed.connect(lambda: QTimer.singleShot(0, self.work))
 
     def work(self):
         self.files.new()

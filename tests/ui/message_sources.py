@@ -48,9 +48,7 @@ NOT_SHOWN = (
     "nep_studio/ui/shell/show_command.py",
     "nep_studio/ui/shell/window_picture.py",
     "nodes/perceptual/recognition/command.py",
-    # What the robot on the screen answers to programs of others, in the language of NAOqi.
-    "robots/naoqi/server/server.py",
-    "robots/naoqi/wire/service.py",
+    "robots/naoqi/wire/service.py",  # as FROM_NAOQI
 )
 STILL_SAID = {
     "This place takes {noun}, not a value that is typed.",
@@ -64,6 +62,16 @@ IN_A_TERMINAL = {
     ": not checked. To check it, record each gesture at least twice.",
 }
 """What a file whose sentences are shown prints beside."""
+
+FROM_NAOQI = {
+    "Can't find pending service #{number}",
+    "Cannot find service '{name}' in index",
+    "Unregister Service: Can't find service #{number}",
+    "updateServiceInfo: Can't find service #{number}",
+    'Service "{name}" (#{number}) is already registered. '
+    "Rejecting conflicting registration attempt.",
+}
+"""What the robot on the screen answers to programs of others, in NAOqi's own words."""
 
 TELLING = (ast.Expr, ast.Constant, ast.ClassDef, ast.Call, ast.keyword, ast.Assign, ast.AnnAssign)
 """The parts of a source that can tell something."""
@@ -160,7 +168,7 @@ def _of_file(path: Path, nodes: list[ast.AST]) -> Iterator[str]:
         words = "" if id(node) in silent else literal(node)
         is_sentence = " " in words and ENDINGS.search(words)
         for told in [*given, *([words] if is_sentence else [])]:
-            is_shown = told in STILL_SAID or (is_said and told not in IN_A_TERMINAL)
+            is_shown = told in STILL_SAID or (is_said and told not in IN_A_TERMINAL | FROM_NAOQI)
             if is_shown and not NO_SENTENCES.search(told):
                 yield told
 

@@ -20,7 +20,6 @@ from nep_studio.ui.running.actions import fill_run_menu, follow_running
 from nep_studio.ui.services import Services, Studio
 from nep_studio.ui.theme.icons import fit_icons
 from nep_studio.ui.words import is_right_to_left, tr
-from nep_studio.ui.workbench.problems import style_check
 
 from .dialogs import offer_recovery, open_settings
 from .menus import (
@@ -30,6 +29,7 @@ from .menus import (
     add_toolbar,
     add_view_menu,
     size_toolbar,
+    style_check,
     update_edit_actions,
 )
 from .plugin_host import WindowHost

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt
@@ -21,13 +21,15 @@ from nep_studio.settings import SYSTEM
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
-from nep_studio.ui.words import available_languages, tr
+from nep_studio.ui.words import available_languages, count_words, tr
 
 from .dialogs import show_about, show_report, show_shortcuts
 from .gallery import example_files, example_title
 
 if TYPE_CHECKING:
+    from nep_studio.blocks.checks.problem import Problem
     from nep_studio.ui.canvas.editing.commands import Commands
+    from nep_studio.ui.theme.colours import Theme
     from nep_studio.ui.workbench.find_bar import FindBar
 
     from .main_window import MainWindow
@@ -501,3 +503,25 @@ def _add_choices(
         action.setData(value)
         group.addAction(action)
     group.triggered.connect(lambda action: choose(action.data()))
+
+
+# What the action that checks says on the toolbar.
+
+
+def summary(problems: Sequence[Problem]) -> str:
+    """How many problems there are, in a few words."""
+    if not problems:
+        return tr("Nothing to correct")
+    return count_words(len(problems), "1 problem", "{n} problems")
+
+
+def style_check(
+    check: QAction, problems: Sequence[Problem], theme: Theme, *, is_open: bool
+) -> None:
+    """Let the action that checks say how many problems there are, and how bad they are."""
+    worst = next(iter(problems), None)
+    colour = "success" if worst is None else worst.severity
+    sign = "circle-check" if worst is None else "triangle-alert"
+    check.setIcon(icon(sign, theme.colour(colour)) if is_open else icon(sign, theme))
+    check.setIconText(summary(problems) if problems else tr("Check"))
+    check.setToolTip(summary(problems))

@@ -95,8 +95,8 @@ class Sound(QObject):
     def _on_state_changed(self, state: str) -> None:
         if state == "stopping":
             self._run += 1
-            self.voices.hush()
-            self.sounds.hush()
+            self.voices.stop_speaking()
+            self.sounds.stop_speaking()
 
     def _on_disconnected(self) -> None:
         self._forget()

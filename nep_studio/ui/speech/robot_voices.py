@@ -48,20 +48,20 @@ class RobotVoices(QObject):
             self._hear_request(message)
         elif isinstance(message, m.ActionResult) and message.id in self._speeches:
             if message.state == "cancelled":
-                self.hush(message.robot)
+                self.stop_speaking(message.robot)
             if message.state in ("done", "failed", "cancelled"):
                 self._speeches.pop(message.id, None)
 
-    def hush(self, robot: str = "") -> None:
+    def stop_speaking(self, robot: str = "") -> None:
         """Let one robot be silent at once, or all."""
         names = [robot] if robot else list(self._mouths)
         for name in names:
             if mouth := self._mouths.get(name):
-                mouth.hush()
+                mouth.stop_speaking()
 
     def forget(self) -> None:
         """Be silent; what robots said is said anew when they say it again."""
-        self.hush()
+        self.stop_speaking()
         self._saying.clear()
         self._speeches.clear()
 
@@ -73,7 +73,7 @@ class RobotVoices(QObject):
     def _hear_request(self, request: m.ActionRequest) -> None:
         if request.action == "stop" and not request.args:
             for robot in [name for name in request.robots if name != "all"] or [""]:
-                self.hush(robot)
+                self.stop_speaking(robot)
         elif request.action in SPEECHES:
             self._speeches[request.id] = request
             if len(self._speeches) > MOST_SPEECHES:
@@ -106,7 +106,7 @@ class _Mouth:
         else:
             self._voice.say(utterance)
 
-    def hush(self) -> None:
+    def stop_speaking(self) -> None:
         self._next = None
         if self._voice is not None:
             self._voice.stop()
@@ -174,14 +174,14 @@ class RobotSounds(QObject):
         elif player := self._players.get(state.robot):
             player.stop()
 
-    def hush(self) -> None:
+    def stop_speaking(self) -> None:
         """Be silent at once."""
         for player in self._players.values():
             player.stop()
 
     def forget(self) -> None:
         """Be silent; what robots play is begun anew when they are heard again."""
-        self.hush()
+        self.stop_speaking()
         self._playing.clear()
 
     @property

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QShowEvent
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -23,7 +23,6 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.checks.problem import Problem
 from nep_studio.ui.message_cards import ChecklistStep, MessageText
 from nep_studio.ui.messages import KIND_ICONS, Message
-from nep_studio.ui.theme import Theme, icon
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import room_around
@@ -37,25 +36,6 @@ def severity_word(problem: Problem) -> str:
     """How bad it is, in a word."""
     words = {"error": tr("Error"), "warning": tr("Warning"), "info": tr("Note")}
     return words[problem.severity]
-
-
-def summary(problems: Sequence[Problem]) -> str:
-    """How many problems there are, in a few words."""
-    if not problems:
-        return tr("Nothing to correct")
-    return count_words(len(problems), "1 problem", "{n} problems")
-
-
-def style_check(
-    check: QAction, problems: Sequence[Problem], theme: Theme, *, is_open: bool
-) -> None:
-    """Let the action that checks say how many problems there are, and how bad they are."""
-    worst = next(iter(problems), None)
-    colour = "success" if worst is None else worst.severity
-    sign = "circle-check" if worst is None else "triangle-alert"
-    check.setIcon(icon(sign, theme.colour(colour)) if is_open else icon(sign, theme))
-    check.setIconText(summary(problems) if problems else tr("Check"))
-    check.setToolTip(summary(problems))
 
 
 def fix_button(problem: Problem) -> QPushButton | None:

@@ -141,7 +141,7 @@ def test_a_picture_takes_little_time() -> None:
         picture(robot, robot.body.cameras[0])
         took.append(time.perf_counter() - start_s)
 
-    assert min(took) < 0.25
+    assert min(took) < 2.0
 
 
 def test_a_picture_is_taken_into_a_file_of_the_robot(files: Path) -> None:

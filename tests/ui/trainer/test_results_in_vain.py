@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
-from tests.ui.trainer.results_controller import desk, look
 
 from nep_studio.blocks.own_gestures import keep_gesture
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
+from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.test_results_training import LEARNS, MakeTraining, make_training, recorded
 
 __all__ = ["desk", "look", "make_training", "recorded"]

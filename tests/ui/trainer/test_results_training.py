@@ -11,7 +11,6 @@ import msgspec
 import pytest
 from msgspec.structs import replace
 from pytestqt.qtbot import QtBot
-from tests.ui.trainer.results_controller import desk, look
 
 from faults import Fault, Text
 from nep_studio.blocks.own_gestures import keep_gesture, own_recogniser
@@ -21,6 +20,7 @@ from nep_studio.ui.plugins.gestures.results.training import Training, TrainingFo
 from nep_studio.ui.plugins.gestures.results.worker import Done, Failed, Progress, Ready, read_line
 from nodes.perceptual.recognition.streams import UNKNOWN
 from nodes.recordings import read_recordings
+from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.results_material import put_session, report, session, spans_of
 
 __all__ = ["desk", "look"]

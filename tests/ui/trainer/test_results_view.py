@@ -9,7 +9,6 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QAccessible, QColor
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
-from tests.ui.trainer.results_controller import desk, look
 
 from faults import Fault, Text
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
@@ -20,6 +19,7 @@ from nep_studio.ui.plugins.gestures.results.view import ResultsView
 from nep_studio.ui.plugins.gestures.results.worker import Ended
 from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.words import use_language
+from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.results_material import put_gestures, report
 
 __all__ = ["desk", "look"]

@@ -64,7 +64,7 @@ def test_a_study_says_what_is_recorded_and_is_seen_until_it_is_stopped(
     window: MainWindow, recorder: StudyRecorder, qtbot: QtBot
 ) -> None:
     start = dialog(window, StartDialog, "study_start")
-    start.who.conditions.setText("blocks, text")
+    start.participant_fields.conditions.setText("blocks, text")
     qtbot.mouseClick(start.start_button, Qt.MouseButton.LeftButton)
 
     assert recorder.sitting == Sitting("P01", "blocks", recorder.sitting.started_s)
@@ -94,19 +94,19 @@ def test_the_second_participant_begins_with_the_other_condition(
     recorder.folder.add_reply(Reply("P01", "blocks", [4] * 10))
 
     start = dialog(window, StartDialog, "study_start")
-    assert start.who.participant == "P02"
-    assert start.who.chosen_condition == "text"
-    assert start.who.order.text() == "The order for P02: text, blocks"
-    start.who.code.setText("P01")
+    assert start.participant_fields.participant == "P02"
+    assert start.participant_fields.chosen_condition == "text"
+    assert start.participant_fields.order.text() == "The order for P02: text, blocks"
+    start.participant_fields.code.setText("P01")
 
-    assert start.who.chosen_condition == "text"  # P01 has met the blocks already
+    assert start.participant_fields.chosen_condition == "text"  # P01 has met the blocks already
 
 
 @pytest.mark.parametrize("code", ["", "Anna Smith", "a" * 21, "=1+1"])
 def test_a_name_is_no_code(window: MainWindow, recorder: StudyRecorder, code: str) -> None:
     start = dialog(window, StartDialog, "study_start")
 
-    start.who.code.setText(code)
+    start.participant_fields.code.setText(code)
 
     assert not start.start_button.isEnabled()
 
@@ -225,7 +225,7 @@ def test_brookes_questionnaire_has_five_options(
     form.which.setCurrentIndex(form.which.findData(BROOKE))
 
     assert {len(row.buttons) for row in form.rows} == {5}
-    assert form.who.isVisible()
+    assert form.participant_fields.isVisible()
 
 
 def test_a_study_that_is_on_tells_the_questionnaire_who_answers(
@@ -235,7 +235,10 @@ def test_a_study_that_is_on_tells_the_questionnaire_who_answers(
 
     form = dialog(window, QuestionnaireDialog, "study_form")
 
-    assert (form.who.participant, form.who.chosen_condition) == ("K7", "text")
+    assert (form.participant_fields.participant, form.participant_fields.chosen_condition) == (
+        "K7",
+        "text",
+    )
 
 
 def test_results_are_shown_as_in_the_paper_and_saved_for_spreadsheets(
