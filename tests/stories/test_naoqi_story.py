@@ -29,7 +29,7 @@ from robots.naoqi.wire.errors import LoginRefused, NoConnection
 from robots.naoqi.wire.line import Login
 from tests.node_running import until
 
-GREETER = Path(__file__).parent.parent / "nodes" / "action" / "naoqi" / "greeter.py"
+GREETER = Path(__file__).parent.parent / "robots" / "naoqi" / "greeter.py"
 WAIT_S = 30.0
 
 

@@ -21,7 +21,7 @@ from nep_studio.ui.theme.look import Look
 from robots.naoqi.discovery import FOLDER_VARIABLE, SERVICE, SavedLogin, saved_login
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "nodes" / "action" / "naoqi"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "robots" / "naoqi"))
 from driver_stage import ServedNao
 
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
