@@ -95,7 +95,7 @@ class Backlog:
     def __init__(self, topic: str, policy: Policy = "events") -> None:
         self.policy = policy
         self._head_at = len(subscription(topic))
-        self._tally = Totals()
+        self._totals = Totals()
         self._frames: deque[bytes] = deque()
         self._bytes = 0
         self._newest: dict[tuple[str, str], bytes] = {}
@@ -108,7 +108,7 @@ class Backlog:
     @property
     def lost(self) -> int:
         """How many messages are lost so far."""
-        return self._tally.lost if self.policy == "events" else 0
+        return self._totals.lost if self.policy == "events" else 0
 
     def put(self, frame: bytes) -> None:
         """Take in a frame or a notice."""
@@ -117,7 +117,7 @@ class Backlog:
         if header is None:
             if self.policy == "events":
                 self._keep(frame)  # its reader tells what is wrong with it
-        elif self._tally.note(header, messages):
+        elif self._totals.note(header, messages):
             if self.policy == "events":
                 self._keep(frame)
             else:
@@ -139,7 +139,7 @@ class Backlog:
             passed, self.passed = self.passed, b""
             header, messages = self._read(passed)
             if header is not None:
-                self._tally.note(header, messages)
+                self._totals.note(header, messages)
 
     def _keep(self, frame: bytes) -> None:
         self._frames.append(frame)
@@ -147,7 +147,7 @@ class Backlog:
         while len(self._frames) > 1 and (len(self._frames) > FRAMES or self._bytes > BYTES):
             dropped = self._frames.popleft()
             self._bytes -= len(dropped)
-            self._tally.lost += self._read(dropped)[1]
+            self._totals.lost += self._read(dropped)[1]
 
     def _keep_newest(self, header: Header, frame: bytes) -> None:
         sender = (header.node, header.run)

@@ -63,7 +63,7 @@ class Occurrence:
         return self.kind, plain(self.value), self.robot, self.amount
 
 
-def happenings_of(project: Project, language: Language) -> list[Occurrence]:
+def occurrences_of(project: Project, language: Language) -> list[Occurrence]:
     """What the program waits for, then what it asks about; each once, in its order."""
     waited_for = _waited_for(project, language, leave_out=REMEMBER)
     found = {one.key: one for one in reversed(list(waited_for))}
@@ -127,14 +127,14 @@ def _told_by(state: str, language: Language) -> Occurrence:
     return Occurrence("state", state, state.replace("_", " "))
 
 
-def state_of(happening: Occurrence) -> str:
+def state_of(occurrence: Occurrence) -> str:
     """The human state that tells of something."""
-    value = happening.value
-    match happening.kind:
+    value = occurrence.value
+    match occurrence.kind:
         case "word":
             return state_of_word(value or "hello")
         case "face" | "ball" | "mark" | "sound":
-            return state_of_thing(happening.kind, value)
+            return state_of_thing(occurrence.kind, value)
         case "touch":
             return f"touched_{value}"
         case "distance":
@@ -330,15 +330,15 @@ def cues_of(project: Project, language: Language) -> list[Cue]:
     return list({cue.id: cue for cue in reversed(cues)}.values())[::-1]
 
 
-def _cue(happening: Occurrence, language: Language) -> Cue:
+def _cue(occurrence: Occurrence, language: Language) -> Cue:
     """The button for something; a rule may hear of it from one robot only."""
-    kind, words = _CUE_KINDS.get(happening.kind, "state"), happening.words
+    kind, words = _CUE_KINDS.get(occurrence.kind, "state"), occurrence.words
     if kind == "sight" and not words:
-        words = language.choices.get("things", {}).get(happening.kind, "")
+        words = language.choices.get("things", {}).get(occurrence.kind, "")
     if kind == "state" or not words:
-        words = happening.state.removeprefix(PREFIX).replace("_", " ")
-    is_of_any = kind == "emotion" or happening.robot == ALL_ROBOTS
-    return Cue(happening.state, kind, words, SOURCE if is_of_any else happening.robot)
+        words = occurrence.state.removeprefix(PREFIX).replace("_", " ")
+    is_of_any = kind == "emotion" or occurrence.robot == ALL_ROBOTS
+    return Cue(occurrence.state, kind, words, SOURCE if is_of_any else occurrence.robot)
 
 
 _CUE_KINDS: dict[Kind, CueKind] = {

@@ -8,7 +8,7 @@ import pytest
 
 from nep_studio import paths
 from nep_studio.blocks.files import load
-from nep_studio.project.triggers import Occurrence, cues_of, happenings_of, of_state
+from nep_studio.project.triggers import Occurrence, cues_of, occurrences_of, of_state
 from nep_studio.run.installation import studio_language
 from tests.blocks.block_building import B, build
 
@@ -16,15 +16,15 @@ LANGUAGE = studio_language()
 EXAMPLES = sorted(paths.examples().glob("*.nep"))
 
 
-def happenings(*stacks: list[B]) -> list[Occurrence]:
+def occurrences(*stacks: list[B]) -> list[Occurrence]:
     editor = build(LANGUAGE, *stacks, variables=("x",))
-    return happenings_of(editor.project, editor.language)
+    return occurrences_of(editor.project, editor.language)
 
 
 def test_what_rules_begin_with_comes_before_what_they_ask() -> None:
     asked = B("control.if", inputs={"condition": B("robot_senses.sees", {"thing": "ball"})})
 
-    found = happenings([B("event.started"), asked], [B("robot_events.heard", {"word": "Hello!"})])
+    found = occurrences([B("event.started"), asked], [B("robot_events.heard", {"word": "Hello!"})])
 
     assert [(one.kind, one.value) for one in found] == [("word", "Hello!"), ("ball", "")]
 
@@ -32,12 +32,12 @@ def test_what_rules_begin_with_comes_before_what_they_ask() -> None:
 def test_the_same_thing_is_offered_once() -> None:
     hat = [B("robot_events.touched"), B("robot.say")]
 
-    assert len(happenings(hat, hat, [B("event.human_state")])) == 2  # one robot, or whichever
+    assert len(occurrences(hat, hat, [B("event.human_state")])) == 2  # one robot, or whichever
 
 
 @pytest.mark.parametrize(("side", "is_past"), [("under", False), ("over", True)])
 def test_a_sensor_is_to_measure_a_little_more_than_is_waited_for(side: str, is_past: bool) -> None:
-    [one] = happenings([B("robot_events.sensor", {"side": side, "value": 30})])
+    [one] = occurrences([B("robot_events.sensor", {"side": side, "value": 30})])
 
     assert (one.kind, one.value, one.robot) == ("sensor", "sonar_left", "NAO")
     assert one.amount is not None
@@ -68,7 +68,7 @@ def test_a_human_state_tells_what_must_happen(state: str, kind: str, value: str)
 def test_what_is_only_known_while_it_runs_is_anything() -> None:
     value = B("variable.get", {"variable": "v1"})
 
-    [one] = happenings([B("robot_events.sensor", {}, {"value": value})])
+    [one] = occurrences([B("robot_events.sensor", {}, {"value": value})])
 
     assert one.amount is None
 
@@ -77,7 +77,7 @@ def test_what_is_only_known_while_it_runs_is_anything() -> None:
 def test_every_cue_of_an_example_has_a_happening(path: Path) -> None:
     project = load(path, LANGUAGE)
 
-    assert len(happenings_of(project, LANGUAGE)) >= len(cues_of(project, LANGUAGE))
+    assert len(occurrences_of(project, LANGUAGE)) >= len(cues_of(project, LANGUAGE))
 
 
 def test_every_hat_and_question_of_the_language_has_a_happening() -> None:
@@ -93,7 +93,7 @@ def test_every_hat_and_question_of_the_language_has_a_happening() -> None:
             stack = [B("event.started"), setting]
         else:
             continue
-        if not happenings(stack):
+        if not occurrences(stack):
             without.append(definition.id)
 
     assert without == []

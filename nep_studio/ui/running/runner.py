@@ -66,11 +66,11 @@ class Tap(QObject):
         self._monitor = Monitor(BATCHES_HZ, most)
         self._monitor.arrived.connect(self._on_arrived)
         self._monitor.start()
-        self._ears: list[_Ear] = []  # one, or none
+        self._inlets: list[_Inlet] = []  # one, or none
         self._lost = 0
         self._is_closed = False
-        monitor, ears = self._monitor, self._ears
-        self.destroyed.connect(lambda: _end(monitor, ears))
+        monitor, inlets = self._monitor, self._inlets
+        self.destroyed.connect(lambda: _end(monitor, inlets))
 
     @property
     def dropped(self) -> int:
@@ -80,16 +80,16 @@ class Tap(QObject):
     @property
     def lost(self) -> int:
         """How many messages were sent but did not arrive."""
-        return self._lost + sum(ear.lost for ear in self._ears)
+        return self._lost + sum(ear.lost for ear in self._inlets)
 
     def listen(self, network: Network | None) -> None:
         """Hear this network from now on; None: nothing."""
-        while self._ears:
-            ear = self._ears.pop()
+        while self._inlets:
+            ear = self._inlets.pop()
             self._lost += ear.lost
             ear.close()
         if network is not None and not self._is_closed:
-            self._ears.append(_Ear(self.topic, self.kind, network, self._monitor))
+            self._inlets.append(_Inlet(self.topic, self.kind, network, self._monitor))
 
     def close(self) -> None:
         """Hear no more."""
@@ -108,14 +108,14 @@ class Tap(QObject):
             self._monitor.taken()
 
 
-def _end(monitor: Monitor, ears: list[_Ear]) -> None:
+def _end(monitor: Monitor, inlets: list[_Inlet]) -> None:
     """End what a tap leaves that went with its parent."""
-    while ears:
-        ears.pop().close()
+    while inlets:
+        inlets.pop().close()
     monitor.end()
 
 
-class _Ear:
+class _Inlet:
     """A subscriber in a thread of its own: to open it may take a second."""
 
     def __init__(

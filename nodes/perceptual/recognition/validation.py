@@ -251,7 +251,7 @@ def _validate(
         if not passage.takes:
             triggers, everyday_s = triggers + len(detections), everyday_s + passage.duration_s
             continue
-        here = _tally(passage, detections)
+        here = _counted(passage, detections)
         totals, people[passage.person] = totals + here, people.get(passage.person, Totals()) + here
         takes += _left_out_takes(found, gestures, certainty, here)
     seen = [
@@ -287,7 +287,7 @@ def spot(
     return [one for one in (*detections, picker.flush()) if one is not None]
 
 
-def _tally(passage: Passage, detections: Sequence[Detection]) -> Totals:
+def _counted(passage: Passage, detections: Sequence[Detection]) -> Totals:
     """How triggers agree with the takes; those where nobody knows what was made do not count."""
     takes = passage.takes
     known = [

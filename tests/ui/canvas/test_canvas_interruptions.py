@@ -181,10 +181,10 @@ ENDS: list[Callable[[object], None]] = [show_other_page, hide_canvas, change_the
 
 
 @pytest.mark.parametrize("happening", STAYS)
-def test_a_field_stays_open_over_its_block(two_stacks, happening) -> None:
+def test_a_field_stays_open_over_its_block(two_stacks, occurrence) -> None:
     block = open_field(two_stacks)
 
-    happening(two_stacks)
+    occurrence(two_stacks)
 
     editor = two_stacks.canvas.fields.widget
     assert two_stacks.canvas.fields.place == (block, "text")
@@ -192,10 +192,10 @@ def test_a_field_stays_open_over_its_block(two_stacks, happening) -> None:
 
 
 @pytest.mark.parametrize("happening", ENDS)
-def test_a_field_keeps_what_was_typed_when_its_canvas_goes_away(two_stacks, happening) -> None:
+def test_a_field_keeps_what_was_typed_when_its_canvas_goes_away(two_stacks, occurrence) -> None:
     block = open_field(two_stacks)
 
-    happening(two_stacks)
+    occurrence(two_stacks)
 
     assert two_stacks.canvas.fields.widget is None
     assert two_stacks.editor.project.blocks[block].fields["text"] == "new"

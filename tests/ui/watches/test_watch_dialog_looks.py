@@ -61,7 +61,7 @@ def test_an_open_dialog_follows_the_theme(
     look.choose("dark")
 
     assert picture.pixmap().toImage() != before
-    made.show_way("sensor_logger")
+    made.show_connector("sensor_logger")
     look.choose("light")
     assert picture.pixmap().toImage() == before
     made.close()
@@ -76,7 +76,7 @@ def test_no_button_of_it_is_cut_off_in_any_look(
     made = WatchDialog(runner, Plan("watch"), TOKEN, look, None, lambda: [ADDRESS])
     qtbot.addWidget(made)
     made.begin()
-    made.show_way("udp")
+    made.show_connector("udp")
     QApplication.processEvents()
 
     shown = [one for one in made.findChildren(QPushButton) if one.isVisible()]

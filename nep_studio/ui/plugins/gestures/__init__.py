@@ -61,25 +61,25 @@ def make(host: Host) -> Parts:
     return Parts(NewPanel(panel, tr("Gestures"), "hand", "bottom", least_share=LEAST_SHARE))
 
 
-def desk_of(host: Host) -> GestureController:
+def controller_of(host: Host) -> GestureController:
     """The one controller; what it heard stays when the panel is made anew."""
     from .gesture_controller import GestureController
 
     services = host.services
 
-    def make_desk() -> GestureController:
+    def make_controller() -> GestureController:
         return GestureController(
             services.files, services.runner, services.messages, services.look, services.running
         )
 
-    return host.keep(GestureController, make_desk)
+    return host.keep(GestureController, make_controller)
 
 
 def _page(host: Host) -> TrainerPage:
     from .page import TrainerPage
     from .results.training import Training
 
-    controller = desk_of(host)
+    controller = controller_of(host)
 
     def make_training() -> Training:
         training = Training(controller, controller)

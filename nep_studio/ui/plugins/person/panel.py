@@ -23,7 +23,7 @@ from nep_core.program.human import plain
 from nep_core.wire import messages as m
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.blocks.slots import why_not_line
-from nep_studio.project.triggers import Occurrence, happenings_of
+from nep_studio.project.triggers import Occurrence, occurrences_of
 from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.messages import announce
@@ -33,7 +33,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Columns, FlowLayout
 from nep_studio.ui.words import tr
 
-from .person_box import HappeningButton, PersonBox, Section, WordsButton
+from .person_box import OccurrenceButton, PersonBox, Section, WordsButton
 from .senses import BodyBox, GestureBox, SensorBox, ThingsBox, TouchBox
 from .stimuli import KINDS, Stimuli, Visitors, words_of
 
@@ -57,7 +57,7 @@ class WaitingBoard(QWidget):
         super().__init__()
         self._look, self._begin, self._end, self._nothing = look, begin, end, nothing
         self._shown: list[Occurrence] | None = None
-        self.buttons: list[HappeningButton] = []
+        self.buttons: list[OccurrenceButton] = []
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
         self.words = QLabel()
@@ -68,27 +68,27 @@ class WaitingBoard(QWidget):
         box.addWidget(self._rows)
         box.addWidget(self.words)
 
-    def show_happenings(self, happenings: list[Occurrence], here: dict[str, str]) -> None:
+    def show_occurrences(self, occurrences: list[Occurrence], here: dict[str, str]) -> None:
         """Show these; ``here`` are the visitors that are there now, with their names."""
-        if happenings != self._shown:
-            self._shown = happenings
-            self._make_buttons([one for one in happenings if one.kind != "idle"])
-            idle = [words_of(one) for one in happenings if one.kind == "idle"]
-            nothing = "" if happenings else self._nothing
+        if occurrences != self._shown:
+            self._shown = occurrences
+            self._make_buttons([one for one in occurrences if one.kind != "idle"])
+            idle = [words_of(one) for one in occurrences if one.kind == "idle"]
+            nothing = "" if occurrences else self._nothing
             self.words.setText("\n".join([*idle, *filter(None, [nothing])]))
             self.words.setVisible(bool(self.words.text()))
         for button in self.buttons:
             if button.isCheckable():
-                button.setChecked(_is_here(button.happening, here))
+                button.setChecked(_is_here(button.occurrence, here))
 
-    def _make_buttons(self, happenings: list[Occurrence]) -> None:
+    def _make_buttons(self, occurrences: list[Occurrence]) -> None:
         for button in self.buttons:
             button.let_go()
             self._flow.removeWidget(button)
             button.hide()
             button.deleteLater()
         self.buttons = [
-            HappeningButton(one, self._look, self._begin, self._end) for one in happenings
+            OccurrenceButton(one, self._look, self._begin, self._end) for one in occurrences
         ]
         for button in self.buttons:
             self._flow.addWidget(button)
@@ -96,10 +96,10 @@ class WaitingBoard(QWidget):
         self._rows.setVisible(bool(self.buttons))
 
 
-def _is_here(happening: Occurrence, here: dict[str, str]) -> bool:
-    if happening.kind not in here:
+def _is_here(occurrence: Occurrence, here: dict[str, str]) -> bool:
+    if occurrence.kind not in here:
         return False
-    return not happening.value or plain(happening.value) == plain(here[happening.kind])
+    return not occurrence.value or plain(occurrence.value) == plain(here[occurrence.kind])
 
 
 class HumanPanel(QScrollArea):
@@ -113,7 +113,7 @@ class HumanPanel(QScrollArea):
         self._host, self._look = host, host.services.look
         self._runner, self._language = host.services.runner, host.services.language
         self._tap: Tap | None = None
-        self._ear = OpenProject(host.services.files, self)
+        self._open_project = OpenProject(host.services.files, self)
         self.visitors = Visitors(floor, self)
         self.stimuli = Stimuli(self._runner, self.visitors, self.watch_gestures, self)
         self.setWidgetResizable(True)
@@ -201,7 +201,7 @@ class HumanPanel(QScrollArea):
         self.setWidget(inner)
 
     def _connect(self) -> None:
-        self._ear.changed.connect(self.refresh)
+        self._open_project.changed.connect(self.refresh)
         self.stimuli.changed.connect(self._show_state)
         self.stimuli.told.connect(self._on_told)
         self.stimuli.refused.connect(self._on_refused)
@@ -223,17 +223,17 @@ class HumanPanel(QScrollArea):
         self._show_waiting()
         self._show_state()
 
-    def happenings(self) -> list[Occurrence]:
+    def occurrences(self) -> list[Occurrence]:
         """What the open program waits for."""
-        editor = self._ear.editor
-        return [] if editor is None else happenings_of(editor.project, editor.language)
+        editor = self._open_project.editor
+        return [] if editor is None else occurrences_of(editor.project, editor.language)
 
     def watch_gestures(self) -> dict[str, str]:
         """What the watch on the screen can make: gestures that the project has takes of, and five.
 
         Names to titles.
         """
-        editor = self._ear.editor
+        editor = self._open_project.editor
         own = {} if editor is None else own_gestures(editor.project)
         recorded = {name: one.title for name, one in own.items() if one.takes}
         return {**recorded, **self._language.choices.get("gestures", {})}
@@ -256,10 +256,10 @@ class HumanPanel(QScrollArea):
     def _show_waiting(self) -> None:
         if not self.isVisible():
             return
-        waited_for = self.happenings()
+        waited_for = self.occurrences()
         found = {what: self.visitors.find(what) for what in KINDS}
         here = {what: thing.name for what, thing in found.items() if thing is not None}
-        self.waiting.show_happenings(waited_for, here)
+        self.waiting.show_occurrences(waited_for, here)
         self.gestures.show_gestures(waited_for, self.watch_gestures())
         self.person.set_names([one.value for one in waited_for if one.kind == "face" and one.value])
 
@@ -268,7 +268,7 @@ class HumanPanel(QScrollArea):
             return
         reason = self.stimuli.why_not
         self.state.setText(reason or tr("What you do here is noticed."))
-        is_idle = self._runner.state == "idle" and self._ear.editor is not None
+        is_idle = self._runner.state == "idle" and self._open_project.editor is not None
         self.run_button.setVisible(is_idle)
         self.gestures.refresh()
 
@@ -278,7 +278,7 @@ class HumanPanel(QScrollArea):
         self.visitors.states |= {heard.message.robot: heard.message for heard in batch}
         robots = [state for state in self.visitors.states.values() if state.listening]
         words = dict.fromkeys(word for state in robots for word in state.listening)
-        self.listening.show_happenings([Occurrence("word", word, word) for word in words], {})
+        self.listening.show_occurrences([Occurrence("word", word, word) for word in words], {})
 
     def _on_robot_chosen(self, robot: str) -> None:
         self.stimuli.robot = robot

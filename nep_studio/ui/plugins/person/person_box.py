@@ -61,7 +61,7 @@ class PersonBox(QWidget):
         self.way_words = QLabel()
         self.before = WordsButton(tr("Step before its eyes"), look, "eye")
         self.looks = [
-            HappeningButton(
+            OccurrenceButton(
                 Occurrence("emotion", value, label),
                 look,
                 stimuli.begin,
@@ -202,43 +202,43 @@ class WordsButton(QPushButton):
             self.setIconSize(icon_room(line))
 
 
-class HappeningButton(WordsButton):
+class OccurrenceButton(WordsButton):
     """Lets something happen: while it is held, until it is pressed again, or once."""
 
     def __init__(
         self,
-        happening: Occurrence,
+        occurrence: Occurrence,
         look: Look,
         begin: Callable[[Occurrence], bool],
         end: Callable[[Occurrence], None],
         words: str = "",
     ) -> None:
-        super().__init__(words or words_of(happening), look, ICONS[happening.kind])
-        self.happening, self._begin, self._end = happening, begin, end
+        super().__init__(words or words_of(occurrence), look, ICONS[occurrence.kind])
+        self.occurrence, self._begin, self._end = occurrence, begin, end
         self._letting_go = QTimer(self, singleShot=True, interval=LASTS_MS)
         self._letting_go.timeout.connect(self.let_go)
         self.is_held = False
         self._since = QElapsedTimer()
-        if happening.kind in HELD:
+        if occurrence.kind in HELD:
             self.pressed.connect(self._on_pressed)
             self.released.connect(self._on_released)
-        elif happening.kind in KEPT:
+        elif occurrence.kind in KEPT:
             self.setCheckable(True)
             self.clicked.connect(self._on_switched)
         else:
-            self.clicked.connect(lambda: self._begin(self.happening))
+            self.clicked.connect(lambda: self._begin(self.occurrence))
 
     def let_go(self) -> None:
         """End a touch."""
         if self.is_held:
             self.is_held = False
-            self._end(self.happening)
+            self._end(self.occurrence)
 
     def _on_pressed(self) -> None:
         self._letting_go.stop()
         self.let_go()
         self._since.start()
-        self.is_held = self._begin(self.happening)
+        self.is_held = self._begin(self.occurrence)
 
     def _on_released(self) -> None:
         """A quick click is felt as well as a long one."""
@@ -246,8 +246,8 @@ class HappeningButton(WordsButton):
 
     def _on_switched(self, is_on: bool) -> None:
         if not is_on:
-            self._end(self.happening)
-        elif not self._begin(self.happening):
+            self._end(self.occurrence)
+        elif not self._begin(self.occurrence):
             self.setChecked(False)
 
 

@@ -27,7 +27,7 @@ from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
-from .person_box import HappeningButton, WordsButton
+from .person_box import OccurrenceButton, WordsButton
 from .stimuli import Stimuli
 
 SLIDERS = {"sonar_left": (5, 255, 255), "sonar_right": (5, 255, 255), "battery": (1, 100, 100)}
@@ -254,7 +254,7 @@ class TouchBox(QWidget):
         super().__init__()
         names = language.choices.get("touch_parts", {})
         self.buttons = [
-            HappeningButton(
+            OccurrenceButton(
                 Occurrence("touch", part, names.get(part, part)),
                 look,
                 stimuli.begin,
@@ -274,7 +274,7 @@ class GestureBox(QWidget):
     def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
         super().__init__()
         self._stimuli, self._look = stimuli, look
-        self.buttons: list[HappeningButton] = []
+        self.buttons: list[OccurrenceButton] = []
         self._shown: dict[str, str] | None = None
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
@@ -323,7 +323,7 @@ class GestureBox(QWidget):
             button.hide()
             button.deleteLater()
         self.buttons = [
-            HappeningButton(
+            OccurrenceButton(
                 Occurrence("gesture", name, label),
                 self._look,
                 self._stimuli.begin,

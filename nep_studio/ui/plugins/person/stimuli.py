@@ -41,16 +41,16 @@ ICONS: dict[Kind, str] = {
 """The sign of each kind."""
 
 
-def words_of(happening: Occurrence) -> str:
+def words_of(occurrence: Occurrence) -> str:
     """What one does so that something happens, on a button: "Touch the head"."""
-    about = happening.words or happening.value
-    words = _words(happening, about)
-    is_named = happening.robot not in (ALL_ROBOTS, "")
-    return tr("{what} ({robot})", what=words, robot=happening.robot) if is_named else words
+    about = occurrence.words or occurrence.value
+    words = _words(occurrence, about)
+    is_named = occurrence.robot not in (ALL_ROBOTS, "")
+    return tr("{what} ({robot})", what=words, robot=occurrence.robot) if is_named else words
 
 
-def _words(happening: Occurrence, about: str) -> str:
-    match happening.kind:
+def _words(occurrence: Occurrence, about: str) -> str:
+    match occurrence.kind:
         case "word":
             return tr("Say “{word}”", word=about or tr("hello"))
         case "face":
@@ -69,12 +69,12 @@ def _words(happening: Occurrence, about: str) -> str:
             return tr("Make a sound")
         case "emotion":
             return tr("Look {emotion}", emotion=about)
-    return _measured_words(happening, about)
+    return _measured_words(occurrence, about)
 
 
-def _measured_words(happening: Occurrence, about: str) -> str:
-    amount = happening.amount
-    match happening.kind:
+def _measured_words(occurrence: Occurrence, about: str) -> str:
+    amount = occurrence.amount
+    match occurrence.kind:
         case "sensor" if amount is not None:
             return tr("{sensor}: {amount}", sensor=about, amount=f"{amount:g}")
         case "joint":
@@ -85,7 +85,7 @@ def _measured_words(happening: Occurrence, about: str) -> str:
             return tr("Let it be {doing}", doing=about)
         case "idle":
             return tr("Do nothing for {seconds} s", seconds=f"{amount or 0:g}")
-        case "state" if not happening.value:
+        case "state" if not occurrence.value:
             return tr("Touch the head, or do anything else")
     return about[:1].upper() + about[1:]
 
@@ -256,35 +256,35 @@ class Stimuli(QObject):
         nodes = self._runner.board.nodes
         return any(name in nodes and nodes[name].is_there for name in planned)
 
-    def noticing(self, happening: Occurrence) -> str:
+    def noticing(self, occurrence: Occurrence) -> str:
         """The robot on the screen that notices something; "" when none is there."""
-        wanted = self.robot if happening.robot in (ALL_ROBOTS, "") else happening.robot
+        wanted = self.robot if occurrence.robot in (ALL_ROBOTS, "") else occurrence.robot
         return wanted if self._is_there(wanted) else ""
 
-    def begin(self, happening: Occurrence) -> bool:
+    def begin(self, occurrence: Occurrence) -> bool:
         """Let something happen; what lasts goes on until ``end``."""
         reason = self.why_not
         if reason:
             self.refused.emit(reason)
             return False
-        robot = self.noticing(happening)
-        if happening.kind == "gesture":
-            return self._gesture(happening)
-        if happening.kind in ("emotion", "state"):
-            return self._tell(state_of(happening), SOURCE, happening)
+        robot = self.noticing(occurrence)
+        if occurrence.kind == "gesture":
+            return self._gesture(occurrence)
+        if occurrence.kind in ("emotion", "state"):
+            return self._tell(state_of(occurrence), SOURCE, occurrence)
         if not robot:
-            return self._without_robot(happening)
-        self._let(robot, happening)
+            return self._without_robot(occurrence)
+        self._let(robot, occurrence)
         return True
 
-    def end(self, happening: Occurrence) -> None:
+    def end(self, occurrence: Occurrence) -> None:
         """Let go, or take away, what was begun."""
-        robot = self.noticing(happening)
-        if happening.kind == "touch" and robot:
-            self._touch(robot, happening.value, 0.0)
-        elif happening.kind in ("face", "ball", "mark", "distance"):
-            self.visitors.go("face" if happening.kind == "distance" else happening.kind)
-        elif happening.kind == "sound" and robot:
+        robot = self.noticing(occurrence)
+        if occurrence.kind == "touch" and robot:
+            self._touch(robot, occurrence.value, 0.0)
+        elif occurrence.kind in ("face", "ball", "mark", "distance"):
+            self.visitors.go("face" if occurrence.kind == "distance" else occurrence.kind)
+        elif occurrence.kind == "sound" and robot:
             self._sense(robot, "sound", 0.0)
 
     def turn_joint(self, joint: str, degrees: float, robot: str = "") -> bool:
@@ -326,9 +326,9 @@ class Stimuli(QObject):
     def _on_changed(self, _what: object) -> None:
         self.changed.emit()
 
-    def _let(self, robot: str, happening: Occurrence) -> None:
-        value, amount = happening.value, happening.amount
-        match happening.kind:
+    def _let(self, robot: str, occurrence: Occurrence) -> None:
+        value, amount = occurrence.value, occurrence.amount
+        match occurrence.kind:
             case "word":
                 self._sense(robot, "word", name=value or "hello")
             case "touch":
@@ -338,7 +338,7 @@ class Stimuli(QObject):
             case "distance":
                 self.visitors.come("face", robot, way_m=DISTANCES_M.get(value, 1.0))
             case "ball" | "mark":
-                self.visitors.come(happening.kind, robot, value)
+                self.visitors.come(occurrence.kind, robot, value)
             case "sound":
                 self.make_sound(30.0, robot)
             case "sensor":
@@ -349,27 +349,27 @@ class Stimuli(QObject):
                 self.take_posture(value, robot)
             case "doing":
                 self._ask(robot, *DOINGS.get(value, ("wake_up", {})))
-        self.told.emit(words_of(happening))
+        self.told.emit(words_of(occurrence))
 
     def _touch(self, robot: str, part: str, value: float) -> None:
         """Touch the first sensor of a part: one finger touches one place."""
         self._sense(robot, TOUCHES.get(part, (part,))[0], value)
 
-    def _gesture(self, happening: Occurrence) -> bool:
-        if self.can_move_watch(happening.value):
+    def _gesture(self, occurrence: Occurrence) -> bool:
+        if self.can_move_watch(occurrence.value):
             is_sent = self._runner.send(
-                m.GESTURE_REQUEST, m.GestureRequest(gesture=happening.value)
+                m.GESTURE_REQUEST, m.GestureRequest(gesture=occurrence.value)
             )
-            self.told.emit(tr("The watch moves: {gesture}", gesture=happening.words))
+            self.told.emit(tr("The watch moves: {gesture}", gesture=occurrence.words))
             return is_sent
-        return self._tell(state_of(happening), SOURCE, happening)
+        return self._tell(state_of(occurrence), SOURCE, occurrence)
 
-    def _without_robot(self, happening: Occurrence) -> bool:
+    def _without_robot(self, occurrence: Occurrence) -> bool:
         """Tell the program what a robot would have noticed; what is measured cannot be told."""
-        if happening.kind in TOLD_BY_HAND:
-            source = SOURCE if happening.robot in (ALL_ROBOTS, "") else happening.robot
-            return self._tell(state_of(happening), source, happening)
-        named = happening.robot if happening.robot != ALL_ROBOTS else self.robot
+        if occurrence.kind in TOLD_BY_HAND:
+            source = SOURCE if occurrence.robot in (ALL_ROBOTS, "") else occurrence.robot
+            return self._tell(state_of(occurrence), source, occurrence)
+        named = occurrence.robot if occurrence.robot != ALL_ROBOTS else self.robot
         self.refused.emit(
             tr(
                 "{robot} is not on this screen, so that this has to happen to the robot itself.",
@@ -378,11 +378,11 @@ class Stimuli(QObject):
         )
         return False
 
-    def _tell(self, state: str, source: str, happening: Occurrence) -> bool:
+    def _tell(self, state: str, source: str, occurrence: Occurrence) -> bool:
         told = m.HumanBehavior(human_state=state, source=source, certainty=self.certainty)
         if not self._runner.send(m.HUMAN_BEHAVIOR, told):
             return False
-        self.told.emit(tr("Told by hand: {what}", what=words_of(happening)))
+        self.told.emit(tr("Told by hand: {what}", what=words_of(occurrence)))
         return True
 
     def _sense(

@@ -28,7 +28,7 @@ from .connectors import (
     silence_steps,
     steps,
 )
-from .connectors import way_title as title_of
+from .connectors import connector_title as title_of
 from .live import LiveView
 from .qr_code import QrCode, WarningHelp
 from .questions import Entry, MoreSettings, NetworkQuestion, WornQuestion
@@ -51,13 +51,13 @@ class Known:
 
 
 class WayPage(QWidget):
-    """``changed`` tells of other ``settings``; ``way_asked`` that another app was chosen.
+    """``changed`` tells of other ``settings``; ``connector_asked`` that another app was chosen.
 
     ``came_into_view`` gives what should be seen now.
     """
 
     changed = Signal()
-    way_asked = Signal(str)
+    connector_asked = Signal(str)
     came_into_view = Signal(QWidget)
 
     def __init__(
@@ -223,7 +223,7 @@ class WayPage(QWidget):
             question.changed.connect(self._on_changed)
         self.address.written.connect(self._on_changed)
         self.live.correct_button.clicked.connect(self._on_correct)
-        self.app.activated.connect(lambda _row: self.way_asked.emit(self.app.currentData()))
+        self.app.activated.connect(lambda _row: self.connector_asked.emit(self.app.currentData()))
 
     def _on_correct(self) -> None:
         self.more.toggle.setChecked(True)

@@ -101,7 +101,7 @@ CONNECTORS = {
 }
 
 
-def way_title(connector: ConnectorKind) -> str:
+def connector_title(connector: ConnectorKind) -> str:
     """What the page of a way is headed."""
     titles = {
         "phone_page": tr("A phone, without installing anything"),

@@ -119,7 +119,7 @@ class WatchDialog(QDialog):
         return QSize(min(line * LEAST_WIDE, room.width()), min(line * LEAST_HIGH, room.height()))
 
     def _connect(self) -> None:
-        self.choosing.chosen.connect(self.show_way)
+        self.choosing.chosen.connect(self.show_connector)
         self.back_button.clicked.connect(self.show_choice)
         self.close_button.clicked.connect(self.reject)
         self.use_button.clicked.connect(self._on_use)
@@ -136,7 +136,7 @@ class WatchDialog(QDialog):
         self.listener.start()
         connector = self.plan.connector
         if connector is not None and self.trial.before is not None:
-            self.show_way(connector.name)
+            self.show_connector(connector.name)
         else:
             self.show_choice()
 
@@ -149,7 +149,7 @@ class WatchDialog(QDialog):
         next(iter(self.choosing.cards.values())).setFocus()
         self._update()
 
-    def show_way(self, name: str) -> None:
+    def show_connector(self, name: str) -> None:
         """Show the steps of a way, and begin to listen."""
         connector, plan = CONNECTORS[name], self.plan
         is_known = plan.connector == connector
@@ -163,7 +163,7 @@ class WatchDialog(QDialog):
         page = self.page = WayPage(connector, known, self.listener, self._look)
         page.changed.connect(self._settling.start)
         page.changed.connect(self._update)
-        page.way_asked.connect(self.show_way)
+        page.connector_asked.connect(self.show_connector)
         page.network.again.clicked.connect(
             lambda: page.network.show_addresses(self._find_addresses())
         )

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication
 
 
 @pytest.fixture
-def desk_of(qtbot) -> Iterator[Callable[..., Desk]]:
+def controller_of(qtbot) -> Iterator[Callable[..., Desk]]:
     """Makes desks; whatever was left open on them is closed at the end."""
     desks: list[Desk] = []
 

@@ -33,8 +33,8 @@ def pull(widget, by: QPoint) -> None:
     QTest.mouseRelease(widget, LEFT, PLAIN, start + by)
 
 
-def test_plus_adds_an_else_if_in_place(desk_of) -> None:
-    desk = desk_of("control.if")
+def test_plus_adds_an_else_if_in_place(controller_of) -> None:
+    desk = controller_of("control.if")
 
     press(desk, "add", "also")
 
@@ -42,16 +42,16 @@ def test_plus_adds_an_else_if_in_place(desk_of) -> None:
     assert desk.new_steps() == 1
 
 
-def test_the_plus_says_what_it_adds(desk_of) -> None:
-    desk = desk_of("control.if")
+def test_the_plus_says_what_it_adds(controller_of) -> None:
+    desk = controller_of("control.if")
 
     pieces = desk.canvas.page_layout.placed(desk.block).box.pieces
 
     assert {p.text for p in pieces if p.kind == "add"} == {"else if", "else"}
 
 
-def test_minus_removes_the_item_beside_it(desk_of) -> None:
-    desk = desk_of("text.join", **{"item.1": "a", "item.2": "b"})
+def test_minus_removes_the_item_beside_it(controller_of) -> None:
+    desk = controller_of("text.join", **{"item.1": "a", "item.2": "b"})
     press(desk, "add", "item")
 
     press(desk, "remove", "item", number=1)
@@ -60,8 +60,8 @@ def test_minus_removes_the_item_beside_it(desk_of) -> None:
     assert desk.value("item.1") == "b"
 
 
-def test_a_block_in_a_removed_item_is_put_beside(desk_of) -> None:
-    desk = desk_of("text.join")
+def test_a_block_in_a_removed_item_is_put_beside(controller_of) -> None:
+    desk = controller_of("text.join")
     press(desk, "add", "item")
     inner = desk.editor.create("text.text", InInput(desk.block, "item.3"))
 
@@ -72,8 +72,8 @@ def test_a_block_in_a_removed_item_is_put_beside(desk_of) -> None:
     assert stack.x > desk.editor.project.stack_of(desk.block).x
 
 
-def test_alt_with_the_arrows_moves_an_item(desk_of) -> None:
-    desk = desk_of("text.join", **{"item.1": "a", "item.2": "b"})
+def test_alt_with_the_arrows_moves_an_item(controller_of) -> None:
+    desk = controller_of("text.join", **{"item.1": "a", "item.2": "b"})
 
     desk.click("item.1")
     QTest.keyClick(desk.widget, Qt.Key.Key_Down, Qt.KeyboardModifier.AltModifier)
@@ -83,8 +83,8 @@ def test_alt_with_the_arrows_moves_an_item(desk_of) -> None:
     assert desk.new_steps() == 1
 
 
-def test_a_folded_block_says_its_sentence_and_how_much_is_in_it(desk_of) -> None:
-    desk = desk_of("text.join")
+def test_a_folded_block_says_its_sentence_and_how_much_is_in_it(controller_of) -> None:
+    desk = controller_of("text.join")
     for number in (1, 2):
         desk.editor.create("text.text", InInput(desk.block, f"item.{number}"))
     desk.editor.apply(SetFlag(desk.block, "collapsed", True))
@@ -97,8 +97,8 @@ def test_a_folded_block_says_its_sentence_and_how_much_is_in_it(desk_of) -> None
     assert not desk.editor.project.blocks[desk.block].collapsed
 
 
-def test_a_comment_is_written_beside_its_block_in_one_step(desk_of) -> None:
-    desk = desk_of("control.wait")
+def test_a_comment_is_written_beside_its_block_in_one_step(controller_of) -> None:
+    desk = controller_of("control.wait")
 
     desk.fields.comments.open(desk.block)
     bubble = desk.fields.comments.bubble
@@ -110,8 +110,8 @@ def test_a_comment_is_written_beside_its_block_in_one_step(desk_of) -> None:
     assert desk.fields.comments.bubble is None
 
 
-def test_the_comment_button_opens_and_closes_the_comment(desk_of) -> None:
-    desk = desk_of("control.wait")
+def test_the_comment_button_opens_and_closes_the_comment(controller_of) -> None:
+    desk = controller_of("control.wait")
     desk.editor.apply(SetComment(desk.block, "hello"))
 
     press(desk, "comment")
@@ -127,8 +127,8 @@ def test_the_comment_button_opens_and_closes_the_comment(desk_of) -> None:
     assert desk.fields.comments.bubble is None
 
 
-def test_a_comment_is_resized_by_its_corner(desk_of) -> None:
-    desk = desk_of("control.wait")
+def test_a_comment_is_resized_by_its_corner(controller_of) -> None:
+    desk = controller_of("control.wait")
     desk.editor.apply(SetComment(desk.block, "hello"))
     desk.fields.comments.open(desk.block)
     bubble = desk.fields.comments.bubble
@@ -143,8 +143,8 @@ def test_a_comment_is_resized_by_its_corner(desk_of) -> None:
     assert block.comment_width == 0
 
 
-def test_a_mirrored_comment_is_at_the_left(desk_of) -> None:
-    desk = desk_of("control.wait", is_mirrored=True)
+def test_a_mirrored_comment_is_at_the_left(controller_of) -> None:
+    desk = controller_of("control.wait", is_mirrored=True)
 
     desk.fields.comments.open(desk.block)
 

@@ -23,8 +23,8 @@ def choose(popup, label: str) -> None:
     QTest.mouseClick(popup.list.viewport(), LEFT, PLAIN, place)
 
 
-def test_typing_filters_the_choices_and_enter_takes_the_first(desk_of) -> None:
-    desk = desk_of("robot.do")
+def test_typing_filters_the_choices_and_enter_takes_the_first(controller_of) -> None:
+    desk = controller_of("robot.do")
 
     desk.click("posture")
     QTest.keyClicks(desk.widget.search, "sit")
@@ -37,8 +37,8 @@ def test_typing_filters_the_choices_and_enter_takes_the_first(desk_of) -> None:
     assert desk.widget is None
 
 
-def test_a_choice_is_made_with_the_arrows(desk_of) -> None:
-    desk = desk_of("logic.compare", comparison="equal")
+def test_a_choice_is_made_with_the_arrows(controller_of) -> None:
+    desk = controller_of("logic.compare", comparison="equal")
 
     desk.click("comparison")
     QTest.keyClick(desk.widget.search, Qt.Key.Key_Down)
@@ -47,8 +47,8 @@ def test_a_choice_is_made_with_the_arrows(desk_of) -> None:
     assert desk.value("comparison") == "not_equal"
 
 
-def test_a_choice_is_made_with_the_mouse(desk_of) -> None:
-    desk = desk_of("logic.compare", comparison="equal")
+def test_a_choice_is_made_with_the_mouse(controller_of) -> None:
+    desk = controller_of("logic.compare", comparison="equal")
 
     desk.click("comparison")
     choose(desk.widget, "≥")
@@ -56,8 +56,8 @@ def test_a_choice_is_made_with_the_mouse(desk_of) -> None:
     assert desk.value("comparison") == "greater_or_equal"
 
 
-def test_nothing_found_is_said_and_escape_leaves_the_choice(desk_of) -> None:
-    desk = desk_of("robot.do")
+def test_nothing_found_is_said_and_escape_leaves_the_choice(controller_of) -> None:
+    desk = controller_of("robot.do")
     before = desk.value("posture")
 
     desk.click("posture")
@@ -70,8 +70,8 @@ def test_nothing_found_is_said_and_escape_leaves_the_choice(desk_of) -> None:
     assert desk.new_steps() == 0
 
 
-def test_a_press_elsewhere_closes_the_list(desk_of, qtbot) -> None:
-    desk = desk_of("robot.do")
+def test_a_press_elsewhere_closes_the_list(controller_of, qtbot) -> None:
+    desk = controller_of("robot.do")
     desk.click("posture")
 
     desk.widget.close()
@@ -80,16 +80,16 @@ def test_a_press_elsewhere_closes_the_list(desk_of, qtbot) -> None:
     assert desk.new_steps() == 0
 
 
-def test_choices_depend_on_another_field(desk_of) -> None:
-    desk = desk_of("robot_moves.move_joint", part="left_arm")
+def test_choices_depend_on_another_field(controller_of) -> None:
+    desk = controller_of("robot_moves.move_joint", part="left_arm")
 
     desk.click("joint")
 
     assert "elbow, bent" in labels(desk.widget)
 
 
-def test_a_gesture_is_chosen_by_its_name(desk_of) -> None:
-    desk = desk_of("event.gesture")
+def test_a_gesture_is_chosen_by_its_name(controller_of) -> None:
+    desk = controller_of("event.gesture")
 
     desk.click("gesture")
     QTest.keyClicks(desk.widget.search, "hand")
@@ -98,8 +98,8 @@ def test_a_gesture_is_chosen_by_its_name(desk_of) -> None:
     assert desk.value("gesture") == "hand_up"
 
 
-def test_all_robots_can_be_chosen(desk_of) -> None:
-    desk = desk_of("robot.say")
+def test_all_robots_can_be_chosen(controller_of) -> None:
+    desk = controller_of("robot.say")
 
     desk.click("robot")
     choose(desk.widget, "all robots")
@@ -107,8 +107,8 @@ def test_all_robots_can_be_chosen(desk_of) -> None:
     assert desk.value("robot") == "*"
 
 
-def test_a_new_robot_is_put_on_the_robots_page_in_one_step(desk_of) -> None:
-    desk = desk_of("robot.say")
+def test_a_new_robot_is_put_on_the_robots_page_in_one_step(controller_of) -> None:
+    desk = controller_of("robot.say")
 
     desk.click("robot")
     choose(desk.widget, "new robot…")
@@ -122,8 +122,8 @@ def test_a_new_robot_is_put_on_the_robots_page_in_one_step(desk_of) -> None:
     assert desk.new_steps() == 1
 
 
-def test_variables_are_found_without_their_accents(desk_of) -> None:
-    desk = desk_of("variable.set")
+def test_variables_are_found_without_their_accents(controller_of) -> None:
+    desk = controller_of("variable.set")
     added = desk.editor.add_variable("Größe")
 
     desk.click("variable")
@@ -135,8 +135,8 @@ def test_variables_are_found_without_their_accents(desk_of) -> None:
     assert desk.value("variable") == added
 
 
-def test_a_new_variable_is_made_and_chosen_in_one_step(desk_of) -> None:
-    desk = desk_of("variable.set")
+def test_a_new_variable_is_made_and_chosen_in_one_step(controller_of) -> None:
+    desk = controller_of("variable.set")
 
     desk.click("variable")
     choose(desk.widget, "new variable…")
@@ -148,8 +148,8 @@ def test_a_new_variable_is_made_and_chosen_in_one_step(desk_of) -> None:
     assert desk.new_steps() == 1
 
 
-def test_a_variable_name_that_is_taken_is_refused_in_words(desk_of) -> None:
-    desk = desk_of("variable.set")
+def test_a_variable_name_that_is_taken_is_refused_in_words(controller_of) -> None:
+    desk = controller_of("variable.set")
 
     desk.click("variable")
     choose(desk.widget, "new variable…")
@@ -160,8 +160,8 @@ def test_a_variable_name_that_is_taken_is_refused_in_words(desk_of) -> None:
     assert desk.new_steps() == 0
 
 
-def test_a_variable_is_renamed_everywhere(desk_of) -> None:
-    desk = desk_of("variable.set", variable="v1")
+def test_a_variable_is_renamed_everywhere(controller_of) -> None:
+    desk = controller_of("variable.set", variable="v1")
 
     desk.click("variable")
     choose(desk.widget, "rename “score”…")
@@ -173,8 +173,8 @@ def test_a_variable_is_renamed_everywhere(desk_of) -> None:
     assert desk.new_steps() == 1
 
 
-def test_deleting_a_variable_first_says_who_uses_it(desk_of) -> None:
-    desk = desk_of("variable.set", variable="v1")
+def test_deleting_a_variable_first_says_who_uses_it(controller_of) -> None:
+    desk = controller_of("variable.set", variable="v1")
 
     desk.click("variable")
     choose(desk.widget, "delete “score”…")
@@ -189,8 +189,8 @@ def test_deleting_a_variable_first_says_who_uses_it(desk_of) -> None:
     assert [v.name for v in desk.editor.project.variables] == ["count"]
 
 
-def test_a_state_is_typed_freely_or_chosen(desk_of) -> None:
-    desk = desk_of("event.human_state")
+def test_a_state_is_typed_freely_or_chosen(controller_of) -> None:
+    desk = controller_of("event.human_state")
 
     desk.click("state")
     desk.widget.search.selectAll()
@@ -207,8 +207,8 @@ def test_a_state_is_typed_freely_or_chosen(desk_of) -> None:
     assert desk.new_steps() == 2
 
 
-def test_a_colour_is_chosen_with_the_arrow_keys(desk_of) -> None:
-    desk = desk_of("kinds.colour", colour=COLOURS[0][1])
+def test_a_colour_is_chosen_with_the_arrow_keys(controller_of) -> None:
+    desk = controller_of("kinds.colour", colour=COLOURS[0][1])
 
     desk.click("colour")
     QTest.keyClick(desk.widget.palette_grid, Qt.Key.Key_Right)
@@ -220,8 +220,8 @@ def test_a_colour_is_chosen_with_the_arrow_keys(desk_of) -> None:
     assert desk.widget is None
 
 
-def test_a_colour_is_chosen_with_the_mouse_and_offered_again(desk_of) -> None:
-    desk = desk_of("kinds.colour")
+def test_a_colour_is_chosen_with_the_mouse_and_offered_again(controller_of) -> None:
+    desk = controller_of("kinds.colour")
 
     desk.click("colour")
     grid = desk.widget.palette_grid
@@ -232,8 +232,8 @@ def test_a_colour_is_chosen_with_the_mouse_and_offered_again(desk_of) -> None:
     assert desk.widget.recent.codes == [COLOURS[4][1]]
 
 
-def test_a_colour_is_typed_as_a_number_and_a_wrong_one_is_told(desk_of) -> None:
-    desk = desk_of("kinds.colour")
+def test_a_colour_is_typed_as_a_number_and_a_wrong_one_is_told(controller_of) -> None:
+    desk = controller_of("kinds.colour")
 
     desk.click("colour")
     desk.widget.code.selectAll()

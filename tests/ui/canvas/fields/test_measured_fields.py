@@ -13,8 +13,8 @@ PLAIN = Qt.KeyboardModifier.NoModifier
 LEFT = Qt.MouseButton.LeftButton
 
 
-def test_an_angle_is_turned_in_steps_of_fifteen_unless_shift_is_held(desk_of) -> None:
-    desk = desk_of("kinds.angle")
+def test_an_angle_is_turned_in_steps_of_fifteen_unless_shift_is_held(controller_of) -> None:
+    desk = controller_of("kinds.angle")
 
     desk.click("angle")
     dial = desk.widget.dial
@@ -36,8 +36,8 @@ def test_ahead_is_nought_and_left_is_positive(x, y, degrees) -> None:
     assert angle_at(x, y, is_free=False) == degrees
 
 
-def test_an_angle_is_typed_and_counted(desk_of) -> None:
-    desk = desk_of("kinds.angle")
+def test_an_angle_is_typed_and_counted(controller_of) -> None:
+    desk = controller_of("kinds.angle")
 
     desk.click("angle")
     desk.widget.number.selectAll()
@@ -47,8 +47,8 @@ def test_an_angle_is_typed_and_counted(desk_of) -> None:
     assert desk.value("angle") == 55
 
 
-def test_a_slider_moves_between_its_ends(desk_of) -> None:
-    desk = desk_of("kinds.slider")
+def test_a_slider_moves_between_its_ends(controller_of) -> None:
+    desk = controller_of("kinds.slider")
 
     desk.click("much")
     desk.widget.slider.setValue(desk.widget.slider.maximum())
@@ -60,8 +60,8 @@ def test_a_slider_moves_between_its_ends(desk_of) -> None:
     assert desk.widget.number.text() == "100"
 
 
-def test_a_number_outside_a_slider_is_refused_in_words(desk_of) -> None:
-    desk = desk_of("kinds.slider", much=50)
+def test_a_number_outside_a_slider_is_refused_in_words(controller_of) -> None:
+    desk = controller_of("kinds.slider", much=50)
 
     desk.click("much")
     desk.widget.number.selectAll()
@@ -74,8 +74,8 @@ def test_a_number_outside_a_slider_is_refused_in_words(desk_of) -> None:
     assert desk.new_steps() == 0
 
 
-def test_a_duration_has_quick_choices(desk_of) -> None:
-    desk = desk_of("kinds.duration")
+def test_a_duration_has_quick_choices(controller_of) -> None:
+    desk = controller_of("kinds.duration")
 
     desk.click("time")
     QTest.mouseClick(desk.widget.quick[5], LEFT)
@@ -84,8 +84,8 @@ def test_a_duration_has_quick_choices(desk_of) -> None:
     assert desk.widget is None
 
 
-def test_a_duration_is_not_less_than_nothing(desk_of) -> None:
-    desk = desk_of("kinds.duration")
+def test_a_duration_is_not_less_than_nothing(controller_of) -> None:
+    desk = controller_of("kinds.duration")
 
     desk.click("time")
     desk.widget.number.selectAll()
@@ -95,8 +95,8 @@ def test_a_duration_is_not_less_than_nothing(desk_of) -> None:
     assert desk.widget.reason.text == "A time cannot be less than 0 seconds."
 
 
-def test_settings_come_from_the_manifest_of_the_node(desk_of) -> None:
-    desk = desk_of("nodes.launch")
+def test_settings_come_from_the_manifest_of_the_node(controller_of) -> None:
+    desk = controller_of("nodes.launch")
 
     desk.click("parameters")
     QTest.keyClicks(desk.widget.input("gesture"), "karate")
@@ -107,8 +107,8 @@ def test_settings_come_from_the_manifest_of_the_node(desk_of) -> None:
     assert desk.new_steps() == 1
 
 
-def test_a_setting_out_of_its_range_is_told_and_another_can_be_added(desk_of) -> None:
-    desk = desk_of("nodes.launch")
+def test_a_setting_out_of_its_range_is_told_and_another_can_be_added(controller_of) -> None:
+    desk = controller_of("nodes.launch")
 
     desk.click("parameters")
     QTest.keyClicks(desk.widget.input("certainty"), "7")
@@ -122,8 +122,8 @@ def test_a_setting_out_of_its_range_is_told_and_another_can_be_added(desk_of) ->
     assert desk.value("parameters") == {"colour": "blue"}
 
 
-def test_a_parameter_is_renamed_in_the_header_and_in_all_calls(desk_of) -> None:
-    desk = desk_of("control.wait")
+def test_a_parameter_is_renamed_in_the_header_and_in_all_calls(controller_of) -> None:
+    desk = controller_of("control.wait")
     parameter = desk.editor.new_parameter("name", "text")
     place = desk.editor.new_stack("behaviour", 300, 200)
     own = desk.editor.add_procedure(["greet", parameter], place=place)
@@ -139,8 +139,8 @@ def test_a_parameter_is_renamed_in_the_header_and_in_all_calls(desk_of) -> None:
     assert desk.editor.history.steps == steps + 1
 
 
-def test_a_popup_stays_inside_the_screen_and_is_mirrored(desk_of) -> None:
-    desk = desk_of("robot.do", is_mirrored=True)
+def test_a_popup_stays_inside_the_screen_and_is_mirrored(controller_of) -> None:
+    desk = controller_of("robot.do", is_mirrored=True)
 
     desk.click("posture")
     popup = desk.widget
@@ -150,8 +150,8 @@ def test_a_popup_stays_inside_the_screen_and_is_mirrored(desk_of) -> None:
     assert popup.accessibleName() == "posture: one of a list"
 
 
-def test_tab_leaves_a_popup_for_the_next_field(desk_of) -> None:
-    desk = desk_of("robot.say")
+def test_tab_leaves_a_popup_for_the_next_field(controller_of) -> None:
+    desk = controller_of("robot.say")
 
     desk.click("robot")
     QTest.keyClick(desk.widget.search, Qt.Key.Key_Tab)

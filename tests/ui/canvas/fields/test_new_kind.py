@@ -27,8 +27,8 @@ def note(monkeypatch) -> Kind:
     return kind
 
 
-def test_a_new_kind_is_drawn_read_checked_and_kept(note, desk_of) -> None:
-    desk = desk_of("kinds.note")
+def test_a_new_kind_is_drawn_read_checked_and_kept(note, controller_of) -> None:
+    desk = controller_of("kinds.note")
 
     desk.click("pitch")
     is_line = isinstance(desk.widget, LineEditor)

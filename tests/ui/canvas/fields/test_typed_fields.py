@@ -18,8 +18,8 @@ def retype(desk: Desk, text: str) -> None:
     QTest.keyClicks(desk.widget, text)
 
 
-def test_a_click_opens_a_number_and_typing_sets_it_in_one_step(desk_of) -> None:
-    desk = desk_of("math.number", number=5)
+def test_a_click_opens_a_number_and_typing_sets_it_in_one_step(controller_of) -> None:
+    desk = controller_of("math.number", number=5)
 
     desk.click("number")
     retype(desk, "42")
@@ -32,8 +32,8 @@ def test_a_click_opens_a_number_and_typing_sets_it_in_one_step(desk_of) -> None:
     assert desk.value("number") == 5
 
 
-def test_a_number_is_set_at_each_key(desk_of) -> None:
-    desk = desk_of("math.number")
+def test_a_number_is_set_at_each_key(controller_of) -> None:
+    desk = controller_of("math.number")
 
     desk.click("number")
     retype(desk, "4")
@@ -42,8 +42,8 @@ def test_a_number_is_set_at_each_key(desk_of) -> None:
 
 
 @pytest.mark.parametrize(("typed", "value"), [("1.5", 1.5), ("1,5", 1.5), ("-3", -3), ("2.0", 2)])
-def test_numbers_are_read_with_a_point_or_a_comma(desk_of, typed, value) -> None:
-    desk = desk_of("math.number")
+def test_numbers_are_read_with_a_point_or_a_comma(controller_of, typed, value) -> None:
+    desk = controller_of("math.number")
 
     desk.click("number")
     retype(desk, typed)
@@ -51,8 +51,8 @@ def test_numbers_are_read_with_a_point_or_a_comma(desk_of, typed, value) -> None
     assert desk.value("number") == value
 
 
-def test_arithmetic_stays_as_typed_and_shows_what_it_comes_to(desk_of) -> None:
-    desk = desk_of("math.number")
+def test_arithmetic_stays_as_typed_and_shows_what_it_comes_to(controller_of) -> None:
+    desk = controller_of("math.number")
 
     desk.click("number")
     retype(desk, "2*pi/3")
@@ -62,8 +62,8 @@ def test_arithmetic_stays_as_typed_and_shows_what_it_comes_to(desk_of) -> None:
     assert desk.widget.result.isVisible()
 
 
-def test_what_is_no_number_keeps_the_last_good_one_and_says_why(desk_of) -> None:
-    desk = desk_of("math.number", number=7)
+def test_what_is_no_number_keeps_the_last_good_one_and_says_why(controller_of) -> None:
+    desk = controller_of("math.number", number=7)
     said = []
     desk.canvas.news.announced.connect(said.append)
 
@@ -77,8 +77,8 @@ def test_what_is_no_number_keeps_the_last_good_one_and_says_why(desk_of) -> None
     assert said[-1] == desk.widget.reason.text
 
 
-def test_escape_takes_the_typing_back_as_if_it_had_never_been(desk_of) -> None:
-    desk = desk_of("math.number", number=7)
+def test_escape_takes_the_typing_back_as_if_it_had_never_been(controller_of) -> None:
+    desk = controller_of("math.number", number=7)
 
     desk.click("number")
     retype(desk, "12")
@@ -90,8 +90,8 @@ def test_escape_takes_the_typing_back_as_if_it_had_never_been(desk_of) -> None:
     assert desk.widget is None
 
 
-def test_up_and_down_count_and_with_shift_by_ten(desk_of) -> None:
-    desk = desk_of("math.number", number=0.1)
+def test_up_and_down_count_and_with_shift_by_ten(controller_of) -> None:
+    desk = controller_of("math.number", number=0.1)
 
     desk.click("number")
     QTest.keyClick(desk.widget, Qt.Key.Key_Up)
@@ -103,8 +103,8 @@ def test_up_and_down_count_and_with_shift_by_ten(desk_of) -> None:
     assert desk.new_steps() == 1
 
 
-def test_a_click_elsewhere_keeps_what_was_typed(desk_of) -> None:
-    desk = desk_of("text.text")
+def test_a_click_elsewhere_keeps_what_was_typed(controller_of) -> None:
+    desk = controller_of("text.text")
 
     desk.click("text")
     QTest.keyClicks(desk.widget, "good day")
@@ -114,8 +114,8 @@ def test_a_click_elsewhere_keeps_what_was_typed(desk_of) -> None:
     assert desk.widget is None
 
 
-def test_two_fields_typed_after_each_other_are_two_steps(desk_of) -> None:
-    desk = desk_of("math.arithmetic", a=1, b=2)
+def test_two_fields_typed_after_each_other_are_two_steps(controller_of) -> None:
+    desk = controller_of("math.arithmetic", a=1, b=2)
 
     desk.click("a")
     retype(desk, "10")
@@ -127,8 +127,8 @@ def test_two_fields_typed_after_each_other_are_two_steps(desk_of) -> None:
     assert desk.new_steps() == 2
 
 
-def test_a_field_opened_twice_gives_two_steps(desk_of) -> None:
-    desk = desk_of("math.number")
+def test_a_field_opened_twice_gives_two_steps(controller_of) -> None:
+    desk = controller_of("math.number")
 
     for text in ("1", "2"):
         desk.click("number")
@@ -138,8 +138,8 @@ def test_a_field_opened_twice_gives_two_steps(desk_of) -> None:
     assert desk.new_steps() == 2
 
 
-def test_any_value_is_a_number_where_it_looks_like_one(desk_of) -> None:
-    desk = desk_of("variable.set")
+def test_any_value_is_a_number_where_it_looks_like_one(controller_of) -> None:
+    desk = controller_of("variable.set")
 
     desk.click("value")
     retype(desk, "3")
@@ -150,8 +150,8 @@ def test_any_value_is_a_number_where_it_looks_like_one(desk_of) -> None:
     assert desk.value("value") == "three"
 
 
-def test_one_line_takes_a_name(desk_of) -> None:
-    desk = desk_of("robots.robot")
+def test_one_line_takes_a_name(controller_of) -> None:
+    desk = controller_of("robots.robot")
 
     desk.click("name")
     retype(desk, "Pepe")
@@ -159,8 +159,8 @@ def test_one_line_takes_a_name(desk_of) -> None:
     assert desk.value("name") == "Pepe"
 
 
-def test_tab_goes_to_the_next_field_and_shift_tab_back(desk_of) -> None:
-    desk = desk_of("math.arithmetic", a=1, b=2)
+def test_tab_goes_to_the_next_field_and_shift_tab_back(controller_of) -> None:
+    desk = controller_of("math.arithmetic", a=1, b=2)
 
     desk.click("a")
     QTest.keyClick(desk.widget, Qt.Key.Key_Tab)
@@ -172,8 +172,8 @@ def test_tab_goes_to_the_next_field_and_shift_tab_back(desk_of) -> None:
     assert desk.fields.place == (desk.block, "operation")
 
 
-def test_tab_goes_on_in_the_next_block_and_ends_after_the_last(desk_of) -> None:
-    desk = desk_of("control.wait")
+def test_tab_goes_on_in_the_next_block_and_ends_after_the_last(controller_of) -> None:
+    desk = controller_of("control.wait")
     stack = desk.editor.project.stack_of(desk.block).id
     below = desk.editor.create("control.wait", InStack(stack, 1))
 
@@ -186,8 +186,8 @@ def test_tab_goes_on_in_the_next_block_and_ends_after_the_last(desk_of) -> None:
     assert desk.fields.place is None
 
 
-def test_the_editor_follows_zooming_and_scrolling(desk_of) -> None:
-    desk = desk_of("math.number", number=5)
+def test_the_editor_follows_zooming_and_scrolling(controller_of) -> None:
+    desk = controller_of("math.number", number=5)
     desk.click("number")
     height, at = desk.widget.height(), desk.widget.pos()
 
@@ -199,8 +199,8 @@ def test_the_editor_follows_zooming_and_scrolling(desk_of) -> None:
     assert abs(desk.widget.geometry().center().y() - desk.place("number").y()) <= 2
 
 
-def test_the_editor_goes_away_with_its_block(desk_of) -> None:
-    desk = desk_of("math.number")
+def test_the_editor_goes_away_with_its_block(controller_of) -> None:
+    desk = controller_of("math.number")
     desk.click("number")
 
     desk.editor.history.undo()
@@ -208,8 +208,8 @@ def test_the_editor_goes_away_with_its_block(desk_of) -> None:
     assert desk.block in desk.editor.project.blocks or desk.widget is None
 
 
-def test_an_editor_that_grows_stays_inside_the_view(desk_of) -> None:
-    desk = desk_of("text.text")
+def test_an_editor_that_grows_stays_inside_the_view(controller_of) -> None:
+    desk = controller_of("text.text")
 
     desk.click("text")
     QTest.keyClicks(desk.widget, "a long story " * 20)
@@ -217,8 +217,8 @@ def test_an_editor_that_grows_stays_inside_the_view(desk_of) -> None:
     assert desk.canvas.viewport().rect().contains(desk.widget.geometry())
 
 
-def test_a_mirrored_field_grows_to_the_left(desk_of) -> None:
-    desk = desk_of("robot.say", is_mirrored=True, text="x")
+def test_a_mirrored_field_grows_to_the_left(controller_of) -> None:
+    desk = controller_of("robot.say", is_mirrored=True, text="x")
     desk.click("text")
     right = desk.widget.geometry().right()
 
@@ -228,8 +228,8 @@ def test_a_mirrored_field_grows_to_the_left(desk_of) -> None:
     assert abs(desk.widget.geometry().right() - right) <= 3
 
 
-def test_several_lines_are_typed_and_ended_with_control_enter(desk_of) -> None:
-    desk = desk_of("kinds.lines")
+def test_several_lines_are_typed_and_ended_with_control_enter(controller_of) -> None:
+    desk = controller_of("kinds.lines")
 
     desk.click("text")
     QTest.keyClicks(desk.widget, "first")
@@ -242,8 +242,8 @@ def test_several_lines_are_typed_and_ended_with_control_enter(desk_of) -> None:
     assert desk.widget is None
 
 
-def test_an_editor_of_lines_grows_with_its_text(desk_of) -> None:
-    desk = desk_of("kinds.lines")
+def test_an_editor_of_lines_grows_with_its_text(controller_of) -> None:
+    desk = controller_of("kinds.lines")
     desk.click("text")
     height = desk.widget.height()
 
@@ -253,8 +253,8 @@ def test_an_editor_of_lines_grows_with_its_text(desk_of) -> None:
     assert desk.widget.height() > height
 
 
-def test_escape_restores_several_lines(desk_of) -> None:
-    desk = desk_of("kinds.lines")
+def test_escape_restores_several_lines(controller_of) -> None:
+    desk = controller_of("kinds.lines")
 
     desk.click("text")
     QTest.keyClicks(desk.widget, "gone")
@@ -264,8 +264,8 @@ def test_escape_restores_several_lines(desk_of) -> None:
     assert desk.new_steps() == 0
 
 
-def test_a_checkbox_changes_at_once(desk_of) -> None:
-    desk = desk_of("robot_moves.breathing")
+def test_a_checkbox_changes_at_once(controller_of) -> None:
+    desk = controller_of("robot_moves.breathing")
 
     desk.click("on")
 
@@ -275,8 +275,8 @@ def test_a_checkbox_changes_at_once(desk_of) -> None:
     assert desk.value("on") is True
 
 
-def test_resting_over_a_field_tells_what_it_takes(desk_of) -> None:
-    desk = desk_of("control.repeat")
+def test_resting_over_a_field_tells_what_it_takes(controller_of) -> None:
+    desk = controller_of("control.repeat")
     at = desk.place("times")
     event = QHelpEvent(QEvent.Type.ToolTip, at, desk.canvas.viewport().mapToGlobal(at))
     QApplication.sendEvent(desk.canvas.viewport(), event)

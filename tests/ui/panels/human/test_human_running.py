@@ -47,7 +47,7 @@ def test_every_hat_is_set_off_by_its_control(human: Human, run: Run, qtbot: QtBo
     """A real program with a virtual robot: each button is pressed, its rule speaks."""
     panel = human(*(rule(hat, **fields) for hat, fields in HATS.items()))
     heard = run()
-    qtbot.waitUntil(lambda: bool(panel.stimuli.noticing(panel.happenings()[3])), timeout=RUN_MS)
+    qtbot.waitUntil(lambda: bool(panel.stimuli.noticing(panel.occurrences()[3])), timeout=RUN_MS)
 
     for hat, control in zip(HATS, list(panel.waiting.buttons), strict=True):
         click(qtbot, control)
@@ -81,7 +81,7 @@ def test_questions_are_answered_by_what_is_done(human: Human, run: Run, qtbot: Q
         stacks.append([B("event.started"), until, B("robot.say", {"text": block})])
     panel = human(*stacks, rule("robot_events.heard"))
     heard = run()
-    qtbot.waitUntil(lambda: bool(panel.stimuli.noticing(panel.happenings()[1])), timeout=RUN_MS)
+    qtbot.waitUntil(lambda: bool(panel.stimuli.noticing(panel.occurrences()[1])), timeout=RUN_MS)
 
     for control in list(panel.waiting.buttons):
         if control.words.startswith("Touch"):
@@ -116,7 +116,7 @@ def test_a_gesture_comes_from_the_watch_or_is_told_by_hand_with_its_certainty(
     assert "told by hand" in panel.gestures.how.text()
     panel.gestures.certainty.setValue(60)
 
-    karate = next(one for one in panel.gestures.buttons if one.happening.value == "karate")
+    karate = next(one for one in panel.gestures.buttons if one.occurrence.value == "karate")
     click(qtbot, karate)
 
     def told() -> list[m.HumanBehavior]:
@@ -167,7 +167,7 @@ def test_sensors_are_slid_a_sound_passes_and_a_push_makes_it_fall(
     def state() -> m.RobotState:
         return panel.visitors.states.get("NAO") or m.RobotState(robot="NAO", joints={})
 
-    qtbot.waitUntil(lambda: bool(panel.stimuli.noticing(panel.happenings()[0])), timeout=RUN_MS)
+    qtbot.waitUntil(lambda: bool(panel.stimuli.noticing(panel.occurrences()[0])), timeout=RUN_MS)
     panel.sensors.sliders["sonar_left"].setValue(40)
     panel.sensors.sliders["battery"].setValue(10)
     qtbot.waitUntil(lambda: state().sensors.get("sonar_left") == 0.4, timeout=RUN_MS)
