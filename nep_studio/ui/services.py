@@ -16,6 +16,7 @@ from nep_studio.settings import Settings
 from nep_studio.support import safe_mode
 from nep_studio.ui import words
 from nep_studio.ui.document_files import FileChooser, Files, SystemFileChooser
+from nep_studio.ui.labels import tell_again
 from nep_studio.ui.messages import Messages
 from nep_studio.ui.theme.look import Look, load_fonts
 
@@ -76,6 +77,7 @@ class Studio(QObject):
         self.look.refresh()
         self._language = None
         self.words_changed.emit()
+        tell_again()
 
     def _use_words(self) -> None:
         code = self.settings.language

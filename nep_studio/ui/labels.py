@@ -1,0 +1,79 @@
+"""Words that stay on a widget: told again, in place, when the language of the window changes.
+
+Enters what has words and outlives a change of language. A dialog does not: it is made anew each
+time that it is opened, and says ``tr`` where it is made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import MethodType
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+from weakref import WeakKeyDictionary, WeakMethod
+
+from PySide6.QtCore import QEvent, QObject
+from PySide6.QtWidgets import QApplication
+from shiboken6 import isValid
+
+from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from faults import Words
+
+Owner = TypeVar("Owner", bound=QObject)
+Tell = Callable[[], object]
+
+SETTERS = {
+    "text": "setText",
+    "title": "setTitle",
+    "window_title": "setWindowTitle",
+    "tip": "setToolTip",
+    "name": "setAccessibleName",
+    "description": "setAccessibleDescription",
+    "placeholder": "setPlaceholderText",
+}
+"""What of a widget words can be, and how Qt is told."""
+
+_labels: WeakKeyDictionary[QObject, dict[str, Words]] = WeakKeyDictionary()
+_followers: WeakKeyDictionary[QObject, list[WeakMethod[Tell]]] = WeakKeyDictionary()
+
+
+def labelled(owner: Owner, /, **words: Words) -> Owner:
+    """Put words on a widget or an action, now and in each language that is chosen later.
+
+    ``words`` by the keys of ``SETTERS``: English templates, or a ``Text`` with its values. What
+    is labelled again has the new words; empty words are put there as they are.
+    """
+    known = _labels.setdefault(owner, {})
+    for key, said in words.items():
+        known[key] = said
+        _put(owner, key, said)
+    return owner
+
+
+def follow_words(owner: QObject, tell: Tell) -> None:
+    """Call a method of ``owner`` now and after each change of language.
+
+    It is for words that depend on more than the language, and for lists of them.
+    """
+    _followers.setdefault(owner, []).append(WeakMethod(cast("MethodType", tell)))
+    tell()
+
+
+def tell_again() -> None:
+    """Put all words on their widgets in the language that is used now; Qt's own widgets, too."""
+    for owner, words in list(_labels.items()):
+        if isValid(owner):
+            for key, said in words.items():
+                _put(owner, key, said)
+    for owner, methods in list(_followers.items()):
+        for method in methods:
+            tell = method()
+            if tell is not None and isValid(owner):
+                tell()
+    for window in QApplication.topLevelWidgets():
+        QApplication.sendEvent(window, QEvent(QEvent.Type.LanguageChange))
+
+
+def _put(owner: Any, key: str, said: Words) -> None:
+    getattr(owner, SETTERS[key])(tr(said))
