@@ -66,7 +66,10 @@ def main(arguments: list[str] | None = None) -> int:
     """Do the job that the first word names; the exit code."""
     words = sys.argv[1:] if arguments is None else arguments
     try:
-        _write_what_can_be_written()
+        # Let a letter that the terminal does not have become "?"
+        for stream in (sys.stdout, sys.stderr):
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(errors="replace")
         try:
             return _do(_begin(words))
         finally:
@@ -76,7 +79,11 @@ def main(arguments: list[str] | None = None) -> int:
     except OSError as error:
         if words[:1] == ["node"]:
             raise  # a fault of the node: its log shows where
-        _give_up_output()
+        # Let what cannot be written go nowhere: Python would try again, and fail, at its end
+        try:
+            _flush()
+        except OSError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return _tell(error)
 
 
@@ -134,23 +141,8 @@ def _has_display(environment: Mapping[str, str], system: str) -> bool:
     return any(environment.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"))
 
 
-def _write_what_can_be_written() -> None:
-    """Let a letter that the terminal does not have become "?"."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")
-
-
 def _flush() -> None:
     print(end="", flush=True)  # also where there is no output
-
-
-def _give_up_output() -> None:
-    """Let what cannot be written go nowhere: Python would try again, and fail, at its end."""
-    try:
-        _flush()
-    except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _tell(error: OSError) -> int:

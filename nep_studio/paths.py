@@ -6,14 +6,10 @@ import sys
 from pathlib import Path
 
 
-def _root() -> Path:
-    frozen = getattr(sys, "_MEIPASS", None)
-    return Path(frozen) if frozen else Path(__file__).resolve().parent.parent
-
-
 def resources() -> Path:
     """Blocks, robots, gestures, examples."""
-    beside = _root() / "resources"
+    frozen = getattr(sys, "_MEIPASS", None)
+    beside = (Path(frozen) if frozen else Path(__file__).resolve().parent.parent) / "resources"
     return beside if beside.is_dir() else Path(__file__).resolve().parent / "resources"
 
 

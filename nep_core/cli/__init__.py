@@ -74,8 +74,17 @@ class Parser(argparse.ArgumentParser):
 
 def main(arguments: list[str] | None = None) -> int:
     """The command ``nep``; the exit code. A closed pipe and Ctrl-C end it quietly."""
-    _open_what_is_closed()
-    _speak_utf8()
+    # Let a command that was started without a standard stream (``nep topics >&-``) work too
+    if sys.stdin is None:
+        sys.stdin = open(os.devnull, encoding="utf-8")  # noqa: SIM115  as long as the program
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+    # Messages hold any letter, whatever this terminal's language is
+    for stream in (sys.stdin, sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            errors = "replace" if stream is sys.stdin else "backslashreplace"
+            stream.reconfigure(encoding="utf-8", errors=errors)
     try:
         try:
             return _main(arguments)
@@ -212,20 +221,3 @@ def _explain_mistake(error: Exception) -> str:
         f"Something went wrong inside the command ({type(error).__name__}: {error}).\n"
         f"{kept}; please send them to the authors of NEP Studio."
     )
-
-
-def _open_what_is_closed() -> None:
-    """Let a command that was started without a standard stream (``nep topics >&-``) work too."""
-    if sys.stdin is None:
-        sys.stdin = open(os.devnull, encoding="utf-8")  # noqa: SIM115  as long as the program
-    for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
-
-
-def _speak_utf8() -> None:
-    """Messages hold any letter, whatever this terminal's language is."""
-    for stream in (sys.stdin, sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            errors = "replace" if stream is sys.stdin else "backslashreplace"
-            stream.reconfigure(encoding="utf-8", errors=errors)

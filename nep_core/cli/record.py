@@ -67,7 +67,12 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _record(options: argparse.Namespace) -> int:
-    _allow_many_topics()
+    # Each topic needs an open file or two; some systems allow 1,024, though more may be had
+    with suppress(ImportError, OSError, ValueError):  # Windows has no such limit
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (min(most, MOST_FILES), most))
     told = registrations(options)
     for topic in options.topics:
         if sentence := about_nobody(topic, told):
@@ -82,17 +87,14 @@ def _record(options: argparse.Namespace) -> int:
             recorder.follow(options.master, without=options.without)
         remark(f"Recording to {options.file}. Ctrl-C ends it.")
         _wait(recorder, options.seconds, stop)
-    _say_recorded(recorder)
+    totals = recorder.totals
+    say(
+        f"Recorded {many(totals.messages, 'message')} of {many(len(totals.topics), 'topic')} "
+        f"to {recorder.path} ({amount(recorder.file_bytes)})."
+    )
+    if recorder.lost:
+        remark(f"{many(recorder.lost, 'message')} lost: this computer could not keep up.")
     return 0
-
-
-def _allow_many_topics() -> None:
-    """Each topic needs an open file or two; some systems allow 1,024, though more may be had."""
-    with suppress(ImportError, OSError, ValueError):  # Windows has no such limit
-        import resource
-
-        _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
-        resource.setrlimit(resource.RLIMIT_NOFILE, (min(most, MOST_FILES), most))
 
 
 @contextmanager
@@ -127,16 +129,6 @@ def _progress(recorder: Recorder) -> str:
     totals = recorder.totals
     size = amount(totals.payload_bytes)
     return f"{many(totals.messages, 'message')}   {size}   {recorder.lost} lost"
-
-
-def _say_recorded(recorder: Recorder) -> None:
-    totals = recorder.totals
-    say(
-        f"Recorded {many(totals.messages, 'message')} of {many(len(totals.topics), 'topic')} "
-        f"to {recorder.path} ({amount(recorder.file_bytes)})."
-    )
-    if recorder.lost:
-        remark(f"{many(recorder.lost, 'message')} lost: this computer could not keep up.")
 
 
 def _show(options: argparse.Namespace) -> int:

@@ -89,7 +89,14 @@ def tell_errors(project: Project, language: Language, folder: Path) -> bool:
 
 def code(arguments: list[str]) -> int:
     """Print the code; 2 when the project cannot be used."""
-    options = _parser().parse_args(arguments)
+    parser = argparse.ArgumentParser(
+        prog="nep-studio code", description="Print the Python that a project's blocks make."
+    )
+    parser.add_argument("file", metavar="FILE.nep")
+    parser.add_argument(
+        "--nodes", action="store_true", help="print what the Robots and Nodes pages start"
+    )
+    options = parser.parse_args(arguments)
     try:
         project, language = read_project(options.file)
         generate = generate_launch if options.nodes else generate_program
@@ -98,17 +105,6 @@ def code(arguments: list[str]) -> int:
         explain(error)
         return UNUSABLE
     return 0
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="nep-studio code", description="Print the Python that a project's blocks make."
-    )
-    parser.add_argument("file", metavar="FILE.nep")
-    parser.add_argument(
-        "--nodes", action="store_true", help="print what the Robots and Nodes pages start"
-    )
-    return parser
 
 
 # ``nep-studio exec PROGRAM.py``: run a program as a cognitive node.

@@ -240,16 +240,14 @@ def _program() -> Iterator[Finding]:
         yield Finding("portable", "look", told, ("Is the stick write-protected, or full?",))
     else:
         yield Finding("portable", "ok", f"yes, {folder}" if folder else "no")
-    yield Finding("safe mode", "note" if safe_mode.is_on() else "ok", _yes(safe_mode.is_on()))
+    yield Finding(
+        "safe mode", "note" if safe_mode.is_on() else "ok", "yes" if safe_mode.is_on() else "no"
+    )
     yield Finding("words", "ok", f"{locale.getlocale()[0]}, files in {sys.getfilesystemencoding()}")
     yield Finding("time zone", "ok", time.strftime("%Z %z"))
     for name, value in sorted(os.environ.items()):
         if QT_VARIABLE.match(name):
             yield Finding(name, "ok", value)
-
-
-def _yes(is_so: bool) -> str:
-    return "yes" if is_so else "no"
 
 
 def _screen() -> Iterator[Finding]:

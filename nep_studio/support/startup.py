@@ -72,7 +72,17 @@ def startup_files(place: Place, command: Sequence[str]) -> list[StartupFile]:
         return [StartupFile(folder / f"{NAME}.cmd", _batch(command), "start_and_again")]
     if place.system == "darwin":
         path = place.home / "Library" / "LaunchAgents" / f"{LABEL}.plist"
-        return [StartupFile(path, _launch_agent(command), "start_and_again")]
+        agent = {
+            "Label": LABEL,
+            "ProgramArguments": list(command),
+            "RunAtLoad": True,
+            "KeepAlive": {"SuccessfulExit": False},
+            "ThrottleInterval": AGAIN_S,
+            "ProcessType": "Interactive",
+        }
+        return [
+            StartupFile(path, plistlib.dumps(agent, sort_keys=False).decode(), "start_and_again")
+        ]
     autostart = place.settings / "autostart" / f"{NAME}.desktop"
     if not place.has_systemd:
         return [StartupFile(autostart, _desktop(command), "start")]
@@ -155,18 +165,6 @@ def _unit(command: Sequence[str]) -> str:
 def _unit_word(word: str) -> str:
     escaped = word.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
     return f'"{escaped.replace("%", "%%").replace("$", "$$")}"'
-
-
-def _launch_agent(command: Sequence[str]) -> str:
-    agent = {
-        "Label": LABEL,
-        "ProgramArguments": list(command),
-        "RunAtLoad": True,
-        "KeepAlive": {"SuccessfulExit": False},
-        "ThrottleInterval": AGAIN_S,
-        "ProcessType": "Interactive",
-    }
-    return plistlib.dumps(agent, sort_keys=False).decode()
 
 
 def _batch(command: Sequence[str]) -> str:
