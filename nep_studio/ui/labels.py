@@ -51,6 +51,11 @@ def labelled(owner: Owner, /, **words: Words) -> Owner:
     return owner
 
 
+def explained(owner: Owner, words: Words) -> Owner:
+    """Put the same words on what has only a picture: as its tool tip, and for screen readers."""
+    return labelled(owner, tip=words, name=words)
+
+
 def follow_words(owner: QObject, tell: Tell) -> None:
     """Call a method of ``owner`` now and after each change of language.
 

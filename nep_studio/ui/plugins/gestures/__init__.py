@@ -10,7 +10,6 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from .gesture_controller import GestureController
@@ -58,7 +57,7 @@ class TrainerPanel(QWidget):
 def make(host: Host) -> Parts:
     """The panel below the canvas; its page is made when it is opened."""
     panel = TrainerPanel(lambda: _page(host))
-    return Parts(NewPanel(panel, tr("Gestures"), "hand", "bottom", least_share=LEAST_SHARE))
+    return Parts(NewPanel(panel, "Gestures", "hand", "bottom", least_share=LEAST_SHARE))
 
 
 def controller_of(host: Host) -> GestureController:

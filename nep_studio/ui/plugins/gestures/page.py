@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.watch_view.status import WatchStatus
 from nep_studio.ui.words import count_words, tr
@@ -213,8 +214,7 @@ class Head(QWidget):
         self._controller = controller
         self.watch, self.more = WatchStatus(controller.runner, controller.look), QToolButton()
         self.hint = HintLine(controller)
-        self.more.setAccessibleName(tr("Import, export and more"))
-        self.more.setToolTip(tr("Import, export and more"))
+        labelled(self.more, name="Import, export and more", tip="Import, export and more")
         self.more.clicked.connect(self.more_asked)
         row = QHBoxLayout()
         row.addWidget(self.watch, 1)

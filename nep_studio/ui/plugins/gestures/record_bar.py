@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_gestures import WRISTS
 from nep_studio.blocks.slots import why_not_name
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.layouts import FlowLayout
@@ -69,13 +70,14 @@ class WearerBox(QObject):
         self.refresh()
 
     def _lay_out(self) -> None:
-        self.person.setAccessibleName(tr("Who records"))
-        self.person.setToolTip(tr("Who records: each take belongs to a person"))
-        self.wrist.setAccessibleName(tr("Where the watch or phone is"))
-        self.wrist.setToolTip(tr("Where the watch or phone is while it is recorded"))
-        self.source.setAccessibleName(tr("Which watch or phone"))
-        self.more.setAccessibleName(tr("Change people"))
-        self.more.setToolTip(tr("Change people"))
+        labelled(self.person, name="Who records", tip="Who records: each take belongs to a person")
+        labelled(
+            self.wrist,
+            name="Where the watch or phone is",
+            tip="Where the watch or phone is while it is recorded",
+        )
+        labelled(self.source, name="Which watch or phone")
+        labelled(self.more, name="Change people", tip="Change people")
         for box in (self.person, self.wrist, self.source):
             box.setSizeAdjustPolicy(
                 QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
@@ -183,9 +185,9 @@ class RecordBar(QWidget):
         super().__init__()
         self._controller, self._session, self._take = controller, session, take
         self.gesture = ""
-        self.button, self.cancel = QPushButton(), QPushButton(tr("Cancel"))
-        self.play, self.back = QToolButton(), QPushButton(tr("Back to the live graph"))
-        self.everyday = QPushButton(tr("Everyday movement"))
+        self.button, self.cancel = QPushButton(), labelled(QPushButton(), text="Cancel")
+        self.play, self.back = QToolButton(), labelled(QPushButton(), text="Back to the live graph")
+        self.everyday = labelled(QPushButton(), text="Everyday movement")
         self.wearer = WearerBox(controller, keeping)
         self.wearer.setParent(self)
         self.words, self.progress = QLabel(), QProgressBar()
@@ -209,7 +211,7 @@ class RecordBar(QWidget):
         self.words.setWordWrap(True)
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.progress.setRange(0, 100)
-        self.progress.setAccessibleName(tr("How much is recorded"))
+        labelled(self.progress, name="How much is recorded")
         row = FlowLayout(gap=self.fontMetrics().height() // 3)
         wearer = (self.wearer.who, self.wearer.where)
         for widget in (self.button, self.cancel, self.play, self.back, *wearer, self.everyday):
@@ -261,7 +263,7 @@ class RecordBar(QWidget):
         if (words, kind) == (self.button.text(), self.button.property("kind")):
             return
         self.button.setText(words)
-        self.button.setToolTip(tr("Space"))
+        labelled(self.button, tip="Space")
         if kind != self.button.property("kind"):
             self.button.setProperty("kind", kind)
             self.button.style().unpolish(self.button)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from nep_studio.ui.actions import on_the_canvas, shortcuts_of
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from .panel import HelpPanel
@@ -52,7 +51,7 @@ def make(host: Host) -> Parts:
         "help.documentation": lambda: open_documentation(services.messages),
         "help.follow": follow,
     }
-    return Parts(NewPanel(panel, tr("Help"), "circle-question-mark", "right"), commands=commands)
+    return Parts(NewPanel(panel, "Help", "circle-question-mark", "right"), commands=commands)
 
 
 plugin = Plugin("help", make, order=110, modules=("repository", "panel", "help_controller"))

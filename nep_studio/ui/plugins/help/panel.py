@@ -30,6 +30,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.help.index import Findable, Hit, Index
 from nep_studio.help.texts import BLOCK, CATEGORY, HOME, NODE, split
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import UnknownIcon, icon
@@ -55,9 +56,9 @@ class ContentsView(QStackedWidget):
         self.tree = QTreeWidget()
         self.tree.setHeaderHidden(True)
         self.tree.setUniformRowHeights(True)
-        self.tree.setAccessibleName(tr("Contents of the help"))
+        labelled(self.tree, name="Contents of the help")
         self.found = FoundList()
-        self.found.setAccessibleName(tr("Pages found"))
+        labelled(self.found, name="Pages found")
         self.found.setUniformItemSizes(True)
         for view in (self.tree, self.found):
             view.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -190,8 +191,7 @@ class ToolRow(QWidget):
         self.larger = _button(tr("Larger text"))
         self.print = _button(tr("Print this page…"))
         self.search = QLineEdit()
-        self.search.setPlaceholderText(tr("Search the help"))
-        self.search.setAccessibleName(tr("Search the help"))
+        labelled(self.search, placeholder="Search the help", name="Search the help")
         self.search.setClearButtonEnabled(True)
         self._sign = QAction(self.search)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
@@ -414,7 +414,7 @@ class HelpPanel(QWidget):
         self.body = QSplitter(Qt.Orientation.Vertical)
         self._arrange()
         self._connect()
-        self.setAccessibleName(tr("Help"))
+        labelled(self, name="Help")
         self.setProperty("help_page", "howto/window#help")
         self._show_tools()
 

@@ -14,9 +14,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_animations import AnimationKind
 from nep_studio.ui.actions import Actions
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
@@ -39,15 +41,14 @@ class Header(QWidget):
         self.controller = controller
         self.title = QLineEdit()
         self.title.setMaxLength(100)
-        self.title.setPlaceholderText(tr("Name of the motion"))
-        self.title.setAccessibleName(tr("Name of the motion"))
+        labelled(self.title, placeholder="Name of the motion", name="Name of the motion")
         self.start = QComboBox()
-        self.start.setAccessibleName(tr("Starts from"))
+        labelled(self.start, name="Starts from")
         self.start.addItem(tr("any posture"), "")
         for name, words in posture_words(language, controller.body).items():
             self.start.addItem(words, name)
         self.kind = QComboBox()
-        self.kind.setAccessibleName(tr("Used to"))
+        labelled(self.kind, name="Used to")
         for kind, words in kind_words().items():
             self.kind.addItem(words, kind)
         self._lay_out()
@@ -124,9 +125,9 @@ class NotesBar(QFrame):
         self.faults: list[Fault] = []
         self.sign, self.words = QLabel(), QLabel()
         self.words.setWordWrap(True)
-        self.give_time = QPushButton(tr("Give it the time it needs"))
-        self.show_place = QPushButton(tr("Show the place"))
-        self.open = QPushButton(tr("Open one as a start…"))
+        self.give_time = labelled(QPushButton(), text="Give it the time it needs")
+        self.show_place = labelled(QPushButton(), text="Show the place")
+        self.open = labelled(QPushButton(), text="Open one as a start…")
         for button in (self.give_time, self.show_place, self.open):
             button.setAutoDefault(False)
         self._lay_out()
@@ -215,16 +216,16 @@ class Transport(QWidget):
         self.controller, self.player, self.timeline = controller, player, timeline
         self.time = QLabel()
         self.speed = QComboBox()
-        self.speed.setAccessibleName(tr("Speed"))
-        self.speed.setToolTip(tr("How fast it is shown here; the motion stays as it is"))
+        labelled(
+            self.speed, name="Speed", tip="How fast it is shown here; the motion stays as it is"
+        )
         for speed in SPEEDS:
             self.speed.addItem(
                 f"\N{MULTIPLICATION SIGN} {QLocale().toString(speed, 'g', 3)}", speed
             )
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
         self.snap = QComboBox()
-        self.snap.setAccessibleName(tr("Grid"))
-        self.snap.setToolTip(tr("To which times key poses go when they are moved"))
+        labelled(self.snap, name="Grid", tip="To which times key poses go when they are moved")
         for snap in SNAPS_S:
             words = tr("no grid") if not snap else tr("grid {time} s", time=f"{snap:g}")
             self.snap.addItem(words, snap)
@@ -241,7 +242,7 @@ class Transport(QWidget):
         place, whole = self.controller.cursor_s, self.controller.motion.duration_s
         local = QLocale()
         words = (local.toString(place, "f", 2), local.toString(whole, "f", 2))
-        self.time.setText(tr("{now} of {all} s", now=words[0], all=words[1]))
+        labelled(self.time, text=text_of("{now} of {all} s", now=words[0], all=words[1]))
 
     def _lay_out(self, actions: Actions) -> None:
         row = QHBoxLayout(self)

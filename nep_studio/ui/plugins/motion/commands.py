@@ -17,6 +17,7 @@ from nep_studio.blocks.operations.animations import Use
 from nep_studio.blocks.own_animations import OwnAnimation, free_name
 from nep_studio.problems import problem_of
 from nep_studio.project.kept_files import to_toml
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.messages import Answer, Message, Messages, announce
 from nep_studio.ui.theme.icons import icon
@@ -174,7 +175,7 @@ class Commands:
     def ask_stretch(self) -> None:
         """Ask how many percent of its time the motion is to take."""
         dialog = QInputDialog(self.window)
-        dialog.setWindowTitle(tr("Slower or faster"))
+        labelled(dialog, window_title="Slower or faster")
         dialog.setLabelText(tr("How long it takes, in percent of now:"))
         dialog.setInputMode(QInputDialog.InputMode.IntInput)
         dialog.setIntRange(LEAST_STRETCH, MOST_STRETCH)
@@ -212,7 +213,7 @@ class Commands:
 
     def _on_playing_changed(self, is_playing: bool) -> None:
         action = self.window.actions_by_name["play_motion"]
-        action.setText(tr("Pause") if is_playing else tr("Play"))
+        labelled(action, text="Pause" if is_playing else "Play")
         theme = self.window.look.theme
         action.setIcon(icon("pause" if is_playing else "play", theme))
 

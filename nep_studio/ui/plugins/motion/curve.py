@@ -9,6 +9,7 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, Q
 from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
 
 from nep_studio.blocks.language import Language
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
@@ -31,7 +32,7 @@ class CurveView(QWidget):
         self.key_s: float | None = None
         self._grip: QPointF | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(tr("Curve of the joint"))
+        labelled(self, name="Curve of the joint")
         for signal in (controller.changed, controller.moved):
             signal.connect(self.update)
 
@@ -258,7 +259,7 @@ class CurvePanel(QWidget):
         self.controller, self._language = controller, language
         self.curve = CurveView(controller, timeline, look)
         self.joint = QComboBox()
-        self.joint.setAccessibleName(tr("Joint"))
+        labelled(self.joint, name="Joint")
         self._moving: tuple[str, ...] | None = None
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)

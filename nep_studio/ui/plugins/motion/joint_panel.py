@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.language import Language
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.words import tr
 from robots.body.body import Joint
 
@@ -92,8 +93,11 @@ class JointPanel(QScrollArea):
     ) -> None:
         super().__init__(parent)
         self.controller = controller
-        self.both = QCheckBox(tr("Both sides alike"))
-        self.both.setToolTip(tr("What one arm or leg does, the other does too, as in a mirror"))
+        self.both = labelled(
+            QCheckBox(),
+            text="Both sides alike",
+            tip="What one arm or leg does, the other does too, as in a mirror",
+        )
         self.both.toggled.connect(self._on_both_toggled)
         self.rows = {
             joint.name: JointRow(joint, joint_words(language, controller.body, joint.name))

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -46,7 +47,7 @@ class DrivePad(QFrame):
         self.hint = QLabel()
         self.stop_button = QPushButton()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(tr("Drive with the keys"))
+        labelled(self, name="Drive with the keys")
         self._lay_out()
         self._say_how()
         look.theme_changed.connect(self._dress)
@@ -140,8 +141,7 @@ class DrivePad(QFrame):
         row.addStretch(1)
         row.addLayout(self._group(tr("Head"), head))
         row.addStretch(1)
-        self.stop_button.setText(tr("Stop"))
-        self.stop_button.setToolTip(tr("Stop everything the robot does (Space)"))
+        labelled(self.stop_button, text="Stop", tip="Stop everything the robot does (Space)")
         self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.stop_button.setAutoDefault(False)
         self.stop_button.setProperty("kind", "stop")

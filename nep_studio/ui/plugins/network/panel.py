@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.run.node_board import NodeStatus
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, type_words
 from nep_studio.ui.theme.icons import icon
@@ -73,7 +74,7 @@ class NetworkPanel(QWidget):
         self._sharing_icon = ""
         self.list_button = _tool(tr("As a list"), is_checkable=True)
         self.whole_button = _tool(tr("Show everything"), is_checkable=True)
-        self.whole_button.setToolTip(tr("Show the studio itself and /node_state too"))
+        labelled(self.whole_button, tip="Show the studio itself and /node_state too")
         self.larger_button, self.smaller_button = _tool(tr("Zoom in")), _tool(tr("Zoom out"))
         self.fit_button = _tool(tr("Show all"))
         self._lay_out()
@@ -209,7 +210,7 @@ class _Empty(QWidget):
         self.words.setWordWrap(True)
         self.words.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.words.setProperty("role", "hint")
-        self.run_button = QPushButton(tr("Run"))
+        self.run_button = labelled(QPushButton(), text="Run")
         self.run_button.setProperty("kind", "run")
         row = QHBoxLayout()
         row.addStretch(1)
@@ -256,7 +257,7 @@ class NetworkList(QTreeWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setAccessibleName(tr("Network as a list"))
+        labelled(self, name="Network as a list")
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setHeaderLabels(
             [

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from faults import FaultError, Words, text_of
 from nep_core.wire import messages as m
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.node_style import one_line, pretty
 from nep_studio.ui.theme.icons import icon
@@ -126,24 +127,24 @@ class SendBox(QWidget):
         self._sent: list[tuple[str, str]] = []
         self._drafts: dict[str, str] = {}
         self.text = QPlainTextEdit()
-        self.text.setAccessibleName(tr("The message, as JSON"))
+        labelled(self.text, name="The message, as JSON")
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.text.setTabChangesFocus(True)
         self.note = QLabel()
         self.note.setWordWrap(True)
         self.note.setTextFormat(Qt.TextFormat.PlainText)
         self.history = QComboBox()
-        self.history.setAccessibleName(tr("Messages that you have sent"))
+        labelled(self.history, name="Messages that you have sent")
         self.history.setSizeAdjustPolicy(
             QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
         self.history.setMinimumContentsLength(8)
-        self.send_button = QPushButton(tr("Send"))
+        self.send_button = labelled(QPushButton(), text="Send")
         self.send_button.setProperty("kind", "primary")
-        self.send_button.setToolTip(tr("Send this message now (Ctrl+Enter)"))
-        self.example_button = QPushButton(tr("Example"))
+        labelled(self.send_button, tip="Send this message now (Ctrl+Enter)")
+        self.example_button = labelled(QPushButton(), text="Example")
         self.example_button.setProperty("kind", "quiet")
-        self.example_button.setToolTip(tr("Write the example again"))
+        labelled(self.example_button, tip="Write the example again")
         self._lay_out()
         self.send_button.clicked.connect(self.send_now)
         self.example_button.clicked.connect(self._on_example_clicked)

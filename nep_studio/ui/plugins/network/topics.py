@@ -37,6 +37,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import BY_TOPIC
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
 from nep_studio.ui.running.runner import Heard, Tap
@@ -68,11 +69,11 @@ class TopicBar(QWidget):
         self.plot_button.setMenu(self.plot_menu)
         self.plot_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.close_button = QToolButton()
-        self.close_button.setToolTip(tr("Close"))
-        self.close_button.setAccessibleName(tr("Close these messages"))
+        labelled(self.close_button, tip="Close", name="Close these messages")
         self.filter = QLineEdit()
-        self.filter.setPlaceholderText(tr("Show only messages with…"))
-        self.filter.setAccessibleName(tr("Show only messages with…"))
+        labelled(
+            self.filter, placeholder="Show only messages with…", name="Show only messages with…"
+        )
         self.filter.setClearButtonEnabled(True)
         self._lay_out()
         look.theme_changed.connect(self._on_theme_changed)
@@ -220,11 +221,11 @@ class TopicPane(QWidget):
         self.list = QListView()
         self.list.setModel(self.heard)
         self.list.setUniformItemSizes(True)
-        self.list.setAccessibleName(tr("Messages, the newest first"))
+        labelled(self.list, name="Messages, the newest first")
         self.list.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.full = QPlainTextEdit()
         self.full.setReadOnly(True)
-        self.full.setAccessibleName(tr("The message in full"))
+        labelled(self.full, name="The message in full")
         self.full.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.send_box = SendBox(talks.send, look)
         self._later = QTimer(self, singleShot=True, interval=SHOW_MS)

@@ -30,6 +30,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
@@ -156,8 +158,7 @@ class LogView(QWidget):
             | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
         self.search = QLineEdit()
-        self.search.setPlaceholderText(tr("Find in the log"))
-        self.search.setAccessibleName(tr("Find in the log"))
+        labelled(self.search, placeholder="Find in the log", name="Find in the log")
         self.search.setClearButtonEnabled(True)
         self.follow_button = QPushButton()
         self.follow_button.setProperty("kind", "quiet")
@@ -213,7 +214,7 @@ class LogView(QWidget):
             self._waiting.clear()
             self.text.clear()
             self.title.set_words(tr("Log of {node}", node=node))
-            self.text.setAccessibleName(tr("Log of {node}", node=node))
+            labelled(self.text, name=text_of("Log of {node}", node=node))
         if self.isVisible():
             self._start()
 

@@ -11,7 +11,6 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from .workspace import Workspace
@@ -67,7 +66,7 @@ def make(host: Host) -> Parts:
         host.show_panel(panel)
         panel.opened().show_field(topic, field)
 
-    place = NewPanel(panel, tr("Sensors"), "activity", "bottom", least_share=LEAST_SHARE)
+    place = NewPanel(panel, "Sensors", "activity", "bottom", least_share=LEAST_SHARE)
     return Parts(place, commands={"sensors.plot": plot})
 
 

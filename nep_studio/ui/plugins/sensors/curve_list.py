@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import IMU
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import is_right_to_left, tr
@@ -52,7 +53,7 @@ class CurveList(QTreeWidget):
         self.setRootIsDecorated(False)
         self.setIndentation(0)
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.setAccessibleName(tr("Curves"))
+        labelled(self, name="Curves")
         self.header().setStretchLastSection(False)
         self.itemChanged.connect(self._on_item_changed)
         self._timer = QTimer(self, interval=_REFRESH_MS)
@@ -212,11 +213,11 @@ class FieldChooser(QDialog):
         self._feed, self._network = feed, network
         self._items: dict[Field, QStandardItem] = {}
         self._topics: dict[str, QStandardItem] = {}
-        self.setWindowTitle(tr("Choose what is plotted"))
+        labelled(self, window_title="Choose what is plotted")
         self.search = QLineEdit()
-        self.search.setPlaceholderText(tr("Find a number"))
+        labelled(self.search, placeholder="Find a number")
         self.search.setClearButtonEnabled(True)
-        self.hint = QLabel(tr("Numbers appear here as soon as a node sends some."))
+        self.hint = labelled(QLabel(), text="Numbers appear here as soon as a node sends some.")
         self.hint.setProperty("role", "hint")
         self.hint.setWordWrap(True)
         self._make_tree()
@@ -243,7 +244,7 @@ class FieldChooser(QDialog):
         self.tree = QTreeView()
         self.tree.setModel(self._found)
         self.tree.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.tree.setAccessibleName(tr("Numbers that nodes send"))
+        labelled(self.tree, name="Numbers that nodes send")
         self.tree.setUniformRowHeights(True)
 
     def show_topic(self, topic: str) -> None:

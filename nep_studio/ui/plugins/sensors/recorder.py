@@ -27,6 +27,7 @@ from nep_core.errors import RecordingError
 from nep_core.wire.messages import Imu
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import REPLAY, PlannedNode
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
@@ -355,7 +356,7 @@ class RecordBar(QWidget):
         self._recorder, self._look = recorder, look
         self._sign = QLabel()
         self.words = ElidedLabel()
-        self.stop_button = QPushButton(tr("Stop recording"))
+        self.stop_button = labelled(QPushButton(), text="Stop recording")
         self.stop_button.setProperty("kind", "stop")
         row = QHBoxLayout(self)
         row.setContentsMargins(*[self.fontMetrics().height() // 4] * 4)
@@ -429,16 +430,14 @@ class ReplayBar(QWidget):
         self.is_playing = self._has_begun = False
         self.words = ElidedLabel()
         self.speed = QComboBox()
-        self.speed.setAccessibleName(tr("Speed"))
-        self.speed.setToolTip(tr("Speed"))
+        labelled(self.speed, name="Speed", tip="Speed")
         for speed in _SPEEDS:
             self.speed.addItem(f"{speed:g} {_TIMES}", speed)
         self.speed.setCurrentIndex(_SPEEDS.index(1.0))
-        self.again = QCheckBox(tr("Again and again"))
+        self.again = labelled(QCheckBox(), text="Again and again")
         self.button = QPushButton()
         self.close_button = QToolButton()
-        self.close_button.setToolTip(tr("Close"))
-        self.close_button.setAccessibleName(tr("Close"))
+        labelled(self.close_button, tip="Close", name="Close")
         self._lay_out()
         self.button.clicked.connect(self.toggle)
         self.close_button.clicked.connect(self._on_close)
@@ -508,7 +507,7 @@ class ReplayBar(QWidget):
         name = self.path.name if self.path is not None else ""
         words = tr("Plays “{name}”", name=name) if self.is_playing else f"“{name}”"
         self.words.set_words(words)
-        self.button.setText(tr("Stop") if self.is_playing else tr("Play"))
+        labelled(self.button, text="Stop" if self.is_playing else "Play")
 
     def _dress(self) -> None:
         self.close_button.setIcon(icon("x", self._look.theme))

@@ -8,6 +8,8 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolBar, QToolButton, QWidget
 
+from faults import text_of
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -52,9 +54,10 @@ class Tools(QToolBar):
         """Say what the plots do now, and what can be done."""
         plots, pause = self._plots, self.by_name["pause"]
         is_live = plots.view.is_live
-        pause.setText(tr("Pause") if is_live else tr("Live"))
-        pause.setToolTip(
-            tr("Let the picture stand still (Space)") if is_live else tr("Show what comes (Space)")
+        labelled(
+            pause,
+            text="Pause" if is_live else "Live",
+            tip="Let the picture stand still (Space)" if is_live else "Show what comes (Space)",
         )
         self._icons[pause] = "pause" if is_live else "play"
         for length_s, action in self.lengths.items():
@@ -76,10 +79,10 @@ class Tools(QToolBar):
             words = tr("{seconds} s", seconds=f"{length_s:g}")
             show = self._show_length(length_s)
             action = self._add(f"length_{length_s:g}", words, "", show, is_checkable=True)
-            action.setToolTip(tr("Show {seconds} seconds", seconds=f"{length_s:g}"))
+            labelled(action, tip=text_of("Show {seconds} seconds", seconds=f"{length_s:g}"))
             self.lengths[length_s] = group.addAction(action)
         fit = self._add("fit", tr("All"), "", plots.fit, is_checkable=True)
-        fit.setToolTip(tr("Show all that is kept, and all values (Home)"))
+        labelled(fit, tip="Show all that is kept, and all values (Home)")
         group.addAction(fit)
 
     def _show_length(self, length_s: float) -> Callable[[], None]:
@@ -96,7 +99,7 @@ class Tools(QToolBar):
         measure = self._add(
             "measure", tr("Measure"), "ruler", lambda: None, is_checkable=True, has_words=True
         )
-        measure.setToolTip(tr("Measure between two cursors (Alt or Shift with Left and Right)"))
+        labelled(measure, tip="Measure between two cursors (Alt or Shift with Left and Right)")
         measure.triggered.connect(hand.measure)
 
     def _add_keeping(self) -> None:
@@ -152,8 +155,7 @@ class Tools(QToolBar):
         if isinstance(more, QToolButton):  # Qt's own arrow is too small, and lost in the dark
             more.setIcon(icon("ellipsis", self._look.theme))
             more.setMinimumWidth(line)
-            more.setToolTip(tr("More"))
-            more.setAccessibleName(tr("More"))
+            labelled(more, tip="More", name="More")
         for action, name in self._icons.items():
             action.setIcon(icon(name, self._look.theme))
 

@@ -65,10 +65,10 @@ def make(host: Host) -> Parts:
     kit.tell()
     action = NewAction(
         "open_network",
-        tr("Open to other computers…"),
+        "Open to other computers…",
         kit.open,
         "monitor",
-        tip=tr("Let other computers take part: their nodes and robots talk with yours."),
+        tip="Let other computers take part: their nodes and robots talk with yours.",
         menu="robots",
     )
     return Parts(actions=[action], commands={"sharing.open": kit.open})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
-from nep_studio.ui.words import tr
 
 
 def make(host: Host) -> Parts:
@@ -12,7 +11,7 @@ def make(host: Host) -> Parts:
 
     tour = host.keep(Tour, lambda: Tour(host))
     action = NewAction(
-        "tour", tr("Take the tour"), tour.start, "footprints", menu="help", before="help"
+        "tour", "Take the tour", tour.start, "footprints", menu="help", before="help"
     )
     return Parts(actions=[action])
 

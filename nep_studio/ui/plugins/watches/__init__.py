@@ -40,10 +40,10 @@ def make(host: Host) -> Parts:
     kit = WatchKit(host)
     action = NewAction(
         "connect_watch",
-        tr("Connect a watch or phone…"),
+        "Connect a watch or phone…",
         lambda: kit.open(),
         "watch",
-        tip=tr("Let the movements of a real watch or phone into this project."),
+        tip="Let the movements of a real watch or phone into this project.",
         menu="robots",
     )
     return Parts(actions=[action], commands={"watches.open": lambda: kit.open(stays=True)})

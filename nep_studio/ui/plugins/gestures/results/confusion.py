@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
@@ -166,7 +167,7 @@ class ConfusionView(QTableView):
         self.headings = SlantedHeader(self)
         self.setHorizontalHeader(self.headings)
         self.setItemDelegate(_Cell(look, self))
-        self.setAccessibleName(tr("What was taken for what: rows are made, columns recognised"))
+        labelled(self, name="What was taken for what: rows are made, columns recognised")
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)

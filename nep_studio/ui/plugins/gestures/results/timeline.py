@@ -8,6 +8,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
@@ -34,7 +35,7 @@ class TriggerTimeline(QWidget):
         self._triggers: Sequence[Detection] = ()
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as the live curves are
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(tr("The last 30 seconds"))
+        labelled(self, name="The last 30 seconds")
         look.theme_changed.connect(self.update)
 
     def show_looks(self, looks: Looks, triggers: Sequence[Detection]) -> None:
@@ -158,7 +159,7 @@ class GestureBar(PointSlider):
         self.certainty = 0.0
         self.is_flashing = False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setToolTip(tr("Drag the mark: the bar must reach it for the gesture to count"))
+        labelled(self, tip="Drag the mark: the bar must reach it for the gesture to count")
         self.show_gesture(name)
         look.theme_changed.connect(self.update)
 

@@ -7,6 +7,7 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QComboBox, QSizePolicy, QVBoxLayout, QWidget
 
 from nep_studio.problems import Problem
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Message
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
@@ -64,7 +65,7 @@ class ResultsView(QWidget):
     def _lay_out(self) -> None:
         inner = QWidget()
         box = QVBoxLayout(inner)
-        self.method.setAccessibleName(tr("Recogniser"))
+        labelled(self.method, name="Recogniser")
         self.method.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         for method in METHODS:
             self.method.addItem(method_words(method), method)
