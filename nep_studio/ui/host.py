@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
 
+    from faults import Words
     from nep_studio.ui.actions import Actions, Keys
     from nep_studio.ui.canvas.editing.menu import Section
     from nep_studio.ui.services import Services
@@ -65,15 +66,16 @@ class Host(Protocol):
 class NewAction:
     """An action, its menu and its place there; without a menu it is in the palette of commands.
 
+    ``words`` and ``tip`` are English templates: the window tells them, in each language.
     It stands behind, or before, the action of the name ``after`` or ``before``, else at the end.
     """
 
     name: str
-    words: str
+    words: Words
     do: Callable[[], object]
     icon_name: str = ""
     keys: Keys | tuple[Keys, ...] = ()
-    tip: str = ""
+    tip: Words = ""
     menu: MenuName | Literal[""] = ""
     after: str = ""
     before: str = ""
@@ -81,13 +83,13 @@ class NewAction:
 
 @dataclass(frozen=True)
 class NewPanel:
-    """A panel beside the canvas: left, right or at the bottom.
+    """A panel beside the canvas: left, right or at the bottom; ``title`` is an English template.
 
     It gets at least ``least_share`` of the height of the window when it is opened at the bottom.
     """
 
     widget: QWidget
-    title: str
+    title: Words
     icon_name: str
     area: AreaName
     is_shown: bool = False

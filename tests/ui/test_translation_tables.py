@@ -20,6 +20,7 @@ from message_sources import (
     parsed,
     templates,
     unfilled,
+    words_of_window,
 )
 
 from nep_studio import paths
@@ -34,15 +35,13 @@ STUDIO = Path(paths.__file__).parent
 SOURCES = sorted(STUDIO.rglob("*.py"))
 
 SHOWN = {
-    "tr": slice(0, 1),
-    "count_words": slice(1, 3),
     "transaction": slice(0, 1),
     "apply": slice(1, 2),
     "_label": slice(4, 5),  # "Undo “{step}”" of ui/actions_edit.py
     "Fix": slice(1, 2),
     "change": slice(0, 1),  # of the trainer's desk: the label of a step
 }
-"""Functions whose words are shown in the language of the person: which arguments."""
+"""Functions whose words are shown besides ``OF_THE_WINDOW``: which arguments."""
 
 NAMED = {
     "ui/canvas/fields/colour.py": "COLOURS",
@@ -104,13 +103,20 @@ def is_label(node: ast.AST) -> bool:
 
 def of_call(found: Found, path: Path, node: ast.Call) -> None:
     name = last_name(node.func)
-    for argument in node.args[SHOWN[name]] if name in SHOWN else ():
+    on_window = [template_of(argument) for argument in words_of_window(node)]
+    for argument in [*on_window, *(node.args[SHOWN[name]] if name in SHOWN else ())]:
         found.shown.update(literals(argument))
-        if name in ("tr", "count_words") and isinstance(argument, ast.JoinedStr):
-            found.filled.append(f"{path.relative_to(STUDIO)}:{node.lineno}")
+    if any(isinstance(argument, ast.JoinedStr) for argument in on_window):
+        found.filled.append(f"{path.relative_to(STUDIO)}:{node.lineno}")
     is_asked = name == "word" or (name == "get" and ast.unparse(node.func) == "words.get")
     if is_asked and node.args and "blocks" in path.relative_to(STUDIO).parts:
         found.of_blocks.update(literals(node.args[0]))
+
+
+def template_of(argument: ast.expr) -> ast.expr:
+    """What stands in the sources for words with values: their template."""
+    is_filled = isinstance(argument, ast.Call) and last_name(argument.func) == "text_of"
+    return argument.args[0] if is_filled else argument
 
 
 def words_of_data() -> Iterator[str]:

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, QRect, QSignalBlocker, Signal
 from PySide6.QtGui import QFont, QFontInfo
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
+from faults import Words
 from nep_studio.blocks.checks.problem import Problem
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
@@ -22,7 +23,7 @@ from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Messages, announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.look import text_font
-from nep_studio.ui.words import is_right_to_left, tr
+from nep_studio.ui.words import is_right_to_left
 
 from .code import CodePane
 from .find_bar import FindBar
@@ -107,10 +108,10 @@ class Workbench(QWidget):
         self._run_problem: Problem | None = None
         self._usual_scale = usual_scale(studio)
         self.panels = Panels(self._middle(), studio.look, studio.settings, self)
-        self.add_side_panel(self.helpers.palette, tr("Blocks"), "blocks", "left")
-        self.add_side_panel(self.code, tr("Code"), "code", "right")
-        self.add_side_panel(self.outline, tr("Outline"), "list-tree", "right")
-        self.add_side_panel(self.problems, tr("Problems"), "circle-check", "bottom", is_shown=False)
+        self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left")
+        self.add_side_panel(self.code, "Code", "code", "right")
+        self.add_side_panel(self.outline, "Outline", "list-tree", "right")
+        self.add_side_panel(self.problems, "Problems", "circle-check", "bottom", is_shown=False)
         self._connect()
 
     def _middle(self) -> QWidget:
@@ -141,7 +142,13 @@ class Workbench(QWidget):
         self._studio.look.theme_changed.connect(self._on_theme_changed)
 
     def add_side_panel(
-        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
+        self,
+        widget: QWidget,
+        title: Words,
+        icon_name: str,
+        area: AreaName,
+        *,
+        is_shown: bool = True,
     ) -> Panel:
         """Add a panel beside the canvas: left, right or at the bottom."""
         return self.panels.add(widget, title, icon_name, area, is_shown=is_shown)
