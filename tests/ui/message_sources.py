@@ -85,6 +85,10 @@ OF_THE_WINDOW = {
     "add": slice(1, 2),  # of ``Actions``
     "add_side_panel": slice(1, 2),
     "labelled": slice(0, 0),
+    "explained": slice(1, 2),
+    "_tool": slice(0, 1),  # buttons of panels
+    "WordsButton": slice(0, 1),
+    "Section": slice(0, 1),  # of the panel “Person”
 }
 """What is given to these, in these places, stands in the part [window] of a table."""
 
@@ -92,6 +96,8 @@ OF_THE_WINDOW_BY_NAME = {
     "NewAction": ("words", "tip"),
     "NewPanel": ("title",),
     "add": ("words", "tip"),
+    "_tool": ("tip",),
+    "WordsButton": (),
     "labelled": ("text", "title", "window_title", "tip", "name", "description", "placeholder"),
 }
 """The same, of what they are given by name; all the rest stands in [messages]."""

@@ -44,10 +44,13 @@ SHOWN = {
 """Functions whose words are shown besides ``OF_THE_WINDOW``: which arguments."""
 
 NAMED = {
-    "ui/canvas/fields/colour.py": "COLOURS",
-    "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
-    "blocks/operations/wrapping.py": "LABELS",
-    "ui/plugins/gestures/project_gestures.py": "LABELS",
+    "ui/canvas/fields/colour.py": ["COLOURS"],
+    "ui/canvas/fields/editors.py": ["_BUTTON_TIPS"],
+    "blocks/operations/wrapping.py": ["LABELS"],
+    "ui/plugins/gestures/project_gestures.py": ["LABELS"],
+    "ui/plugins/network/sending.py": ["SENT", "NO_NETWORK"],
+    "ui/plugins/person/senses.py": ["PUSHES", "SOUNDS"],
+    "ui/plugins/robots/stage_tools.py": ["KIND_WORDS", "VIEWS"],
 }
 """Data whose words are given to tr() one by one."""
 
@@ -120,12 +123,12 @@ def template_of(argument: ast.expr) -> ast.expr:
 
 
 def words_of_data() -> Iterator[str]:
-    for place, name in NAMED.items():
+    for place, names in NAMED.items():
         tree = ast.parse((STUDIO / place).read_text(encoding="utf-8"))
         for node in tree.body:
             if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
                 targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-                if [ast.unparse(target) for target in targets] == [name]:
+                if any(ast.unparse(target) in names for target in targets):
                     yield from words_in(ast.literal_eval(node.value))
 
 

@@ -21,7 +21,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from nep_studio.run.node_board import NodeStatus
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.network_feed import Seen
 from nep_studio.ui.node_style import node_words, topic_words, type_words
@@ -68,6 +68,7 @@ class GraphView(QWidget):
             description="The arrow keys go from one node or topic to the next, Enter opens it.",
         )
         look.theme_changed.connect(self._on_theme_changed)
+        follow_words(self, self._on_theme_changed)  # it is read from the other side, too
 
     @property
     def selected(self) -> Key | None:

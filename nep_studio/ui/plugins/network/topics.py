@@ -37,7 +37,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import BY_TOPIC
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
 from nep_studio.ui.running.runner import Heard, Tap
@@ -60,11 +60,11 @@ class TopicBar(QWidget):
         self._look = look
         self.title = ElidedLabel()
         self.title.setProperty("role", "heading")
-        self.pause_button = _button(tr("Pause"), tr("Stop the list, to read it"))
+        self.pause_button = _tool("Pause", tip="Stop the list, to read it")
         self.pause_button.setCheckable(True)
-        self.copy_button = _button(tr("Copy"), tr("Copy the chosen message, or all of them"))
-        self.save_button = _button(tr("Save as…"), tr("Save the messages as a table or JSON lines"))
-        self.plot_button = _button(tr("Plot"), tr("Show a number of these messages as a curve"))
+        self.copy_button = _tool("Copy", tip="Copy the chosen message, or all of them")
+        self.save_button = _tool("Save as…", tip="Save the messages as a table or JSON lines")
+        self.plot_button = _tool("Plot", tip="Show a number of these messages as a curve")
         self.plot_menu = QMenu(self.plot_button)
         self.plot_button.setMenu(self.plot_menu)
         self.plot_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -108,11 +108,8 @@ class TopicBar(QWidget):
             button.setIcon(icon(name, theme))
 
 
-def _button(words: str, tip: str) -> QToolButton:
-    button = QToolButton()
-    button.setText(words)
-    button.setToolTip(tip)
-    button.setAccessibleName(words)
+def _tool(words: str, *, tip: str) -> QToolButton:
+    button = labelled(QToolButton(), text=words, name=words, tip=tip)
     button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
     return button
 
@@ -211,6 +208,7 @@ class TopicPane(QWidget):
         self._talks = talks
         self._tap: Tap | None = None
         self._is_paused = False
+        self._seen: TopicSeen | None = None
         self.topic = ""
         self.folder = Path.home()
         self.heard = HeardList(self)
@@ -232,6 +230,13 @@ class TopicPane(QWidget):
         self._later.timeout.connect(self._on_later)
         self._lay_out()
         self._connect()
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        for index, words in enumerate((tr("Messages"), tr("Send by hand"))):
+            self.tabs.setTabText(index, words)
+        if self._seen is not None:
+            self.tell(self._seen)
 
     def _lay_out(self) -> None:
         split = QSplitter(Qt.Orientation.Vertical)
@@ -240,8 +245,8 @@ class TopicPane(QWidget):
         split.setChildrenCollapsible(False)
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
-        self.tabs.addTab(split, tr("Messages"))
-        self.tabs.addTab(self.send_box, tr("Send by hand"))
+        self.tabs.addTab(split, "")
+        self.tabs.addTab(self.send_box, "")
         box = QVBoxLayout(self)
         for widget in (self.bar, self.about):
             box.addWidget(widget)
@@ -280,6 +285,7 @@ class TopicPane(QWidget):
 
     def tell(self, seen: TopicSeen) -> None:
         """Say how the topic is doing."""
+        self._seen = seen
         words = [
             rate_words(seen.rate_hz),
             count_words(seen.count, "1 message", "{n} messages"),

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.theme.look import Look
 
@@ -126,6 +126,7 @@ class NodesPanel(QWidget):
         self._soon.timeout.connect(self.refresh)
         self._lay_out()
         self._connect()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         self.views = QStackedWidget()

@@ -12,6 +12,7 @@ from nep_core.errors import NepError
 from nep_core.networks.security.keys import Keys
 from nep_studio.sharing import Refusal, Sharing
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
+from nep_studio.ui.labels import follow_words
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import count_words, tr
 
@@ -96,6 +97,7 @@ class SharingKit(QObject):
         self.sharing.refused.connect(self._on_refused)
         self.sharing.failed.connect(self._on_failed)
         self._runner.state_changed.connect(self._on_run_changed)
+        follow_words(self, self.tell)
 
     def tell(self) -> None:
         """Tell how it is now."""
@@ -121,7 +123,7 @@ class SharingKit(QObject):
         dialog.close_asked.connect(lambda: self._after_the_run(sharing.close))
         dialog.begin_anew_asked.connect(lambda: self._after_the_run(sharing.begin_anew))
         dialog.finished.connect(self._on_finished)
-        self.destroyed.connect(dialog.reject)  # the window is made anew, in another language
+        host.services.studio.words_changed.connect(dialog.reject)  # it speaks the one before
         dialog.begin()
 
     def _after_the_run(self, do: Callable[[], None]) -> None:

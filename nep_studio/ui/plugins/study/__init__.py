@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QPushButton, Q
 
 from nep_studio.study.records import Reply, Sitting, write_events, write_replies
 from nep_studio.ui.host import Host, Parts, Plugin
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
@@ -45,7 +45,7 @@ class StudySign(QFrame):
         row.addWidget(self.stop_button)
         recorder.changed.connect(self.refresh)
         look.theme_changed.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Be there, or not."""
