@@ -97,6 +97,7 @@ OF_THE_WINDOW_BY_NAME = {
     "NewPanel": ("title",),
     "add": ("words", "tip"),
     "_tool": ("tip",),
+    "_add": ("words", "tip"),  # of the tools of the panel “Sensors”
     "WordsButton": (),
     "labelled": ("text", "title", "window_title", "tip", "name", "description", "placeholder"),
 }

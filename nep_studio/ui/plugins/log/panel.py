@@ -212,8 +212,12 @@ class WhatHappens(QWidget):
             self._stack.setCurrentWidget(self.list)
             return
         is_empty = self.model.total == 0
-        begin = "Press Run. Here you read who does what, while it happens."
-        labelled(self.hint, text=begin if is_empty else "No line has these words.")
+        labelled(
+            self.hint,
+            text="Press Run. Here you read who does what, while it happens."
+            if is_empty
+            else "No line has these words.",
+        )
         self._stack.setCurrentWidget(self.hint)
 
     def showEvent(self, event: QShowEvent) -> None:

@@ -71,7 +71,7 @@ def make(host: Host) -> Parts:
 
 
 def _workspace(host: Host) -> Workspace:
-    """The contents of the panel; what was heard stays when it is made anew."""
+    """The contents of the panel; what is recorded is kept when the program ends."""
     from nep_studio.ui.network_feed import feed_of
 
     from .feed import SensorFeed
@@ -80,20 +80,16 @@ def _workspace(host: Host) -> Workspace:
 
     services = host.services
     runner, settings = services.runner, services.settings
-    feed = host.keep(SensorFeed, lambda: SensorFeed(runner, services.running))
+    feed = SensorFeed(runner, services.running)
 
-    def make_recorder() -> Recorder:
-        """One that ends its files when the program ends."""
-        recorder = Recorder(feed)
-        app = QApplication.instance()
-        if app is not None:
-            app.aboutToQuit.connect(recorder.finish)
-        return recorder
+    recorder, network = Recorder(feed), feed_of(host)
+    app = QApplication.instance()
+    if app is not None:
+        app.aboutToQuit.connect(recorder.finish)
 
     def folder() -> Path:
         return settings.last_folder / RECORDINGS
 
-    recorder, network = host.keep(Recorder, make_recorder), feed_of(host)
     return Workspace(feed, recorder, network, runner, services.messages, services.look, folder)
 
 

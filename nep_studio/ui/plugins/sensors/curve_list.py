@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QLabel,
     QLineEdit,
+    QPushButton,
     QTreeView,
     QTreeWidget,
     QTreeWidgetItem,
@@ -21,7 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import IMU
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import is_right_to_left, tr
@@ -62,7 +63,7 @@ class CurveList(QTreeWidget):
         plots.cursors_changed.connect(self.refresh)
         plots.view_changed.connect(self.refresh)
         look.theme_changed.connect(self.fill)
-        self.fill()
+        follow_words(self, self.fill)
 
     def fill(self) -> None:
         """List the curves that there are."""
@@ -222,8 +223,9 @@ class FieldChooser(QDialog):
         self.hint.setWordWrap(True)
         self._make_tree()
         buttons = QDialogButtonBox()
-        close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.AcceptRole)
+        close = labelled(QPushButton(), text="Close")
         close.clicked.connect(self.accept)
+        buttons.addButton(close, QDialogButtonBox.ButtonRole.AcceptRole)
         box = QVBoxLayout(self)
         for widget in (self.search, self.hint, self.tree, buttons):
             box.addWidget(widget)
@@ -233,7 +235,7 @@ class FieldChooser(QDialog):
 
     def _make_tree(self) -> None:
         self.model = QStandardItemModel(0, 2, self)
-        self.model.setHorizontalHeaderLabels([tr("Number"), tr("Last value")])
+        follow_words(self, self._name_columns)
         self.model.itemChanged.connect(self._on_item_changed)
         self._found = QSortFilterProxyModel(self)
         self._found.setSourceModel(self.model)
@@ -246,6 +248,9 @@ class FieldChooser(QDialog):
         self.tree.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         labelled(self.tree, name="Numbers that nodes send")
         self.tree.setUniformRowHeights(True)
+
+    def _name_columns(self) -> None:
+        self.model.setHorizontalHeaderLabels([tr("Number"), tr("Last value")])
 
     def show_topic(self, topic: str) -> None:
         """Show the numbers of one topic."""

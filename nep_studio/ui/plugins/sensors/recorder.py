@@ -27,7 +27,7 @@ from nep_core.errors import RecordingError
 from nep_core.wire.messages import Imu
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import REPLAY, PlannedNode
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
@@ -370,6 +370,7 @@ class RecordBar(QWidget):
         look.theme_changed.connect(self._dress)
         self._dress()
         self._on_changed()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Say how long, how much, how fast, and what was lost."""
@@ -444,7 +445,7 @@ class ReplayBar(QWidget):
         self.speed.currentIndexChanged.connect(self._on_speed_changed)
         look.theme_changed.connect(self._dress)
         self._dress()
-        self._show_state()
+        follow_words(self, self._show_state)
         self.hide()
 
     def _lay_out(self) -> None:

@@ -80,8 +80,10 @@ class EmptyPage(QScrollArea):
 
     def show_starting(self, is_starting: bool) -> None:
         """Say that the watch is on its way."""
-        words = tr("The virtual watch starts…") if is_starting else tr("Start the virtual watch")
-        self.watch_button.setText(words)
+        labelled(
+            self.watch_button,
+            text="The virtual watch starts…" if is_starting else "Start the virtual watch",
+        )
         self.watch_button.setEnabled(not is_starting)
 
     def _buttons(self) -> QHBoxLayout:
