@@ -78,6 +78,7 @@ def tell_again() -> None:
                 tell()
     for window in QApplication.topLevelWidgets():
         QApplication.sendEvent(window, QEvent(QEvent.Type.LanguageChange))
+        window.update()  # for what paints its words itself
 
 
 def _put(owner: Any, key: str, said: Words) -> None:

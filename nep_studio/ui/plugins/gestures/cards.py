@@ -34,7 +34,7 @@ from nep_studio.blocks.operations.copying import Clip, clip_of
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.blocks.program import PAGES
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
 from nep_studio.ui.widgets.layouts import FlowLayout
 from nep_studio.ui.words import count_words, tr
@@ -231,9 +231,7 @@ class GestureCard(QFrame):
             self._show_title(gesture.title)
         self.chip.show_gesture(self.name, gesture.title)
         self.count.setText(count_words(len(gesture.takes), "1 take", "{n} takes"))
-        words = tr("Record “{gesture}”", gesture=gesture.title)
-        self.record.setAccessibleName(words)
-        self.record.setToolTip(words)
+        explained(self.record, text_of("Record “{gesture}”", gesture=gesture.title))
         self.setAccessibleName(gesture.title)
         labelled(self.takes, name=text_of("Takes of {gesture}", gesture=gesture.title))
         self.takes.show_takes(gesture.takes, badges)
@@ -347,7 +345,7 @@ class Cards(QScrollArea):
         self.new_button.clicked.connect(self.make_gesture)
         self.new_name.returnPressed.connect(self.make_gesture)
         self._dress()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
@@ -442,12 +440,13 @@ class Cards(QScrollArea):
 
     def _show_empty(self) -> None:
         self.empty.setVisible(not self._controller.gestures)
-        words = tr(
-            "A gesture is a movement that your program waits for, such as a wave. "
+        labelled(
+            self.empty,
+            text="A gesture is a movement that your program waits for, such as a wave. "
             "Give it a name here, then make it five times: the program learns it."
+            if self._controller.editor is not None
+            else "Gestures belong to a project. Open one, or make a new one.",
         )
-        no_project = tr("Gestures belong to a project. Open one, or make a new one.")
-        self.empty.setText(words if self._controller.editor is not None else no_project)
 
     def _make_card(self, name: str) -> GestureCard:
         card = self.cards[name] = GestureCard(name, self._controller, self._canvas, self._pictures)

@@ -91,7 +91,7 @@ class SharingKit(QObject):
         self._is_to_offer_run = False
         self._refused: Message | None = None
         self.dialog: SharingDialog | None = None
-        self.sharing = sharing_of(host)
+        self.sharing = new_sharing(host)
         self.sharing.changed.connect(self.tell)
         self.sharing.settled.connect(self._on_settled)
         self.sharing.refused.connect(self._on_refused)
@@ -176,24 +176,21 @@ class SharingKit(QObject):
         self.dialog = None
 
 
-def sharing_of(host: Host) -> Sharing:
-    """The one that there is; it stays when the window speaks another language."""
+def new_sharing(host: Host) -> Sharing:
+    """What opens and joins networks, as it was when the program ended."""
     running, runner, settings = (
         host.services.running,
         host.services.runner,
         host.services.settings,
     )
 
-    def make_sharing() -> Sharing:
-        sharing = Sharing(runner.local, running)
-        sharing.went_down.connect(runner.disconnected)
-        runner.closing.connect(sharing.end)
-        runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
-        if address := settings.kept_open_at:
-            QTimer.singleShot(0, sharing, lambda: sharing.open(address))
-        return sharing
-
-    return host.keep(Sharing, make_sharing)
+    sharing = Sharing(runner.local, running)
+    sharing.went_down.connect(runner.disconnected)
+    runner.closing.connect(sharing.end)
+    runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
+    if address := settings.kept_open_at:
+        QTimer.singleShot(0, sharing, lambda: sharing.open(address))
+    return sharing
 
 
 plugin = Plugin("sharing", make, order=160)

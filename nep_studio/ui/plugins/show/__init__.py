@@ -74,7 +74,7 @@ class ShowMode(QObject):
 
 def make(host: Host) -> Parts:
     """The actions of the View menu; ``nep-studio show`` begins a show at once."""
-    mode = host.keep(ShowMode, lambda: ShowMode(host))
+    mode = ShowMode(host)
     actions = [
         NewAction("show_mode", "Show mode", mode.begin, "monitor", "F11", menu="view"),
         NewAction(

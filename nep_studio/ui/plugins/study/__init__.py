@@ -70,11 +70,8 @@ HELP_PAGES = "help"
 
 
 def make(host: Host) -> Parts:
-    """Help > Study, when the rest of the Help menu is made, and the sign of a study that is on.
-
-    The recorder stays when the window speaks another language.
-    """
-    kit = StudyKit(host, host.keep(StudyRecorder, lambda: StudyRecorder(host)))
+    """Help > Study, when the rest of the Help menu is made, and the sign of a study that is on."""
+    kit = StudyKit(host, StudyRecorder(host))
     kit.add_menu()
     kit.add_sign()
     return Parts()
@@ -109,10 +106,6 @@ class StudyKit(QObject):
     def add_sign(self) -> None:
         """Put the sign at the lower edge of the window."""
         bar = self._host.status_bar
-        for old in bar.findChildren(StudySign):
-            bar.removeWidget(old)
-            old.setParent(None)  # at once: there is one sign only
-            old.deleteLater()
         bar.setSizeGripEnabled(False)
         sign = StudySign(self._recorder, self._host.services.look)
         sign.form_button.clicked.connect(self.fill_in)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from nep_core.errors import RecordingError
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
@@ -319,6 +319,13 @@ class BandPanel(QWidget):
         self.gesture.currentIndexChanged.connect(self._on_chosen)
         self.kind.currentIndexChanged.connect(self._show)
         self.use_model(None)
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        self.gesture.setItemText(0, tr("Best fit"))
+        for at in range(self.kind.count()):
+            self.kind.setItemText(at, kind_words(self.kind.itemData(at)))
+        self._show()
 
     def _lay_out(self) -> None:
         row = QHBoxLayout()

@@ -29,7 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
@@ -179,7 +179,7 @@ class ConfusionView(QTableView):
         self.clicked.connect(self._on_chosen)
         self.activated.connect(self._on_chosen)
         look.theme_changed.connect(self._fit)
-        self._fit()
+        follow_words(self, self._fit)
 
     def show_findings(self, findings: Findings | None) -> None:
         """Show the pairs of these findings."""

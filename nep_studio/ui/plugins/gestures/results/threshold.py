@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from faults import text_of
 from nep_studio.blocks.own_gestures import TRIGGER
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
@@ -259,6 +259,7 @@ class PointPanel(QWidget):
         tuning.point_changed.connect(self._on_point_changed)
         tuning.method_changed.connect(self.refresh)
         self.fill()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         row = QHBoxLayout()

@@ -8,7 +8,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
@@ -37,16 +37,22 @@ class TriggerTimeline(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         labelled(self, name="The last 30 seconds")
         look.theme_changed.connect(self.update)
+        follow_words(self, self._say)
 
     def show_looks(self, looks: Looks, triggers: Sequence[Detection]) -> None:
         """Show these."""
-        if len(triggers) != len(self._triggers):
-            words = count_words(
-                len(triggers), "1 gesture would count as made", "{n} gestures would count as made"
-            )
-            self.setAccessibleDescription(words)
+        is_new = len(triggers) != len(self._triggers)
         self._looks, self._triggers = looks, triggers
+        if is_new:
+            self._say()
         self.update()
+
+    def _say(self) -> None:
+        count = len(self._triggers)
+        words = count_words(
+            count, "1 gesture would count as made", "{n} gestures would count as made"
+        )
+        self.setAccessibleDescription(words if count else "")
 
     def sizeHint(self) -> QSize:
         """Some lines high."""

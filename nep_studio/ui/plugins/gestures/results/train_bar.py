@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -58,7 +58,7 @@ class TrainBar(QWidget):
         training.trained.connect(lambda: announce(self, self.status.text()))
         look.theme_changed.connect(self._dress)
         self._dress()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()
