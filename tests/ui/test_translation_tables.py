@@ -48,6 +48,7 @@ NAMED = {
     "ui/canvas/fields/editors.py": ["_BUTTON_TIPS"],
     "blocks/operations/wrapping.py": ["LABELS"],
     "ui/plugins/gestures/project_gestures.py": ["LABELS"],
+    "ui/plugins/motion/commands.py": ["LOOKS"],
     "ui/plugins/network/sending.py": ["SENT", "NO_NETWORK"],
     "ui/plugins/person/senses.py": ["PUSHES", "SOUNDS"],
     "ui/plugins/robots/stage_tools.py": ["KIND_WORDS", "VIEWS"],

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import QComboBox, QWidget
 
 from nep_studio.ui.labels import follow_words
 
-Offered = Callable[[], Mapping[object, str]]
+Offered = Callable[[], Mapping[Any, str]]
 
 
 class Choices(QComboBox):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
@@ -14,14 +16,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from faults import text_of
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_animations import AnimationKind
 from nep_studio.ui.actions import Actions
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.words import count_words, tr
 from robots.body.body import Body, posture_name
 from robots.errors import ActionFailed
@@ -35,22 +37,21 @@ class Header(QWidget):
     """Three fields over the robot."""
 
     def __init__(
-        self, controller: MotionController, language: Language, parent: QWidget | None = None
+        self,
+        controller: MotionController,
+        language: Callable[[], Language],
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.controller = controller
         self.title = QLineEdit()
         self.title.setMaxLength(100)
         labelled(self.title, placeholder="Name of the motion", name="Name of the motion")
-        self.start = QComboBox()
+        self.start = Choices(
+            lambda: {"": tr("any posture"), **posture_words(language(), controller.body)}
+        )
         labelled(self.start, name="Starts from")
-        self.start.addItem(tr("any posture"), "")
-        for name, words in posture_words(language, controller.body).items():
-            self.start.addItem(words, name)
-        self.kind = QComboBox()
-        labelled(self.kind, name="Used to")
-        for kind, words in kind_words().items():
-            self.kind.addItem(words, kind)
+        self.kind = labelled(Choices(kind_words), name="Used to")
         self._lay_out()
         self.title.textEdited.connect(self._on_title_edited)
         self.title.editingFinished.connect(controller.seal)
@@ -71,8 +72,8 @@ class Header(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.title, 1)
-        for words, field in ((tr("Starts from"), self.start), (tr("Used to"), self.kind)):
-            label = QLabel(words)
+        starts, used = labelled(QLabel(), text="Starts from"), labelled(QLabel(), text="Used to")
+        for label, field in ((starts, self.start), (used, self.kind)):
             label.setBuddy(field)
             row.addWidget(label)
             row.addWidget(field)
@@ -136,7 +137,7 @@ class NotesBar(QFrame):
         self.show_place.clicked.connect(self._on_show_asked)
         controller.changed.connect(self.refresh)
         look.theme_changed.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def show_faults(self, faults: list[Fault]) -> None:
         """Tell of these."""
@@ -224,25 +225,22 @@ class Transport(QWidget):
                 f"\N{MULTIPLICATION SIGN} {QLocale().toString(speed, 'g', 3)}", speed
             )
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
-        self.snap = QComboBox()
+        self.snap = Choices(snap_words)
         labelled(self.snap, name="Grid", tip="To which times key poses go when they are moved")
-        for snap in SNAPS_S:
-            words = tr("no grid") if not snap else tr("grid {time} s", time=f"{snap:g}")
-            self.snap.addItem(words, snap)
         self.snap.setCurrentIndex(SNAPS_S.index(timeline.snap_s))
         self._lay_out(actions)
         self.speed.currentIndexChanged.connect(self._on_speed_changed)
         self.snap.currentIndexChanged.connect(self._on_snap_changed)
         for signal in (controller.changed, controller.moved):
             signal.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Show the moment."""
         place, whole = self.controller.cursor_s, self.controller.motion.duration_s
         local = QLocale()
         words = (local.toString(place, "f", 2), local.toString(whole, "f", 2))
-        labelled(self.time, text=text_of("{now} of {all} s", now=words[0], all=words[1]))
+        self.time.setText(tr("{now} of {all} s", now=words[0], all=words[1]))
 
     def _lay_out(self, actions: Actions) -> None:
         row = QHBoxLayout(self)
@@ -263,6 +261,13 @@ class Transport(QWidget):
 
     def _on_snap_changed(self) -> None:
         self.timeline.snap_s = float(self.snap.currentData())
+
+
+def snap_words() -> dict[float, str]:
+    """To which times key poses can go, in words."""
+    return {
+        snap: tr("grid {time} s", time=f"{snap:g}") if snap else tr("no grid") for snap in SNAPS_S
+    }
 
 
 def _button(actions: Actions, name: str, *, has_words: bool = False) -> QToolButton:

@@ -21,9 +21,10 @@ from PySide6.QtWidgets import (
 
 from faults import text_of
 from nep_core.wire import messages as m
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
@@ -38,6 +39,11 @@ if TYPE_CHECKING:
 
 LOOK_MS = 100
 WALK, ARM = "walk", "arm"
+
+
+def _uses() -> dict[str, str]:
+    """What the movements of a watch can be used for."""
+    return {WALK: tr("walks with its tilt"), ARM: tr("moves the right arm")}
 
 
 class TeleoperationWindow(QDialog):
@@ -63,11 +69,11 @@ class TeleoperationWindow(QDialog):
         self.speed = QSlider(Qt.Orientation.Horizontal)
         self.with_gamepad = labelled(QCheckBox(), text="Gamepad")
         self.with_watch = labelled(QCheckBox(), text="Watch")
-        self.watch_use = QComboBox()
+        self.watch_use = Choices(_uses)
         self.missing, self.told = QLabel(), QLabel()
         self._lay_out()
         self._connect()
-        self.refresh()
+        follow_words(self, self.refresh)
         (self.pad if self.states else self.start_button).setFocus()
 
     def refresh(self) -> None:
@@ -122,8 +128,6 @@ class TeleoperationWindow(QDialog):
         self.speed.setRange(20, 100)
         self.speed.setValue(60)
         labelled(self.speed, name="How fast it walks")
-        self.watch_use.addItem(tr("walks with its tilt"), WALK)
-        self.watch_use.addItem(tr("moves the right arm"), ARM)
         labelled(self.watch_use, name="What the watch does")
         self.watch_use.setEnabled(False)
         speed = QHBoxLayout()
