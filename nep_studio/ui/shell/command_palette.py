@@ -217,8 +217,9 @@ class CommandPalette(QFrame):
         self._commands: list[Command] = []
         self._before: QWidget | None = None
         self.rows: list[Ranked] = []
-        question = "What do you want to do?"
-        self.line = labelled(QLineEdit(), placeholder=question, name=question)
+        self.line = labelled(
+            QLineEdit(), placeholder="What do you want to do?", name="What do you want to do?"
+        )
         self.line.setClearButtonEnabled(True)
         self.list = labelled(QListView(), name="Commands")
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)

@@ -44,21 +44,28 @@ from nep_studio.ui.words import count_words, is_right_to_left, tr
 
 # How the gallery says what an example needs, how hard and how long it is, and what it is about.
 
-Sign = tuple[str, Words]
+Sign = tuple[str, str]
 """The name of an icon, and words."""
 
 NEEDS = {
-    "watch": ("watch", "A watch, or the virtual one"),
-    "two_robots": ("users", "Two robots on the screen"),
-    "voice": ("message-square-text", "Somebody who answers"),
-    "people": ("user", "Somebody in front of it"),
-    "touch": ("hand", "Somebody who touches it"),
-    "cues": ("flag", "Somebody who gives cues"),
+    "watch": "A watch, or the virtual one",
+    "two_robots": "Two robots on the screen",
+    "voice": "Somebody who answers",
+    "people": "Somebody in front of it",
+    "touch": "Somebody who touches it",
+    "cues": "Somebody who gives cues",
 }
-DIFFICULTIES = {
-    "first": ("star", "Begin here"),
-    "next": ("chevron-right", "Next step"),
-    "more": ("sparkles", "For more"),
+DIFFICULTIES = {"first": "Begin here", "next": "Next step", "more": "For more"}
+ICONS = {
+    "watch": "watch",
+    "two_robots": "users",
+    "voice": "message-square-text",
+    "people": "user",
+    "touch": "hand",
+    "cues": "flag",
+    "first": "star",
+    "next": "chevron-right",
+    "more": "sparkles",
 }
 TAGS = {
     "gestures": "Gestures",
@@ -80,16 +87,18 @@ TAGS = {
 
 def signs_of(example: Example) -> list[Sign]:
     """How hard an example is, what one needs for it, how long it takes, each with its icon."""
-    needs = [NEEDS[need] for need in example.needs if need in NEEDS]
+    hard = example.difficulty
+    needs = [(ICONS[need], tr(NEEDS[need])) for need in example.needs if need in NEEDS]
     needed = needs or [("circle-check", tr("Needs nothing"))]
-    return [DIFFICULTIES[example.difficulty], *needed, _length(example)]
+    return [(ICONS[hard], tr(DIFFICULTIES[hard])), *needed, _length(example)]
 
 
 def search_text(example: Example) -> str:
     """All that an example can be found by, in the person's language and in English."""
     tags = [tr(TAGS.get(tag, tag)) for tag in example.tags]
-    shown = [tr(words) for words in (*example.words(), *(sign[1] for sign in signs_of(example)))]
-    return " ".join([*shown, *example.words(), *tags, *example.tags]).casefold()
+    signs = [words for _, words in signs_of(example)]
+    shown = [tr(words) for words in example.words()]
+    return " ".join([*shown, *example.words(), *tags, *example.tags, *signs]).casefold()
 
 
 def _length(example: Example) -> Sign:
@@ -140,7 +149,7 @@ class Signs(QWidget):
         follow_words(self, self._say)
 
     def _say(self) -> None:
-        self._signs = [(name, tr(words)) for name, words in signs_of(self._example)]
+        self._signs = signs_of(self._example)
         self.setAccessibleName(". ".join(words for _, words in self._signs))
         self.updateGeometry()
         self.update()

@@ -68,7 +68,8 @@ def subject_name(project: Project, subject: Subject) -> str:
     return subject.name
 
 
-def _button(words: str, parent: QWidget) -> QToolButton:
+def tool_button(words: str, parent: QWidget) -> QToolButton:
+    """A button with a sign, and words for who does not know it."""
     return labelled(QToolButton(parent), tip=words, name=words)
 
 
@@ -90,11 +91,13 @@ class FindBar(QFrame):
         canvas.news.page_changed.connect(self._listen)
         canvas.news.uses_requested.connect(self.show_uses)
         self.title = QLabel(self)
-        named = "Find in the program"
-        self.line = labelled(QLineEdit(self), placeholder=named, name=named)
+        self.line = labelled(
+            QLineEdit(self), placeholder="Find in the program", name="Find in the program"
+        )
         self.count = QLabel(self)
-        self.previous = _button("Previous (Shift+Enter)", self)
-        self.next, self.away = _button("Next (Enter)", self), _button("Close (Esc)", self)
+        self.previous = tool_button("Previous (Shift+Enter)", self)
+        self.next = tool_button("Next (Enter)", self)
+        self.away = tool_button("Close (Esc)", self)
         labelled(self, name="Find")
         self._later = QTimer(self, singleShot=True, interval=0)
         self._arrange()

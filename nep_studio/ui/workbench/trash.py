@@ -112,13 +112,12 @@ class TrashPanel(QFrame):
         super().__init__(parent or trash.canvas)
         self.trash = trash
         self.setObjectName("trash_panel")
-        named = "Deleted blocks"
-        self.title = labelled(QLabel(self), text=named)
+        self.title = labelled(QLabel(self), text="Deleted blocks")
         self.title.setProperty("role", "heading")
-        self.shelf = labelled(Shelf(trash.canvas, self), name=named)
+        self.shelf = labelled(Shelf(trash.canvas, self), name="Deleted blocks")
         self.restore = labelled(QPushButton(self), text="Restore")
         self.empty = labelled(QPushButton(self), text="Forget all")
-        labelled(self, name=named)
+        labelled(self, name="Deleted blocks")
         self.restore.clicked.connect(self._on_restore)
         self.empty.clicked.connect(trash.empty)
         self.shelf.chosen.connect(self._on_chosen)

@@ -403,8 +403,8 @@ class Palette(QWidget):
         side = self.fontMetrics().height()
         self.fold.setIcon(icon("panel-left", self.canvas.look.theme))
         self.fold.setIconSize(QSize(side, side))
-        words = "Make the palette narrow" if is_wide else "Show the blocks"
-        labelled(self.fold, tip=words, name=words)
+        labelled(self.fold, tip="Make the palette narrow" if is_wide else "Show the blocks")
+        self.fold.setAccessibleName(self.fold.toolTip())
 
     def _listen(self) -> None:
         """Hear of the changes of the project that the canvas shows now."""
