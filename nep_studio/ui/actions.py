@@ -81,12 +81,6 @@ class Actions(QObject):
         for name in names:
             self.by_name[name].setEnabled(is_enabled)
 
-    def retire(self) -> None:
-        """Take the actions away from the window."""
-        for action in self.by_name.values():
-            self._window.removeAction(action)
-        self.deleteLater()
-
     def _on_theme_changed(self) -> None:
         for name in self._icons:
             self._dress(name)

@@ -1,8 +1,9 @@
 """What a plugin sees of the window, and what a plugin is: neither knows the other's insides.
 
 A plugin is a folder in ``ui/plugins`` whose package has one object ``plugin``. The window finds
-the folders by themselves, asks each for its ``Parts``, and puts them where they belong. It asks
-again when the words of the window are other ones; what is to outlive that is kept (``Host.keep``).
+the folders by themselves, asks each once for its ``Parts``, and puts them where they belong. They
+stay as long as the window: in another language their words are told again, in place
+(``nep_studio/ui/labels.py``).
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ class Host(Protocol):
 
     @property
     def actions(self) -> Actions:
-        """All actions by name; they go, with what they own, when the words are other ones."""
+        """All actions by name."""
 
     @property
     def menus(self) -> Mapping[str, QMenu]:
@@ -59,7 +60,7 @@ class Host(Protocol):
         """Let another plugin do what it offers by this name; None when nobody offers it."""
 
     def keep(self, kind: type[Kept], make: Callable[[], Kept]) -> Kept:
-        """The one object of a kind, made when it is first asked for, kept as long as the window."""
+        """The one object of a kind that several plugins share, made when one first asks for it."""
 
 
 @dataclass(frozen=True)

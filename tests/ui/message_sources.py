@@ -84,11 +84,19 @@ OF_THE_WINDOW = {
     "NewPanel": slice(1, 2),
     "add": slice(1, 2),  # of ``Actions``
     "add_side_panel": slice(1, 2),
-    "labelled": slice(0, 0),
     "explained": slice(1, 2),
     "_tool": slice(0, 1),  # buttons of panels
     "WordsButton": slice(0, 1),
     "Section": slice(0, 1),  # of the panel “Person”
+    "add_menu": slice(1, 2),
+    "_submenu": slice(3, 4),
+    "_heading": slice(0, 1),
+    "_quiet_button": slice(0, 1),
+    "tool_button": slice(0, 1),
+    "hint": slice(0, 1),
+    "label_of": slice(0, 1),
+    "labelled": slice(0, 1),
+    "quiet_button": slice(0, 1),
 }
 """What is given to these, in these places, stands in the part [window] of a table."""
 

@@ -37,23 +37,25 @@ SOURCES = sorted(STUDIO.rglob("*.py"))
 SHOWN = {
     "transaction": slice(0, 1),
     "apply": slice(1, 2),
-    "_label": slice(4, 5),  # "Undo “{step}”" of ui/actions_edit.py
+    "_label": slice(3, 5),  # "Undo" and "Undo “{step}”" of ui/shell/menus.py
     "Fix": slice(1, 2),
     "change": slice(0, 1),  # of the trainer's desk: the label of a step
 }
 """Functions whose words are shown besides ``OF_THE_WINDOW``: which arguments."""
 
 NAMED = {
-    "ui/canvas/fields/colour.py": ["COLOURS"],
-    "ui/canvas/fields/editors.py": ["_BUTTON_TIPS"],
-    "blocks/operations/wrapping.py": ["LABELS"],
-    "ui/plugins/gestures/project_gestures.py": ["LABELS"],
-    "ui/plugins/motion/commands.py": ["LOOKS"],
-    "ui/plugins/network/sending.py": ["SENT", "NO_NETWORK"],
-    "ui/plugins/person/senses.py": ["PUSHES", "SOUNDS"],
-    "ui/plugins/robots/stage_tools.py": ["KIND_WORDS", "VIEWS"],
+    "ui/canvas/fields/colour.py": "COLOURS",
+    "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
+    "blocks/operations/wrapping.py": "LABELS",
+    "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",
+    "ui/running/actions.py": "PACES RUN_WORDS",
+    "ui/plugins/gestures/project_gestures.py": "LABELS",
+    "ui/plugins/motion/commands.py": "LOOKS",
+    "ui/plugins/network/sending.py": "SENT NO_NETWORK",
+    "ui/plugins/person/senses.py": "PUSHES SOUNDS",
+    "ui/plugins/robots/stage_tools.py": "KIND_WORDS VIEWS",
 }
-"""Data whose words are given to tr() one by one."""
+"""Data whose words are given to tr() or put on the window one by one."""
 
 
 def literals(node: ast.expr) -> Iterator[str]:
@@ -107,7 +109,7 @@ def is_label(node: ast.AST) -> bool:
 
 def of_call(found: Found, path: Path, node: ast.Call) -> None:
     name = last_name(node.func)
-    on_window = [template_of(argument) for argument in words_of_window(node)]
+    on_window = [one for argument in words_of_window(node) for one in templates_of(argument)]
     for argument in [*on_window, *(node.args[SHOWN[name]] if name in SHOWN else ())]:
         found.shown.update(literals(argument))
     if any(isinstance(argument, ast.JoinedStr) for argument in on_window):
@@ -117,19 +119,22 @@ def of_call(found: Found, path: Path, node: ast.Call) -> None:
         found.of_blocks.update(literals(node.args[0]))
 
 
-def template_of(argument: ast.expr) -> ast.expr:
-    """What stands in the sources for words with values: their template."""
-    is_filled = isinstance(argument, ast.Call) and last_name(argument.func) == "text_of"
-    return argument.args[0] if is_filled else argument
+def templates_of(argument: ast.expr) -> Iterator[ast.expr]:
+    """What stands in the sources for words that may have values: their templates."""
+    if isinstance(argument, ast.IfExp):
+        yield from (*templates_of(argument.body), *templates_of(argument.orelse))
+    else:
+        is_filled = isinstance(argument, ast.Call) and last_name(argument.func) == "text_of"
+        yield argument.args[0] if is_filled else argument
 
 
 def words_of_data() -> Iterator[str]:
-    for place, names in NAMED.items():
+    for place, name in NAMED.items():
         tree = ast.parse((STUDIO / place).read_text(encoding="utf-8"))
         for node in tree.body:
             if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
                 targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-                if any(ast.unparse(target) in names for target in targets):
+                if ast.unparse(targets[0]) in name.split():
                     yield from words_in(ast.literal_eval(node.value))
 
 

@@ -28,6 +28,8 @@ class Panel:
     icon_name: str
     area: Area
     action: QAction
+    is_usual: bool
+    """Whether it is shown as long as nobody has shown or hidden it."""
 
     @property
     def name(self) -> str:
@@ -168,7 +170,7 @@ class Panels(QObject):
         place = self.areas[area]
         place.add_panel(widget, title)
         action = labelled(QAction(self, checkable=True), text=title)
-        panel = Panel(widget, title, icon_name, place, action)
+        panel = Panel(widget, title, icon_name, place, action, is_shown)
         self.all.append(panel)
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
         place.show_panel(widget, action.isChecked())
@@ -199,9 +201,19 @@ class Panels(QObject):
         """Hide the panels of an area that the person has not shown or hidden yet."""
         for panel in self.all:
             if panel.area is self.areas[area] and not self._settings.is_chosen(panel.name):
-                with QSignalBlocker(panel.action):  # this is not the person's choice
-                    panel.action.setChecked(False)
-                panel.area.show_panel(panel.widget, False)
+                self._set_shown(panel, False)
+
+    def show_usual(self) -> None:
+        """Show the panels that are shown as long as nobody has chosen."""
+        for panel in self.all:
+            self._set_shown(panel, panel.is_usual)
+        for area in self.areas.values():
+            area.show_first()
+
+    def _set_shown(self, panel: Panel, is_shown: bool) -> None:
+        with QSignalBlocker(panel.action):  # this is not the person's choice
+            panel.action.setChecked(is_shown)
+        panel.area.show_panel(panel.widget, is_shown)
 
     def restore(self, line: int) -> None:
         """Give the areas the sizes that they had, or good ones; ``line`` is a line of text."""

@@ -65,7 +65,7 @@ class CanvasHelpers(QObject):
         self.minimap.refresh()
 
     def refresh(self) -> None:
-        """Take the theme, the words and the project that the canvas has now."""
+        """Take the theme and the project that the canvas has now."""
         helpers = (self.palette, self.find_bar, self.insert_bar, self.trash, self.empty_hint)
         for helper in helpers:
             helper.refresh()
@@ -138,8 +138,9 @@ class Workbench(QWidget):
         self.checks.found.connect(self._on_problems_found)
         self.problems.opened.connect(self._on_problem_opened)
         self.problems.fix_asked.connect(self.fix)
-        self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
         self._studio.look.theme_changed.connect(self._on_theme_changed)
+        self._studio.words_changed.connect(self._on_words_changed)
+        self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
 
     def add_side_panel(
         self,
@@ -167,14 +168,20 @@ class Workbench(QWidget):
         A narrow window that nobody has arranged yet leaves the room to the page.
         """
         palette, is_small = self.helpers.palette, self.window().width() < LEAST_LINES * line
-        palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
+        with QSignalBlocker(palette):  # this is not the person's choice
+            palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
+        self._give_palette_room(palette.is_narrow)
         if is_small:
             self.panels.hide_at_first("right")
         self.panels.restore(line)
-        palette.narrowed.connect(self._on_palette_chosen)
+
+    def reset(self, line: int) -> None:
+        """Lay the panels out as at the first start, when the settings have forgotten them."""
+        self.panels.show_usual()
+        self.restore(line)
 
     def retire(self) -> None:
-        """Let go of the project, before this workbench is thrown away."""
+        """Let go of the project: the window is closed."""
         with QSignalBlocker(self.checks):  # what is not checked any more is not without problems
             self.show_document(None)
         self.checks.cancel()
@@ -279,12 +286,21 @@ class Workbench(QWidget):
         self.outline.refresh()
         self.helpers.refresh()
 
+    def _on_words_changed(self) -> None:
+        """Show the blocks in other words, before all that tells of them."""
+        self.canvas.editor.use_language(self._studio.language)
+        self.canvas.use_words(is_mirrored=is_right_to_left())
+        self.outline.scheduleDelayedItemsLayout()
+        self.code.live.use_language()
+        self.checks.begin_again()
+
     def _on_palette_narrowed(self, is_narrow: bool) -> None:
+        self._give_palette_room(is_narrow)
+        self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
+
+    def _give_palette_room(self, is_narrow: bool) -> None:
         width = self.helpers.palette.maximumWidth() if is_narrow else WIDEST
         self.panels.areas["left"].setMaximumWidth(width)
-
-    def _on_palette_chosen(self, is_narrow: bool) -> None:
-        self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
 
 
 def block_font(studio: Studio) -> QFont:
