@@ -107,6 +107,7 @@ OF_THE_WINDOW_BY_NAME = {
     "_tool": ("tip",),
     "_add": ("words", "tip"),  # of the tools of the panel “Sensors”
     "WordsButton": (),
+    "explained": (),
     "labelled": ("text", "title", "window_title", "tip", "name", "description", "placeholder"),
 }
 """The same, of what they are given by name; all the rest stands in [messages]."""

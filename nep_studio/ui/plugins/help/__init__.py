@@ -27,7 +27,7 @@ def make(host: Host) -> Parts:
         return [*shortcuts_of(host.actions.by_name.values()), *on_the_canvas()]
 
     def new_panel() -> HelpPanel:
-        return HelpPanel(workbench.canvas, services.look, services.language, shortcuts)
+        return HelpPanel(workbench.canvas, services.look, lambda: services.language, shortcuts)
 
     panel = new_panel()
     controller = HelpController(panel, new_panel, workbench.panels, workbench.helpers.opening)

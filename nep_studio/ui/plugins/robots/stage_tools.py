@@ -180,10 +180,8 @@ class StageTools(QWidget):
 
     def _lay_out(self) -> None:
         flow = FlowLayout(self, self.fontMetrics().height() // 5)
-        tip = "From where the robots are looked at"
-        labelled(self.view, text="View", name="View", tip=tip)
-        tip = "Put something before the robots"
-        labelled(self.place, text="Place", name="Place", tip=tip)
+        labelled(self.view, text="View", name="View", tip="From where the robots are looked at")
+        labelled(self.place, text="Place", name="Place", tip="Put something before the robots")
         labelled(self.sound, text="Sound", name="Sound")
         labelled(self.large, text="Large", name="Large")
         for button in (self.view, self.place, self.sound, self.large):

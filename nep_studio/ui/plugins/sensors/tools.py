@@ -85,8 +85,14 @@ class Tools(QToolBar):
                 is_checkable=True,
             )
             self.lengths[length_s] = group.addAction(action)
-        tip = "Show all that is kept, and all values (Home)"
-        fit = self._add("fit", "", plots.fit, words="All", tip=tip, is_checkable=True)
+        fit = self._add(
+            "fit",
+            "",
+            plots.fit,
+            words="All",
+            tip="Show all that is kept, and all values (Home)",
+            is_checkable=True,
+        )
         group.addAction(fit)
 
     def _show_length(self, length_s: float) -> Callable[[], None]:

@@ -6,10 +6,10 @@ from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 
 
 def make(host: Host) -> Parts:
-    """The action, first in the Help menu. A tour goes on when the words are other ones."""
+    """The action, first in the Help menu."""
     from .tour import Tour
 
-    tour = host.keep(Tour, lambda: Tour(host))
+    tour = Tour(host)
     action = NewAction(
         "tour", "Take the tour", tour.start, "footprints", menu="help", before="help"
     )

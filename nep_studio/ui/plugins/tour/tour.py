@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from faults import text_of
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import begin_where_reading_begins
@@ -239,10 +239,8 @@ class Tour(QObject):
         self.bubble.back.connect(self.go_back)
         self.bubble.left.connect(self.end)
         host.services.files.document_changed.connect(self._on_document_changed)
-        host.services.studio.words_changed.connect(
-            self._on_looks_changed, Qt.ConnectionType.QueuedConnection
-        )
         look.theme_changed.connect(self._on_looks_changed)
+        follow_words(self, self._on_looks_changed)
 
     @property
     def is_running(self) -> bool:
