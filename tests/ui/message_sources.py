@@ -96,6 +96,7 @@ OF_THE_WINDOW = {
     "hint": slice(0, 1),
     "label_of": slice(0, 1),
     "labelled": slice(0, 1),
+    "labelled_items": slice(1, None),
     "quiet_button": slice(0, 1),
 }
 """What is given to these, in these places, stands in the part [window] of a table."""

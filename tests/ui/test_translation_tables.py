@@ -49,6 +49,7 @@ NAMED = {
     "blocks/operations/wrapping.py": "LABELS",
     "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",
     "ui/running/actions.py": "PACES RUN_WORDS",
+    "ui/shell/settings_dialog.py": "FOLDERS FOLDER_BUTTONS",
     "ui/plugins/gestures/project_gestures.py": "LABELS",
     "ui/plugins/motion/commands.py": "LOOKS",
     "ui/plugins/network/sending.py": "SENT NO_NETWORK",

@@ -34,7 +34,7 @@ from nep_core.wire import messages as m
 from nep_studio import __version__
 from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import Timeline
-from nep_studio.ui.labels import explained, follow_words, labelled
+from nep_studio.ui.labels import explained, follow_words, labelled, labelled_items
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import KIND_ICONS, Kind, Messages, Told
 from nep_studio.ui.node_style import TYPE_ICONS
@@ -426,11 +426,7 @@ class LogPanel(QTabWidget):
         self.setDocumentMode(True)
         self.addTab(self.what_happens, "")
         self.addTab(self.told, "")
-        follow_words(self, self._name_tabs)
-
-    def _name_tabs(self) -> None:
-        for index, words in enumerate((tr("What happens"), tr("Messages"))):
-            self.setTabText(index, words)
+        labelled_items(self, "What happens", "Messages")
 
     def sizeHint(self) -> QSize:
         """Room for a few lines."""

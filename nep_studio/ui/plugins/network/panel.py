@@ -275,16 +275,8 @@ class NetworkList(QTreeWidget):
             self.setColumnWidth(column, lines * line)
 
     def _say(self) -> None:
-        heads = (
-            tr("Name"),
-            tr("Messages"),
-            tr("So far"),
-            tr("Lost"),
-            tr("Last one"),
-            tr("From"),
-            tr("To"),
-        )
-        self.setHeaderLabels(heads)
+        counts = (tr("Messages"), tr("So far"), tr("Lost"), tr("Last one"))
+        self.setHeaderLabels((tr("Name"), *counts, tr("From"), tr("To")))
         self.topics.setText(0, tr("Topics"))
         self.nodes.setText(0, tr("Nodes"))
 

@@ -37,7 +37,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import BY_TOPIC
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, labelled_items
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
 from nep_studio.ui.running.runner import Heard, Tap
@@ -233,8 +233,6 @@ class TopicPane(QWidget):
         follow_words(self, self._say)
 
     def _say(self) -> None:
-        for index, words in enumerate((tr("Messages"), tr("Send by hand"))):
-            self.tabs.setTabText(index, words)
         if self._seen is not None:
             self.tell(self._seen)
 
@@ -247,6 +245,7 @@ class TopicPane(QWidget):
         self.tabs.setDocumentMode(True)
         self.tabs.addTab(split, "")
         self.tabs.addTab(self.send_box, "")
+        labelled_items(self.tabs, "Messages", "Send by hand")
         box = QVBoxLayout(self)
         for widget in (self.bar, self.about):
             box.addWidget(widget)
