@@ -258,20 +258,3 @@ def test_words_can_be_read_on_every_colour(colour: str) -> None:
     from PySide6.QtGui import QColor
 
     assert contrast(ink_on(QColor(colour)), QColor(colour)) >= 4.5
-
-
-def test_after_the_panel_is_gone_nothing_of_it_listens(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
-) -> None:
-    gone: list[bool] = []
-    panel(KARATE).destroyed.connect(lambda: gone.append(True))
-    document = window.files.document
-
-    window.studio.choose_language("de")
-    window.studio.choose_language("en")
-    qtbot.waitUntil(lambda: bool(gone))
-
-    hat = next(b.id for b in document.project.blocks.values() if b.type == "event.gesture")
-    document.editor.apply(SetField(hat, "gesture", "batting"))
-    window.files.document_changed.emit(document)
-    assert document.is_modified

@@ -59,8 +59,7 @@ def test_what_was_heard_stays_when_the_language_changes(opened: MainWindow, qtbo
     feed, recorder = before.feed, before.recorder
     before.record()
 
-    opened.studio.settings.language = "qps-rtl"
-    opened._on_words_changed()
+    opened.studio.choose_language("qps-rtl")
     opened.workbench.panels.show(panel_of(opened))
     after = panel_of(opened).opened()
 
