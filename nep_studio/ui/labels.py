@@ -52,6 +52,11 @@ def labelled(owner: Owner, /, **words: Words) -> Owner:
     return owner
 
 
+def explained(owner: Owner, words: Words) -> Owner:
+    """Put the same words on what has only a picture: as its tool tip, and for screen readers."""
+    return labelled(owner, tip=words, name=words)
+
+
 def labelled_items(owner: Items, /, *words: Words) -> Items:
     """Put words on the items of a choice, or on tabs, as ``labelled`` does; they are there."""
     known = _labels.setdefault(owner, {})
@@ -83,6 +88,7 @@ def tell_again() -> None:
                 tell()
     for window in QApplication.topLevelWidgets():
         QApplication.sendEvent(window, QEvent(QEvent.Type.LanguageChange))
+        window.update()  # for what paints its words itself
 
 
 def _put(owner: Any, key: str | int, said: Words) -> None:

@@ -84,6 +84,10 @@ OF_THE_WINDOW = {
     "NewPanel": slice(1, 2),
     "add": slice(1, 2),  # of ``Actions``
     "add_side_panel": slice(1, 2),
+    "explained": slice(1, 2),
+    "_tool": slice(0, 1),  # buttons of panels
+    "WordsButton": slice(0, 1),
+    "Section": slice(0, 1),  # of the panel “Person”
     "add_menu": slice(1, 2),
     "_submenu": slice(3, 4),
     "_heading": slice(0, 1),
@@ -101,6 +105,10 @@ OF_THE_WINDOW_BY_NAME = {
     "NewAction": ("words", "tip"),
     "NewPanel": ("title",),
     "add": ("words", "tip"),
+    "_tool": ("tip",),
+    "_add": ("words", "tip"),  # of the tools of the panel “Sensors”
+    "WordsButton": (),
+    "explained": (),
     "labelled": ("text", "title", "window_title", "tip", "name", "description", "placeholder"),
 }
 """The same, of what they are given by name; all the rest stands in [messages]."""
@@ -230,7 +238,8 @@ def words_of_window(call: ast.Call) -> list[ast.expr]:
 
 def _texts_of_labels(node: ast.AST) -> Iterator[ast.AST]:
     """The templates with values that are on the window: they are not told as messages."""
-    if isinstance(node, ast.Call) and last_name(node.func) in OF_THE_WINDOW_BY_NAME:
+    is_label = isinstance(node, ast.Call) and last_name(node.func) not in ("tr", "count_words")
+    if is_label:
         for words in words_of_window(node):
             yield from ast.walk(words)
 

@@ -52,6 +52,10 @@ NAMED = {
     "ui/running/actions.py": "PACES RUN_WORDS",
     "ui/shell/settings_dialog.py": "FOLDERS FOLDER_BUTTONS",
     "ui/plugins/gestures/project_gestures.py": "LABELS",
+    "ui/plugins/motion/commands.py": "LOOKS",
+    "ui/plugins/network/sending.py": "SENT NO_NETWORK",
+    "ui/plugins/person/senses.py": "PUSHES SOUNDS",
+    "ui/plugins/robots/stage_tools.py": "KIND_WORDS VIEWS",
 }
 """Data whose words are given to tr() or put on the window one by one."""
 

@@ -20,10 +20,8 @@ from tests.ui.window.conftest import Chooser
 from tests.ui.window.putting_away import put_away
 
 KARATE = paths.examples() / "karate_greeting.nep"
-LEFT_OUT: tuple[str, ...] = ("nep_studio.ui.plugins.",)
+LEFT_OUT: tuple[str, ...] = ()
 """What is in these modules does not tell its words again in place yet."""
-MENUS_LEFT_OUT = ("study",)
-"""Nor do the menus of these plugins."""
 
 TEXTS = (
     "text",
@@ -69,8 +67,7 @@ def parts_of(thing: QObject) -> list[QObject]:
 
 
 def is_left_out(thing: QObject) -> bool:
-    is_study = isinstance(thing, QWidget) and thing.property("plugin") in MENUS_LEFT_OUT
-    return is_study or type(thing).__module__.startswith(LEFT_OUT)
+    return type(thing).__module__.startswith(LEFT_OUT)
 
 
 def widgets_of(thing: QObject) -> Iterator[QWidget]:
