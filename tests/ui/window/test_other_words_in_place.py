@@ -35,18 +35,19 @@ TEXTS = (
     "accessibleDescription",
 )
 Said = tuple[str, str, str]
-"""Where words are, what of it they are, and how they go."""
+"""Whose words they are, what of it, and how they go."""
 
 
-def words_of(thing: QObject, place: str = "") -> Iterator[Said]:
-    """All words of a window, however deep."""
+def words_of(thing: QObject) -> Iterator[Said]:
+    """All words of a window, however deep; how deep depends on the room."""
+    place = f"{type(thing).__name__} {thing.objectName()}"
     for kind in TEXTS:
         said = getattr(thing, kind, None)
         if callable(said) and isinstance(words := said(), str) and words:
             yield place, kind, words
     yield from ((place, "item", words) for words in items_of(thing))
     for child in parts_of(thing):
-        yield from words_of(child, f"{place}/{type(child).__name__}:{child.objectName()}")
+        yield from words_of(child)
 
 
 def items_of(thing: QObject) -> Iterator[str]:
@@ -133,8 +134,10 @@ def test_all_panels_speak_the_language_when_somebody_looks(studio: Studio, qtbot
     fresh = opened(studio, qtbot)
 
     for ours, theirs in zip(window.workbench.panels.all, fresh.workbench.panels.all, strict=True):
-        window.workbench.panels.show(ours.widget)
-        fresh.workbench.panels.show(theirs.widget)
+        for one, panel in ((window, ours), (fresh, theirs)):
+            one.workbench.panels.show(panel.widget)
+            one.workbench.panels.row.setSizes([600, 1200, 600])
+            one.workbench.panels.column.setSizes([500, 900])
         differ = settled_differences(ours.widget, theirs.widget)
         assert (ours.name, differ) == (theirs.name, ([], []))
 
