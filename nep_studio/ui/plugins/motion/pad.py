@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -46,9 +47,10 @@ class DrivePad(QFrame):
         self.hint = QLabel()
         self.stop_button = QPushButton()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(tr("Drive with the keys"))
+        labelled(self, name="Drive with the keys")
         self._lay_out()
         self._say_how()
+        follow_words(self, self._say_keys)
         look.theme_changed.connect(self._dress)
         self._dress()
 
@@ -136,12 +138,11 @@ class DrivePad(QFrame):
             int(Qt.Key.Key_D): (1, 2),
         }
         row = QHBoxLayout()
-        row.addLayout(self._group(tr("Walk"), walk))
+        row.addLayout(self._group(labelled(QLabel(), text="Walk"), walk))
         row.addStretch(1)
-        row.addLayout(self._group(tr("Head"), head))
+        row.addLayout(self._group(labelled(QLabel(), text="Head"), head))
         row.addStretch(1)
-        self.stop_button.setText(tr("Stop"))
-        self.stop_button.setToolTip(tr("Stop everything the robot does (Space)"))
+        labelled(self.stop_button, text="Stop", tip="Stop everything the robot does (Space)")
         self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.stop_button.setAutoDefault(False)
         self.stop_button.setProperty("kind", "stop")
@@ -152,7 +153,7 @@ class DrivePad(QFrame):
         box.addLayout(row)
         box.addWidget(self.hint)
 
-    def _group(self, words: str, keys: dict[int, Place]) -> QVBoxLayout:
+    def _group(self, heading: QLabel, keys: dict[int, Place]) -> QVBoxLayout:
         group = QWidget()
         group.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every keyboard
         grid = QGridLayout(group)
@@ -160,7 +161,6 @@ class DrivePad(QFrame):
         for key, (row, column) in keys.items():
             grid.addWidget(self._button(key), row, column)
         box = QVBoxLayout()
-        heading = QLabel(words)
         heading.setAlignment(Qt.AlignmentFlag.AlignCenter)
         box.addWidget(heading)
         box.addWidget(group)
@@ -172,12 +172,8 @@ class DrivePad(QFrame):
         button.setFixedSize(round(line * 2.4), round(line * 2.1))
         button.setAutoDefault(False)
         button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        words = key_words()[key]
-        name = QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
-        button.setAccessibleName(words)
-        button.setToolTip(f"{words} ({name})")
         if Qt.Key(key) not in ARROWS:
-            button.setText(name)
+            button.setText(_named(key))
         button.pressed.connect(lambda: self.hold(key))
         button.released.connect(lambda: self.release(key))
         return button
@@ -187,16 +183,26 @@ class DrivePad(QFrame):
             self.buttons[int(key)].setIcon(icon(name, self._look.theme))
         self.stop_button.setIcon(icon("square", self._look.theme, "stop_text"))
 
+    def _say_keys(self) -> None:
+        for key, words in key_words().items():
+            self.buttons[key].setAccessibleName(words)
+            self.buttons[key].setToolTip(f"{words} ({_named(key)})")
+
     def _say_how(self) -> None:
-        if self.hasFocus():
-            words = tr("Hold a key to move the robot. Let go, and it stops.")
-        else:
-            words = tr("Click here to drive with the keys.")
-        self.hint.setText(words)
+        labelled(
+            self.hint,
+            text="Hold a key to move the robot. Let go, and it stops."
+            if self.hasFocus()
+            else "Click here to drive with the keys.",
+        )
 
     def _on_stop_clicked(self) -> None:
         self.let_go()
         self.stop_asked.emit()
+
+
+def _named(key: int) -> str:
+    return QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
 
 
 def key_words() -> dict[int, str]:

@@ -17,7 +17,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of
 from nep_studio.blocks.own_gestures import TRIGGER
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
@@ -237,14 +239,17 @@ class PointPanel(QWidget):
         super().__init__(parent)
         self.tuning = tuning
         self.gesture = QComboBox()
-        self.gesture.setAccessibleName(tr("Gesture"))
+        labelled(self.gesture, name="Gesture")
         self.gesture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.curve = PointCurve(look)
         self.slider = PointSlider(tuning)
         self.sentence = QLabel()
         self.sentence.setWordWrap(True)
-        self.reset = QPushButton(tr("Usual"))
-        self.reset.setToolTip(tr("Set the recognition point to {percent} %", percent=75))
+        self.reset = labelled(
+            QPushButton(),
+            text="Usual",
+            tip=text_of("Set the recognition point to {percent} %", percent=75),
+        )
         self.reset.setProperty("kind", "quiet")
         self._lay_out()
         self.gesture.currentIndexChanged.connect(self.refresh)
@@ -254,6 +259,7 @@ class PointPanel(QWidget):
         tuning.point_changed.connect(self._on_point_changed)
         tuning.method_changed.connect(self.refresh)
         self.fill()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         row = QHBoxLayout()
@@ -327,7 +333,7 @@ class PointSlider(QSlider):
             self.name = name
             gesture = self.tuning.controller.gestures.get(name)
             title = gesture.title if gesture is not None else ""
-            self.setAccessibleName(tr("Recognition point of “{gesture}”", gesture=title))
+            labelled(self, name=text_of("Recognition point of “{gesture}”", gesture=title))
         with QSignalBlocker(self):
             self.setValue(round(self.tuning.point(name) * 100))
         self.setEnabled(bool(name))

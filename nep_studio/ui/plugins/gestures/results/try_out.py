@@ -10,6 +10,7 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QVBoxLayout, QWidget
 
 from nep_core.errors import RecordingError
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
@@ -81,10 +82,14 @@ class CorrectionBar(QWidget):
     ) -> None:
         super().__init__(parent)
         self._controller, self._looks = controller, looks
-        self.missed = QPushButton(tr("It missed it"))
-        self.missed.setToolTip(tr("Keep the last seconds as a take more of a gesture"))
-        self.false_alarm = QPushButton(tr("False alarm"))
-        self.false_alarm.setToolTip(tr("Keep the last seconds as everyday movement"))
+        self.missed = labelled(
+            QPushButton(),
+            text="It missed it",
+            tip="Keep the last seconds as a take more of a gesture",
+        )
+        self.false_alarm = labelled(
+            QPushButton(), text="False alarm", tip="Keep the last seconds as everyday movement"
+        )
         self.menu = QMenu(self.missed)
         self.menu.aboutToShow.connect(self.fill_menu)
         self.missed.setMenu(self.menu)
@@ -159,11 +164,14 @@ class TryOut(QWidget):
         self._told_s = 0.0
         """Until then nothing is news: another recogniser or point may find what is long over."""
         self._flashing: Detection | None = None
+        self._moved = ""
+        """The gesture whose recognition point was moved last."""
         self._make()
         self._lay_out()
         self._connect()
         self._fill_bars()
         self.meaning.hide()
+        follow_words(self, self._say)
 
     def _make(self) -> None:
         look = self.controller.look
@@ -192,7 +200,7 @@ class TryOut(QWidget):
         self.live = Halves(WIDE_LINES)
         self.live.first.addLayout(self._bars_box)
         self.live.add(self.meaning, self.timeline, self.corrections)
-        self.live.add_beside(Words(tr("Expected curve"), "heading"), self.band)
+        self.live.add_beside(labelled(Words(role="heading"), text="Expected curve"), self.band)
         box.addWidget(self.live)
         box.addStretch(1)
         self.area = scrolled(inner)
@@ -312,6 +320,7 @@ class TryOut(QWidget):
             announce(self, self._title(triggers[-1].gesture))
 
     def _on_point_changed(self, name: str) -> None:
+        self._moved = name
         self.looks.set_points(self.tuning.points)
         self._told_s = max(self._told_s, self.looks.now_s)
         if name in self.bars:
@@ -322,9 +331,13 @@ class TryOut(QWidget):
     def _show_meaning(self, name: str) -> None:
         """What the recognition point that is moved means for takes and everyday movement."""
         findings = self.tuning.findings
-        words = both_sides(findings, name, self.tuning.point(name)) if findings else ""
+        words = both_sides(findings, name, self.tuning.point(name)) if findings and name else ""
         self.meaning.setText(f"{self._title(name)}: {words}" if words else "")
         self.meaning.setVisible(bool(words))
+
+    def _say(self) -> None:
+        self._show_state()
+        self._show_meaning(self._moved)
 
     def _show_state(self) -> None:
         icon, colour, words, step = self._state()
