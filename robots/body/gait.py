@@ -172,7 +172,7 @@ def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
     swings = steps + 1
     times_s = ticks(2.0 * LEAVING_S + swings * step_s, TICK_S)
     swing_s = step_s * (1.0 - BOTH_FEET_PART)
-    begins_s: Angles = LEAVING_S + step_s * np.arange(swings)
+    begins_s = LEAVING_S + step_s * np.arange(float(swings))
     places, yaws, stands = {}, {}, {}
     for side, sign, first in (("L", 1.0, 0), ("R", -1.0, 1)):
         own = np.arange(first, swings, 2)
@@ -195,7 +195,7 @@ def _foot(gone: Angles, step: Angles, left_m: float, height: Angles) -> Points:
 def _weight(times_s: Angles, stands: dict[str, Points], swings: int, step_s: float) -> Points:
     """Return where the weight is carried: between the feet, then on each standing one in turn."""
     changing_s = np.full(swings + 1, step_s * BOTH_FEET_PART)
-    ends_s: Angles = LEAVING_S + step_s * np.arange(swings + 1)
+    ends_s = LEAVING_S + step_s * np.arange(swings + 1.0)
     ends_s[-1] += changing_s[-1]
     changing_s[[0, -1]] *= 2.0  # the first and the last change have more time than others
     feet = np.array([0.5, *(np.arange(swings) % 2.0), 0.5])
