@@ -178,6 +178,18 @@ def test_a_topic_with_texts_and_msgpack_is_played_by_two_publishers(
     assert {one.encoding for one in got if one} == {"msgpack", "text"}
 
 
+def test_a_text_that_cannot_be_played_is_told(
+    recording: Path, join: Join, caplog: pytest.LogCaptureFixture
+) -> None:
+    latin = RawMessage("/text", "old", 1, 7, 7, "text", "Grüße".encode("latin-1"))
+
+    with Player(recording, join=join) as player:
+        player._send(latin)
+
+    assert player.sent == 0
+    assert caplog.messages == ["/text: a text that is not UTF-8 is not played"]
+
+
 def test_topics_that_appear_later_are_recorded_too(join: Join, tmp_path: Path) -> None:
     network = join("recorder")
     with Recorder(tmp_path / "later.mcap", network=network) as recorder:
