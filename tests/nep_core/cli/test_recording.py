@@ -51,7 +51,7 @@ def recording(join: Join, tmp_path: Path) -> Path:
         for _ in range(2):
             for publisher, (_, message, _) in zip(publishers, SENT, strict=True):
                 publisher.send(message)
-            time.sleep(0.02)
+            time.sleep(0.02)  # the pause that is recorded, and played again
         until(lambda: recorder.totals.messages == 2 * len(SENT))
     talker.close()  # else its latched message would come once more
     return path
@@ -240,7 +240,7 @@ def test_a_full_disk_ends_the_recording_and_keeps_what_was_there(
         resource.setrlimit(resource.RLIMIT_FSIZE, (most, hard))
         while not recorder.is_over:
             publisher.send(os.urandom(2000))
-            time.sleep(0.02)
+            time.sleep(0.02)  # a rate that a disk keeps up with until it is full
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
