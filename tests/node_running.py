@@ -34,12 +34,14 @@ class NodeRunner:
         self.network = network
         self.states = Subscriber(NODE_STATE, NodeState, network=network)
         self.nodes: list[subprocess.Popen[str]] = []
+        self.prepare = ""
+        """Python that a process runs before its node: to make it slow, or to let it fail."""
 
     def start_node(self, node: str, name: str, **parameters: object) -> subprocess.Popen[str]:
         """Start "type/node" under a name."""
         manifest = str(NODES / f"{node}.toml")
         process = subprocess.Popen(
-            [sys.executable, "-c", START, manifest, name, repr(parameters)],
+            [sys.executable, "-c", self.prepare + START, manifest, name, repr(parameters)],
             stdin=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             text=True,

@@ -7,6 +7,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -159,9 +160,16 @@ def is_allowed(module: str, found: Import) -> bool:
     return any(is_within(found.name, other) for other in room.others)
 
 
-def modules_in(root: Path) -> Iterator[tuple[str, list[Import]]]:
-    """Give every module of a room, by its full name, with what it imports."""
-    for path in sorted(root.rglob("*.py")):
+@cache
+def modules_in(root: Path) -> tuple[tuple[str, list[Import]], ...]:
+    """Return every module of a room, by its full name, with what it imports."""
+    return tuple(_modules_in(root))
+
+
+def _modules_in(root: Path) -> Iterator[tuple[str, list[Import]]]:
+    folders = {room.partition(".")[0] for room in ROOMS}  # not the libraries in .venv
+    inside = [path for folder in folders for path in (root / folder).rglob("*.py")]
+    for path in sorted([*root.glob("*.py"), *inside]):
         parts = path.relative_to(root).with_suffix("").parts
         module = ".".join(parts).removesuffix(".__init__")
         if room_of(module) is not None:

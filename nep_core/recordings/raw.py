@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from dataclasses import dataclass
 
 from nep_core.errors import BadMessage
 from nep_core.networks.network import HANDSHAKE_S, Network
-from nep_core.wire.frames import NUL, Encoding, check_topic, read_header
+from nep_core.wire.frames import NO_HEADER, NUL, Encoding, check_topic, read_header
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +47,6 @@ class RawSubscriber:
     def __init__(self, topic: str, *, network: Network, clock: SteadyClock | None = None) -> None:
         check_topic(topic)
         self.topic = topic
-        self.unreadable = 0
         self._network = network
         self._clock = clock or SteadyClock()
         self._waiting: list[RawMessage] = []
@@ -83,12 +85,13 @@ class RawSubscriber:
     def _read(self, frame: bytes) -> list[RawMessage]:
         arrived_ns = self._clock.now_ns()
         parts = frame.split(NUL, 2)
+        if len(parts) < 3:
+            log.warning(NO_HEADER, self.topic)
+            return []
         try:
-            header = read_header(parts[1]) if len(parts) == 3 else None
-        except BadMessage:
-            header = None
-        if header is None:
-            self.unreadable += 1
+            header = read_header(parts[1])
+        except BadMessage as error:
+            log.warning("%s: %s", self.topic, error)
             return []
         payloads = parts[2].split(NUL) if header.encoding == "json" else [parts[2]]
         return [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import select
 import stat
@@ -31,6 +32,8 @@ from nep_core.wire.messages import LATCHED, NODE_STATE
 from nep_core.wire.pubsub import Publisher
 
 from .file import Channel, channel_of
+
+log = logging.getLogger(__name__)
 
 if TYPE_CHECKING:
     from mcap.writer import Writer
@@ -315,7 +318,6 @@ class Player:
     ) -> None:
         self.overview = overview(path)
         self.sent = 0
-        self.unplayable = 0
         self._recording = Recording(path)
         self._speed = speed
         self._start_ns = self.overview.start_ns + round(from_s * 1e9)
@@ -393,7 +395,7 @@ class Player:
         try:
             again = _as_it_was(message)
         except UnicodeDecodeError:
-            self.unplayable += 1
+            log.warning("%s: a text that is not UTF-8 is not played", message.topic)
             return
         self._publishers[message.topic, message.encoding == "msgpack"].send(again)
         self.sent += 1

@@ -20,6 +20,7 @@ from nep_core.errors import BadMessage, NetworkError
 Encoding = Literal["json", "text", "msgpack", "bytes"]
 Sendable = msgspec.Struct | dict[str, Any] | list[Any] | str | bytes
 
+NO_HEADER = "%s: a frame has no header: its sender does not speak NEP"
 NUL = b"\0"
 RUN_CHARACTERS = 8
 MOST = 2**63 - 1

@@ -17,6 +17,7 @@ from nep_core.networks.transports import default_network
 from .frames import (
     JSON_HEAD,
     JSON_MARK,
+    NO_HEADER,
     NUL,
     Decode,
     Encoding,
@@ -209,7 +210,7 @@ class Subscriber(Generic[T]):
     def _decoder_of(self, parts: list[bytes]) -> Decode | None:
         """How to decode a frame that begins in an unusual way; None: it cannot be read."""
         if len(parts) < 3:
-            log.warning("%s: a frame has no header: its sender does not speak NEP", self.topic)
+            log.warning(NO_HEADER, self.topic)
             return None
         try:
             self._header, self._head = read_header(parts[1]), b""

@@ -112,11 +112,25 @@ def _why_not_json(data: bytes, error: Exception) -> tuple[Text, Text]:
         return Text("groups are nested too deep in it."), Text("")
     if isinstance(error, msgspec.ValidationError):
         return Text("there is a number in it that is too large."), _place_of_number(data)
-    if "truncated" in str(error):
+    if _is_cut_off(data):
         return Text("it ends too early, as if a part of it were missing."), Text("")
     byte = re.search(r"\(byte (\d+)\)", str(error))
     line = _line_at(data, int(byte[1]) if byte else 0)
     return Text("this is not how a project is written."), text_of(" at line {number}", number=line)
+
+
+def _is_cut_off(data: bytes) -> bool:
+    """Whether data that is no JSON only lacks its end: then what follows it changes the fault."""
+    longer = data + bytes(8)  # more than any letter that is cut in two
+    return _json_fault(data) != _json_fault(longer)
+
+
+def _json_fault(data: bytes) -> str:
+    try:
+        msgspec.json.decode(data.removeprefix(b"\xef\xbb\xbf"))
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        return str(error)
+    return ""
 
 
 def _line_at(data: bytes, offset: int) -> int:

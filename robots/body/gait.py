@@ -8,8 +8,10 @@ point, ICRA 2003: the mass at a constant height; its exact solution is a filter 
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Generator, Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
 import numpy as np
@@ -170,17 +172,13 @@ def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
     swings = steps + 1
     times_s = ticks(2.0 * LEAVING_S + swings * step_s, TICK_S)
     swing_s = step_s * (1.0 - BOTH_FEET_PART)
-    begins_s = LEAVING_S + step_s * np.arange(swings)
+    begins_s = LEAVING_S + step_s * np.arange(float(swings))
     places, yaws, stands = {}, {}, {}
     for side, sign, first in (("L", 1.0, 0), ("R", -1.0, 1)):
-        gone, height = np.zeros_like(times_s), np.zeros_like(times_s)
-        here = 0.0
-        for swing in range(first, swings, 2):
-            s = np.clip((times_s - begins_s[swing]) / swing_s, 0.0, 1.0)
-            landing = float(min(swing + 1, steps))
-            gone += (landing - here) * minimum_jerk(s)
-            height += np.sin(np.pi * s) ** 2 * FOOT_LIFT_M
-            here = landing
+        own = np.arange(first, swings, 2)
+        landings = np.array([0.0, *np.minimum(own + 1.0, steps)])
+        gone, part = _in_turn(times_s, begins_s[own], swing_s, landings)
+        height = np.sin(np.pi * part) ** 2 * FOOT_LIFT_M
         places[side], yaws[side] = _foot(gone, step, sign * hip_left_m, height), gone * step[2]
         middle, _ = _foot(gone, step, sign * (hip_left_m - INWARD_M), height), None
         stands[side] = middle[:, :2] + SOLE_MIDDLE_M * _heading(yaws[side])
@@ -196,19 +194,28 @@ def _foot(gone: Angles, step: Angles, left_m: float, height: Angles) -> Points:
 
 def _weight(times_s: Angles, stands: dict[str, Points], swings: int, step_s: float) -> Points:
     """Return where the weight is carried: between the feet, then on each standing one in turn."""
-    changing_s = step_s * BOTH_FEET_PART
-    on_left, before = np.full_like(times_s, 0.5), 0.5
-    for swing in range(swings + 1):
-        after = 0.5 if swing == swings else float(swing % 2 == 1)
-        # the first and the last change have more time than those between steps
-        begin_s = LEAVING_S + swing * step_s - (2.0 if swing == 0 else 1.0) * changing_s
-        lasting_s = changing_s * (2.0 if swing in (0, swings) else 1.0)
-        part = minimum_jerk(np.clip((times_s - begin_s) / lasting_s, 0.0, 1.0))
-        on_left += (after - before) * part
-        before = after
+    changing_s = np.full(swings + 1, step_s * BOTH_FEET_PART)
+    ends_s = LEAVING_S + step_s * np.arange(swings + 1.0)
+    ends_s[-1] += changing_s[-1]
+    changing_s[[0, -1]] *= 2.0  # the first and the last change have more time than others
+    feet = np.array([0.5, *(np.arange(swings) % 2.0), 0.5])
+    on_left, _ = _in_turn(times_s, ends_s - changing_s, changing_s, feet)
     share = on_left[:, None]
     weight: Points = share * stands["L"] + (1.0 - share) * stands["R"]
     return weight
+
+
+def _in_turn(
+    times_s: Angles, begins_s: Angles, lasting_s: Angles | float, stops: Angles
+) -> tuple[Angles, Angles]:
+    """Return how far something is that moves on from stop to stop, and how far on its last way.
+
+    ``begins_s`` and ``lasting_s``: of each way, one fewer than ``stops``.
+    """
+    way = np.maximum(np.searchsorted(begins_s, times_s, "right") - 1, 0)
+    lasting_s = np.broadcast_to(lasting_s, begins_s.shape)
+    part = np.clip((times_s - begins_s[way]) / lasting_s[way], 0.0, 1.0)
+    return stops[way] + (stops[way + 1] - stops[way]) * minimum_jerk(part), part
 
 
 def _swayed(weight: Points, height_m: float, ends: Points) -> Points:
@@ -401,6 +408,9 @@ def plan_roll(way: Angles) -> Angles:
 
 
 WALKING_POSTURE = "StandInit"
+QUICKLY_PLANNED_STEPS = 100
+"""More are planned in a thread: 500 steps that turn take seconds, too long to say nothing."""
+PLANNING_LOOK_S = 0.001
 MERGING_S = 0.3
 """In this time a robot that stands a little beside where it should comes to stand there."""
 
@@ -430,7 +440,7 @@ def walk(
         return (yield from _roll(robot, way))
     yield from go(robot, WALKING_POSTURE, {Limb.LEGS})
     robot.posture = WALKING_POSTURE
-    plan = plan_walk(robot.body, _standing(robot), *way.tolist(), at_least_steps=at_least_steps)
+    plan = yield from _planned_walk(robot, way, at_least_steps)
     start, steps = robot.base, play_motion(robot, plan.legs)
     for guide, place, _ in zip(_guides(robot, plan), plan.base, steps, strict=True):
         robot.stance.guide = guide
@@ -441,6 +451,23 @@ def walk(
         yield
     robot.base = moved_base(start, way)
     return ""
+
+
+def _planned_walk(
+    robot: VirtualRobot, way: Angles, at_least_steps: int
+) -> Generator[None, None, Walk]:
+    """Return the plan of a walk; a long one is made while the robot stands and can be asked."""
+    plan = functools.partial(plan_walk, robot.body, _standing(robot), *way.tolist())
+    if float(np.max(np.abs(way) / _LONGEST_STEP)) <= QUICKLY_PLANNED_STEPS:
+        return plan(at_least_steps=at_least_steps)
+    worker = ThreadPoolExecutor(1)
+    try:
+        planning = worker.submit(plan)
+        while not wait((planning,), PLANNING_LOOK_S).done:
+            yield
+        return planning.result()
+    finally:
+        worker.shutdown(wait=False)
 
 
 def come_to_rest(robot: VirtualRobot, limbs: Collection[Limb], joint_speed: Angles) -> Task:

@@ -150,7 +150,7 @@ def minimum_jerk(s: Angles) -> Angles:
 
     Source: T. Flash and N. Hogan, The coordination of arm movements, J. Neurosci. 5, 1985.
     """
-    progress: Angles = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+    progress: Angles = s * s * s * (10.0 - s * (15.0 - 6.0 * s))  # powers are slow
     return progress
 
 

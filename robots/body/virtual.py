@@ -226,7 +226,8 @@ BATTERY_S = 90.0 * 60.0
 """So long a full battery lasts. Source: NAO documentation, in normal use."""
 TICKS_IN_TIME, MOST_TICKS_A_LOOK = 4, 8
 """A robot that lives faster looks less often how it stands: so many ticks at once are in time."""
-MOST_TICKS = 1000
+MOST_TICKS = 100
+"""In one step: between two of them its node answers, and a slow machine needs long for a tick."""
 FELL = "robot_fell"
 """What is told when the robot has lost its balance."""
 

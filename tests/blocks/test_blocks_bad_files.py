@@ -146,6 +146,11 @@ def test_numbers_that_json_does_not_have_are_refused_with_their_line(language, w
     ("data", "told"),
     [
         (b"", "ends too early"),
+        (b'{"format": ', "ends too early"),
+        (b'{"format": "nep-st', "ends too early"),
+        (b'\xef\xbb\xbf{"format": "\xe3\x81', "ends too early"),
+        (b'{"format": "\\u30', "ends too early"),
+        (b'{"format": nep}', "this is not how a project is written"),
         (b"PK\x03\x04", "this is not how a project is written"),
         (b"\x89PNG\r\n", "this is not how a project is written"),
         (b"print('hello')", "this is not how a project is written"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from nep_core.networks.master import Master
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.messages import HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior, NodeState
 from nep_core.wire.pubsub import Publisher, Subscriber
+from tests.nep_core.master_process import until
 from tests.nep_core.robot_playing import PlayedRobot
 
 Join = Callable[[str], PeerNetwork]
@@ -102,12 +102,10 @@ def test_the_reactive_behaviour_says_impressive_at_each_karate(
     person = Publisher(HUMAN_BEHAVIOR, network=join("person"))
     program("\n".join([listings[ROBOT], listings[RULE], listings[BEHAVIOR]]))
     assert person.wait_for_subscribers(1, 10)
-    while len(nao.asked) < 3:
-        time.sleep(0.01)
+    assert until(lambda: len(nao.asked) >= 3)
 
     for state in ("gesture_karate", "gesture_katana", "gesture_karate"):
         person.send(HumanBehavior(human_state=state))
-    while nao.words().count("Impressive!") < 2:
-        time.sleep(0.01)
+    assert until(lambda: nao.words().count("Impressive!") >= 2)
 
     assert nao.words() == ["Hello", "Impressive!", "Impressive!"]

@@ -36,7 +36,7 @@ def test_a_busy_window_gets_one_batch_until_it_has_taken_it(monitor: Monitor, qt
 
     monitor.hear("second")
     monitor.hear("third")
-    qtbot.wait(100)
+    qtbot.wait(100)  # three of its pauses: nothing else tells that a thread keeps back something
     assert batches == [["first"]]
 
     monitor.taken()

@@ -156,7 +156,7 @@ class BlockStage(NodeRunner):
         while not look.holds(seen) and time.monotonic() < end_s:
             for one in look.senses:
                 self._sense((one[0], 2.5 if one[0] == "sonar_left" else 0.0, one[2]))
-                time.sleep(0.4)
+                time.sleep(0.4)  # so long it does not sense it: two looks of a real robot's driver
                 self._sense(one)
             if look.state:
                 self._person.send(HumanBehavior(human_state=look.state))

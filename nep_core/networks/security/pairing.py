@@ -23,7 +23,7 @@ from typing import Any, Literal, TypeVar
 import msgspec
 import zmq
 
-from faults import Text, reason_of, text_of
+from faults import DEEPEST, Fault, Text, fault_of, heard_fault, reason_of, text_of
 from nep_core.errors import KeyFileError, NetworkError, PairingError, PortTaken
 from nep_core.networks.endpoints import fixed_endpoint
 
@@ -67,10 +67,11 @@ class Welcome(msgspec.Struct, tag="welcome", tag_field="do", kw_only=True):
 
 
 class No(msgspec.Struct, tag="no", tag_field="do", kw_only=True):
-    """The door refuses: a sentence for the person at the guest, and what to do."""
+    """The door refuses: why, for the person at the guest, in English and as data (a Fault)."""
 
     sentence: str
     checklist: list[str] = []
+    fault: dict[str, Any] | None = None  # doors before this key tell in English only
 
 
 Message = Hello | Offer | Proof | Welcome | No
@@ -290,6 +291,13 @@ class Code:
         return time.time() + self.left_s
 
 
+NO_CODE = fault_of(
+    "There is no code now: it was used, or is too old.",
+    code="no_code",
+    checklist=("Let the other computer show a new code, and type that one within two minutes.",),
+)
+
+
 class Door:
     """Listens in a thread of its own; raises PortTaken."""
 
@@ -365,17 +373,13 @@ class Door:
     def _talk(self, lines: Lines, address: str) -> None:
         hello = lines.hear()
         if not isinstance(hello, Hello) or hello.version != VERSION:
-            lines.say(_no("These two programs are of different ages.", "Update both computers."))
+            words, step = "These two programs are of different ages.", "Update both computers."
+            lines.say(_no(fault_of(words, code="pairing_ages", checklist=(step,))))
             return
         lines.go_on(TALK_S)
         code = self._take_try()
         if code is None:
-            lines.say(
-                _no(
-                    "There is no code now: it was used, or is too old.",
-                    "Let the other computer show a new code, and type that one within two minutes.",
-                )
-            )
+            lines.say(_no(NO_CODE))
             return
         try:
             talk = DoorTalk(code.text)
@@ -391,7 +395,9 @@ class Door:
             self._let_in(guest, address)
         except KeyFileError as error:
             log.error("The computer at %s was not paired: %s", address, error.sentence)
-            lines.say(_no("The other computer cannot keep your key.", str(error)))
+            steps = (error.sentence, *error.checklist)
+            words = "The other computer cannot keep your key."
+            lines.say(_no(fault_of(words, code="key_not_kept", checklist=steps)))
             return
         lines.say(talk.welcome(proof, self._host()))
 
@@ -423,8 +429,7 @@ class Door:
 
     def _refuse(self, lines: Lines, address: str) -> None:
         with contextlib.suppress(PairingError):
-            error = wrong_code()
-            lines.say(No(sentence=str(error), checklist=list(map(str, error.checklist))))
+            lines.say(_no(wrong_code().fault))
         if self.code is not None:
             self._on_event(
                 DoorEvent(
@@ -456,8 +461,12 @@ class Door:
         )
 
 
-def _no(sentence: str, step: str) -> No:
-    return No(sentence=sentence, checklist=[step])
+def _no(fault: Fault) -> No:
+    return No(
+        sentence=str(fault),
+        checklist=list(map(str, fault.checklist)),
+        fault=msgspec.to_builtins(fault),
+    )
 
 
 # The second computer: pair with the one that opened a network, and write the key file.
@@ -540,17 +549,26 @@ def _reason(error: Exception) -> Text:
 
 def _expect(kind: type[T], message: object) -> T:
     if isinstance(message, No):
-        raise PairingError(
-            _plain(message.sentence), checklist=tuple(map(_plain, message.checklist))
-        )
+        said = message.fault or {"sentence": message.sentence, "checklist": message.checklist}
+        fault = heard_fault(_plain(said))
+        raise PairingError.of(fault) if fault else _strange()
     if not isinstance(message, kind):
         raise _strange()
     return message
 
 
-def _plain(text: str) -> str:
+def _plain(told: Any, deepest: int = 2 * DEEPEST) -> Any:
     """What a stranger says, without letters that command a terminal."""
-    return "".join(c for c in text if c.isprintable())
+    match told:
+        case str():
+            return "".join(c for c in told if c.isprintable())
+        case dict() if deepest:
+            return {_plain(name): _plain(one, deepest - 1) for name, one in told.items()}
+        case list() if deepest:
+            return [_plain(one, deepest - 1) for one in told]
+        case dict() | list():
+            return "…"
+    return told
 
 
 def _strange() -> PairingError:

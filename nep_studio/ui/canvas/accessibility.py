@@ -81,8 +81,14 @@ class CanvasInterface(QAccessibleInterface):
 
     def forget_gone(self) -> None:
         """Drop the interfaces of blocks that are not there any more."""
-        blocks = self.view.editor.project.blocks
-        for block_id in [i for i in self._blocks if i not in blocks]:
+        self._forget([i for i in self._blocks if i not in self.view.editor.project.blocks])
+
+    def forget_all(self) -> None:
+        """Drop all of them: Qt keeps pointers to them, and would follow these when it ends."""
+        self._forget(list(self._blocks))
+
+    def _forget(self, block_ids: list[str]) -> None:
+        for block_id in block_ids:
             gone = self._blocks.pop(block_id)
             QAccessible.deleteAccessibleInterface(QAccessible.uniqueId(gone))
 
@@ -284,6 +290,7 @@ def interface_of(view: CanvasHost) -> CanvasInterface:
         made = CanvasInterface(view)
         view.accessible = made  # Qt holds it by pointer only: Python must keep it
         view.news.layout_changed.connect(made.forget_gone)
+        view.area.destroyed.connect(lambda: made.forget_all())
     return view.accessible
 
 

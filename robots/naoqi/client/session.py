@@ -189,13 +189,25 @@ def enter(peer: Peer, login: Login | None, until_s: float) -> None:
             said[TOKEN] = answer[NEW_TOKEN]  # a robot may exchange the password for its token
             answer = _authenticate(peer, said, until_s)
     except CallFailed as problem:
-        if "uthenticat" in str(problem):  # the robot's own words
+        if is_about_login(str(problem)):
             raise _refused(login, str(problem)) from problem
         _enter_old(peer)  # NAOqi up to 2.1 does not know the call
         return
     if answer.get(STATE) != DONE:
         raise _refused(login, str(answer.get(STATE)))
     peer.capabilities = answer
+
+
+LOGIN_ANSWERS = ("Authentication failed", "Expected authentication")
+
+
+def is_about_login(said: str) -> bool:
+    """Whether a robot refuses the login by these words, and not the call that it does not know.
+
+    NAOqi answers both with a frame of the kind ERROR that carries a sentence and nothing else; in
+    every version since 2.1 those about the login begin so. Source: libqi, messaging/server.cpp.
+    """
+    return said.startswith(LOGIN_ANSWERS)
 
 
 def _authenticate(peer: Peer, said: dict[str, Any], until_s: float) -> dict[str, Any]:

@@ -59,8 +59,8 @@ def test_what_is_lost_is_counted(talker: tuple[zmq.Socket[bytes], RawSubscriber]
     until(lambda: subscriber.lost == 3)
 
 
-def test_what_nobody_can_read_is_counted_and_passed_over(
-    talker: tuple[zmq.Socket[bytes], RawSubscriber],
+def test_what_nobody_can_read_is_told_and_passed_over(
+    talker: tuple[zmq.Socket[bytes], RawSubscriber], caplog: pytest.LogCaptureFixture
 ) -> None:
     socket, subscriber = talker
     for rubbish in (b"", b"no header", b"{}\0{}", b'["a"]\0{}'):
@@ -70,7 +70,9 @@ def test_what_nobody_can_read_is_counted_and_passed_over(
     message = subscriber.receive(5)
 
     assert message is not None and message.payload == b"1"
-    assert subscriber.unreadable == 4
+    told = [record.getMessage() for record in caplog.records]
+    assert len(told) == 4
+    assert told[0] == "/x: a frame has no header: its sender does not speak NEP"
 
 
 def test_a_steady_clock_tells_the_time_and_never_goes_back() -> None:

@@ -51,7 +51,7 @@ def recording(join: Join, tmp_path: Path) -> Path:
         for _ in range(2):
             for publisher, (_, message, _) in zip(publishers, SENT, strict=True):
                 publisher.send(message)
-            time.sleep(0.02)
+            time.sleep(0.02)  # the pause that is recorded, and played again
         until(lambda: recorder.totals.messages == 2 * len(SENT))
     talker.close()  # else its latched message would come once more
     return path
@@ -178,6 +178,18 @@ def test_a_topic_with_texts_and_msgpack_is_played_by_two_publishers(
     assert {one.encoding for one in got if one} == {"msgpack", "text"}
 
 
+def test_a_text_that_cannot_be_played_is_told(
+    recording: Path, join: Join, caplog: pytest.LogCaptureFixture
+) -> None:
+    latin = RawMessage("/text", "old", 1, 7, 7, "text", "Grüße".encode("latin-1"))
+
+    with Player(recording, join=join) as player:
+        player._send(latin)
+
+    assert player.sent == 0
+    assert caplog.messages == ["/text: a text that is not UTF-8 is not played"]
+
+
 def test_topics_that_appear_later_are_recorded_too(join: Join, tmp_path: Path) -> None:
     network = join("recorder")
     with Recorder(tmp_path / "later.mcap", network=network) as recorder:
@@ -228,7 +240,7 @@ def test_a_full_disk_ends_the_recording_and_keeps_what_was_there(
         resource.setrlimit(resource.RLIMIT_FSIZE, (most, hard))
         while not recorder.is_over:
             publisher.send(os.urandom(2000))
-            time.sleep(0.02)
+            time.sleep(0.02)  # a rate that a disk keeps up with until it is full
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from faults import Text
 from nep_core.errors import KeyFileError, PairingError, PortTaken
 from nep_core.networks.security import pairing
 from nep_core.networks.security import pairing as door_module
@@ -273,10 +274,27 @@ def test_both_sides_hear_when_the_door_cannot_keep_the_new_key(
 
     monkeypatch.setattr(os, "fsync", full)
 
-    with pytest.raises(PairingError, match="cannot keep your key"):
+    with pytest.raises(PairingError, match="cannot keep your key") as told:
         pair(HOST, door.port, code, tmp_path / "guest.keys")
     assert "no space left" in caplog.text
     caplog.clear()
+    assert told.value.fault.code == "key_not_kept"
+    why = told.value.checklist[0]  # a template, so that the guest reads it in its language
+    assert why.text == "The key file {path} cannot be written: {reason}."
+    assert why.values["reason"] == Text("no space left on device")
+
+
+CLEARS = {"text": "Not {a}.\x1b", "values": {"a": "\x1b[2J"}}
+
+
+@pytest.mark.parametrize("fault", [None, {"code": "x", "sentence": CLEARS}])
+def test_a_refusal_of_any_age_is_told_and_commands_no_terminal(fault: dict | None) -> None:
+    refusal = pairing.No(sentence="Not [2J.\x1b", checklist=["Go\x07 on."], fault=fault)
+
+    with pytest.raises(PairingError) as told:
+        pairing._expect(pairing.Welcome, pairing.decode(pairing.encode(refusal)))
+
+    assert str(told.value) == "Not [2J."
 
 
 def test_a_taken_port_of_the_door_is_told(door: Door, key_file: KeyFile) -> None:

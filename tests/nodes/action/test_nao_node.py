@@ -102,6 +102,38 @@ def test_a_program_makes_it_speak_walk_and_imitate(theatre: Theatre) -> None:
     assert last.robot == "NAO" and len(last.joints) == 26 and last.posture == "StandInit"
 
 
+SLOW_PLANNING = """
+import time
+from pathlib import Path
+from robots.body import gait
+plan = gait.plan_walk
+def plan_slowly(*arguments, **more):
+    while not Path({finished!r}).exists():
+        time.sleep(0.01)
+    return plan(*arguments, **more)
+gait.plan_walk = plan_slowly
+"""
+
+
+def test_a_robot_says_how_its_walk_goes_while_it_is_planned(
+    theatre: Theatre, tmp_path: Path
+) -> None:
+    finished = tmp_path / "finished"
+    theatre.prepare = SLOW_PLANNING.format(finished=str(finished))
+    theatre.ready(speed=50)
+    theatre.ask("as_walks_begin", "do", "NAO", posture="posture_stand_init")
+    theatre.results_until("as_walks_begin", "done")
+    theatre.ask("far", "walk", "NAO", forward_m=5.0)
+    theatre.results_until("far", "started")
+
+    for _ in range(3):
+        theatre.ask("far", "walk", "NAO", forward_m=5.0)
+        assert theatre.results_until("far", "started")
+
+    finished.touch()
+    assert theatre.results_until("far", "done")
+
+
 def test_a_walk_while_sitting_fails_with_what_to_do(theatre: Theatre) -> None:
     theatre.ready(speed=50)
     robot = Robot("NAO")

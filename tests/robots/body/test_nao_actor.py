@@ -142,6 +142,19 @@ def test_a_request_that_comes_again_is_answered_and_not_played_again() -> None:
     assert stage.robot.base[2] == pytest.approx(math.radians(45))
 
 
+def test_a_robot_that_is_far_behind_can_be_asked_again_after_a_second_of_its_life() -> None:
+    stage = Stage()
+    stage.ask("1", "walk", forward_m=2.0)
+    stage.pass_time(1.0)
+    start_m = stage.robot.base[0]
+
+    stage.results += stage.actor.step(stage.now_s + 1000.0)
+
+    assert 0.0 < stage.robot.base[0] - start_m < 0.1  # m: of the 20 that the walk lasts
+    stage.ask("1", "walk", forward_m=2.0)
+    assert stage.told == ["1 accepted", "1 started", "1 started"]
+
+
 def test_it_remembers_some_hundred_requests_and_never_forgets_one_that_runs() -> None:
     stage = Stage()
     stage.ask("long", "say", text="words " * 500)

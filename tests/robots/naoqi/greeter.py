@@ -57,7 +57,7 @@ class Greeter:
 
     def cancel_a_posture(self):
         future = self.posture.goToPosture("Sit", 0.3, _async=True)
-        time.sleep(0.1)
+        time.sleep(0.1)  # in the middle of its way
         start = time.time()
         future.cancel()
         self.tell("state", str(future.wait(2000)))

@@ -59,7 +59,7 @@ def use(session):
     yield "properties", [lamp.level.value(), lamp.level.setValue(0.75), lamp.level.value()]
     yield "module", [lamp.ping(), "say" in lamp.getMethodList(), lamp.getBrokerName()]
     going = lamp.goToPosture("Sit", 0.5, _async=True)
-    time.sleep(0.05)
+    time.sleep(0.05)  # in the middle of its way
     going.cancel()
     going.wait(2000)
     yield "cancel", going.isCanceled()

@@ -13,7 +13,7 @@ import psutil
 import pytest
 from naoqi_lamp import CERTIFICATE, KEY, child, lamp_server, until
 
-from robots.naoqi.client.session import Session
+from robots.naoqi.client.session import Session, is_about_login
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.errors import (
     ConnectionLost,
@@ -130,6 +130,26 @@ def test_a_login_that_is_wrong_or_missing_is_refused(
 
     assert isinstance(problem, LoginRefused)
     assert ("does not accept" in str(problem.sentence)) == (login is not None)
+
+
+@pytest.mark.parametrize(
+    ("said", "refuses"),
+    [
+        ("Authentication failed", True),
+        ("Authentication failed: Invalid user or token. [1.0]", True),
+        (
+            "Expected authentication (service #0, type #1, action #8), received service #0, "
+            "type #1, action #100",
+            True,
+        ),
+        ("Can't find function id 8", False),
+        ("", False),
+    ],
+)
+def test_a_robot_that_refuses_the_login_is_told_from_one_that_knows_none(
+    said: str, refuses: bool
+) -> None:
+    assert is_about_login(said) == refuses
 
 
 def test_a_plain_client_is_told_to_encrypt() -> None:

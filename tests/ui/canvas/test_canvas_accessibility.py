@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import shiboken6
 from PySide6.QtCore import QPoint
 from PySide6.QtGui import QAccessible
 
@@ -120,6 +121,17 @@ def test_a_deleted_block_is_not_valid_any_more(view: Canvas) -> None:
     assert not interface_of(view).block("b999").isValid()
     assert wait not in interface_of(view)._blocks
     del item
+
+
+def test_screen_readers_are_left_no_pointer_to_a_block_of_a_canvas_that_is_gone(qapp) -> None:
+    editor = build(studio_language(), [B("event.started"), B("robot.say")])
+    view = Canvas(editor, load_theme("light"))
+    number = QAccessible.uniqueId(interface_of(view).block(block_of(view, "robot.say")))
+    assert QAccessible.accessibleInterface(number) is not None
+
+    shiboken6.delete(view)
+
+    assert QAccessible.accessibleInterface(number) is None
 
 
 def test_blocks_outside_the_view_say_so(view: Canvas) -> None:

@@ -157,7 +157,9 @@ def test_reading_a_message_stops_the_list(bench: Bench, start: Start, qtbot: QtB
 
     assert pane.bar.pause_button.isChecked()
     before = list(pane.heard.shown)
-    qtbot.wait(300)
+    batches: list[object] = []
+    pane._tap.arrived.connect(batches.append)
+    qtbot.waitUntil(lambda: len(batches) > 2, timeout=WAIT_MS)
     assert list(pane.heard.shown) == before
     assert chosen.message.source in QGuiApplication.clipboard().text()
 
@@ -222,7 +224,7 @@ def test_5000_messages_a_second_do_not_stop_the_window(
         for number in range(7_500):
             publisher.send({"number": number, "values": [1.0, 2.0, 3.0]})
             while number > 5000 * (time.monotonic() - begin_s):
-                time.sleep(0.001)
+                time.sleep(0.001)  # the rate that is played
 
     with PeerNetwork("fast", master=bench.runner.local.launcher.master) as network:
         publisher = Publisher("/fast", network=network)

@@ -183,7 +183,7 @@ def test_a_flood_of_200000_lines_does_not_stop_the_window(
                 for line in range(number, number + 2000)
             )
             file.flush()
-            qtbot.wait(10)
+            qtbot.wait(10)  # a node writes on and on, while the window lives
     qtbot.waitUntil(lambda: "199999:" in view.text.toPlainText())
 
     timer.stop()

@@ -47,6 +47,12 @@ class ListInterface(QAccessibleInterface):
             self._rows[number] = RowInterface(self, number)
         return self._rows[number]
 
+    def forget_rows(self) -> None:
+        """Drop the items: Qt keeps pointers to them, and would follow these when it ends."""
+        for row in self._rows.values():
+            QAccessible.deleteAccessibleInterface(QAccessible.uniqueId(row))
+        self._rows.clear()
+
     def isValid(self) -> bool:
         """Whether the list is still there."""
         return True
@@ -192,7 +198,8 @@ def make_list_accessible(widget: QWidget, items: PaintedList) -> None:
     if not _is_installed:
         QAccessible.installFactory(_factory)
         _is_installed = True
-    items.accessible = ListInterface(widget, items)  # Qt holds it by pointer only
+    items.accessible = made = ListInterface(widget, items)  # Qt holds it by pointer only
+    widget.destroyed.connect(lambda: made.forget_rows())
 
 
 def tell_current(items: PaintedList) -> None:
