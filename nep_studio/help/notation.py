@@ -26,7 +26,7 @@ from nep_studio.blocks.edits.content import AddGroup, AddProcedure, SetField
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InBody, InInput, InStack, Place
 from nep_studio.blocks.program import Parameter, Procedure, Project, split_slot
-from nep_studio.blocks.slots import FieldValue, Setting
+from nep_studio.blocks.slots import FieldValue
 
 _TOKEN = re.compile(r'\s*("(?:[^"\\]|\\.)*"|[()=]|[^\s()="]+)')
 _NUMBER = re.compile(r"-?\d+(\.\d+)?")
@@ -101,17 +101,13 @@ def _take(said: str, depth: int, open_: list[tuple[int, list[Sketch]]]) -> None:
     if said.endswith(":"):
         open_.append((depth + 1, chain[-1].bodies.setdefault(said[:-1], [])))
         return
-    if depth > place and chain and not _is_named(chain):
+    if depth > place and chain and FIRST_MOUTH not in chain[-1].bodies:
         inside = chain[-1].bodies.setdefault(FIRST_MOUTH, [])
         open_.append((depth, inside))
         chain = inside
     elif depth > place and chain:
         raise NotationError(f"“{said}” is indented, but in no mouth")
     chain.append(_sketch(said))
-
-
-def _is_named(chain: list[Sketch]) -> bool:
-    return FIRST_MOUTH in chain[-1].bodies
 
 
 def _sketch(said: str) -> Sketch:
@@ -255,14 +251,10 @@ def _gathered(
         if dot and not inner.isdigit() and not isinstance(value, Sketch):
             settings = gathered.setdefault(name, {})
             assert isinstance(settings, dict)
-            settings[inner] = _setting(value)
+            settings[inner] = str(value) if isinstance(value, Quoted) else value
         else:
             gathered[key] = value
     return gathered
-
-
-def _setting(value: str | int | float | bool) -> Setting:
-    return str(value) if isinstance(value, Quoted) else value
 
 
 def _field(

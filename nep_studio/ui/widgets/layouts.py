@@ -1,4 +1,4 @@
-"""A layout that flows like words in a text, from the side where reading begins."""
+"""Layouts: rows and columns in one call, widgets that flow like words, pages that scroll."""
 
 from __future__ import annotations
 
@@ -18,6 +18,62 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
+
+Part = (
+    QWidget | QLayout | int | tuple[QWidget | QLayout, int] | tuple[QWidget, int, Qt.AlignmentFlag]
+)
+"""What stands in a row or column: a widget or layout, with its stretch and alignment where it has
+any; a number alone is room that stretches so much."""
+Margins = int | tuple[int, int, int, int]
+"""Pixels on all sides; or left, above, right and below."""
+
+
+def in_row(
+    *parts: Part,
+    of: QWidget | None = None,
+    margins: Margins | None = None,
+    spacing: int | None = None,
+) -> QHBoxLayout:
+    """Put parts beside each other; in the widget ``of`` they become its layout."""
+    row = QHBoxLayout()
+    _fill(row, parts, of, margins, spacing)
+    return row
+
+
+def in_column(
+    *parts: Part,
+    of: QWidget | None = None,
+    margins: Margins | None = None,
+    spacing: int | None = None,
+) -> QVBoxLayout:
+    """Put parts below each other; in the widget ``of`` they become its layout."""
+    column = QVBoxLayout()
+    _fill(column, parts, of, margins, spacing)
+    return column
+
+
+def _fill(
+    box: QBoxLayout,
+    parts: Sequence[Part],
+    of: QWidget | None,
+    margins: Margins | None,
+    spacing: int | None,
+) -> None:
+    if of is not None:
+        of.setLayout(box)
+    if margins is not None:
+        box.setContentsMargins(*((margins,) * 4 if isinstance(margins, int) else margins))
+    if spacing is not None:
+        box.setSpacing(spacing)
+    for part in parts:
+        if isinstance(part, int):
+            box.addStretch(part)
+            continue
+        what, *how = part if isinstance(part, tuple) else (part,)
+        if isinstance(what, QWidget):
+            box.addWidget(what, *how)
+        else:
+            box.addLayout(what, *how)
 
 
 class Flow(QLayout):
@@ -199,18 +255,13 @@ class Halves(QWidget):
         self._box.setContentsMargins(0, 0, 0, 0)
         self.first, self.second = self._column(), self._column()
 
-    @property
-    def is_wide(self) -> bool:
-        """Whether they are beside each other."""
-        return self._box.direction() != QBoxLayout.Direction.TopToBottom
-
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Put them where there is room."""
         super().resizeEvent(event)
         line = self.fontMetrics().height()
         has_room = self.width() >= self._wide_lines * line
         down, beside = QBoxLayout.Direction.TopToBottom, QBoxLayout.Direction.LeftToRight
-        if has_room != self.is_wide:
+        if has_room != (self._box.direction() != QBoxLayout.Direction.TopToBottom):
             self._box.setDirection(beside if has_room else down)
             self._box.setSpacing(line if has_room else -1)
 

@@ -78,10 +78,6 @@ class StepsView(QFrame):
         self.states: dict[str, str] = {}
         self.advice = QLabel()
         self.advice_card = card_around(self.advice, "warning")
-        self._lay_out()
-        self.clear()
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
@@ -101,6 +97,7 @@ class StepsView(QFrame):
         box.setSpacing(line // 2)
         box.addLayout(grid)
         box.addWidget(self.advice_card)
+        self.clear()
 
     def clear(self) -> None:
         """No step has been tried."""

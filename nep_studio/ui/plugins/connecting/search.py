@@ -95,14 +95,6 @@ class FoundList(QWidget):
         self.told = QLabel()
         self.progress = QProgressBar()
         self.button = QPushButton()
-        self._lay_out()
-        self.search.found.connect(self._on_found)
-        self.search.ended.connect(self._on_ended)
-        self.robots.currentItemChanged.connect(self._on_chosen)
-        self.robots.itemClicked.connect(self._on_chosen)
-        self.button.clicked.connect(self._on_pressed)
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.robots.setAccessibleName(tr("Robots in this network"))
         self.robots.setIconSize(QSize(round(line * 1.4), round(line * 1.4)))
@@ -121,6 +113,11 @@ class FoundList(QWidget):
         box.addWidget(self.robots)
         box.addWidget(self.progress)
         box.addLayout(foot)
+        self.search.found.connect(self._on_found)
+        self.search.ended.connect(self._on_ended)
+        self.robots.currentItemChanged.connect(self._on_chosen)
+        self.robots.itemClicked.connect(self._on_chosen)
+        self.button.clicked.connect(self._on_pressed)
 
     def start(self) -> None:
         """Look for robots, for a few seconds."""

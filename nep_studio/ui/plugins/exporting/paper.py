@@ -210,8 +210,23 @@ def print_program(canvas: CanvasHost, printer: QPrinter, code: str, options: Pri
 def _paint(
     painter: QPainter, sheet: Sheet, canvas: CanvasHost, paper: QRectF, place: tuple[int, int]
 ) -> None:
-    _paint_head(painter, _title(sheet, canvas), canvas.editor.project.name, paper)
-    _paint_foot(painter, paper, place)
+    title = _title(sheet, canvas)
+    name = canvas.editor.project.name
+    row = QRectF(0, 0, paper.width(), HEAD - 12)
+    painter.setPen(INK)
+    painter.setFont(on_paper(text_font(13, QFont.Weight.DemiBold), 13))
+    painter.drawText(row, _start() | Qt.AlignmentFlag.AlignVCenter, name)
+    painter.setFont(on_paper(text_font(11), 11))
+    painter.drawText(row, _end() | Qt.AlignmentFlag.AlignVCenter, title)
+    painter.setPen(QPen(PALE, 0.6))
+    painter.drawLine(row.bottomLeft(), row.bottomRight())
+    row = QRectF(0, paper.height() - FOOT + 8, paper.width(), FOOT - 8)
+    date = QLocale().toString(QDate.currentDate(), QLocale.FormatType.LongFormat)
+    painter.setPen(PALE)
+    painter.setFont(on_paper(text_font(9), 9))
+    painter.drawText(row, _start() | Qt.AlignmentFlag.AlignBottom, f"{date} · NEP Studio")
+    words = tr("Page {number} of {count}", number=place[0], count=place[1])
+    painter.drawText(row, _end() | Qt.AlignmentFlag.AlignBottom, words)
     painter.save()
     painter.translate(0, HEAD)
     if isinstance(sheet, BlocksSheet):
@@ -223,27 +238,6 @@ def _paint(
 
 def _title(sheet: Sheet, canvas: CanvasHost) -> str:
     return sheet.title or page_title(canvas.editor.project, canvas.page_layout.page)
-
-
-def _paint_head(painter: QPainter, title: str, name: str, paper: QRectF) -> None:
-    row = QRectF(0, 0, paper.width(), HEAD - 12)
-    painter.setPen(INK)
-    painter.setFont(on_paper(text_font(13, QFont.Weight.DemiBold), 13))
-    painter.drawText(row, _start() | Qt.AlignmentFlag.AlignVCenter, name)
-    painter.setFont(on_paper(text_font(11), 11))
-    painter.drawText(row, _end() | Qt.AlignmentFlag.AlignVCenter, title)
-    painter.setPen(QPen(PALE, 0.6))
-    painter.drawLine(row.bottomLeft(), row.bottomRight())
-
-
-def _paint_foot(painter: QPainter, paper: QRectF, place: tuple[int, int]) -> None:
-    row = QRectF(0, paper.height() - FOOT + 8, paper.width(), FOOT - 8)
-    date = QLocale().toString(QDate.currentDate(), QLocale.FormatType.LongFormat)
-    painter.setPen(PALE)
-    painter.setFont(on_paper(text_font(9), 9))
-    painter.drawText(row, _start() | Qt.AlignmentFlag.AlignBottom, f"{date} · NEP Studio")
-    words = tr("Page {number} of {count}", number=place[0], count=place[1])
-    painter.drawText(row, _end() | Qt.AlignmentFlag.AlignBottom, words)
 
 
 def _paint_blocks(painter: QPainter, sheet: BlocksSheet, canvas: CanvasHost) -> None:

@@ -127,7 +127,15 @@ def paint_scene(painter: QPainter, scene: Scene, canvas: CanvasHost, scale: floa
     y = scene.margin
     for part in scene.parts:
         if part.title:
-            _paint_title(painter, part.title, QPointF(scene.margin, y), scene, canvas)
+            title = part.title
+            at = QPointF(scene.margin, y)
+            font = QFont(canvas.look.block_font)
+            font.setPointSizeF(font.pointSizeF() * 1.3)
+            font.setBold(True)
+            painter.setFont(font)
+            painter.setPen(canvas.look.theme.colour("text"))
+            row = QRectF(at.x(), at.y(), scene.width - 2 * scene.margin, scene.title_height)
+            painter.drawText(row, title)
             y += scene.title_height
         left = scene.margin
         if canvas.look.measures.is_mirrored:
@@ -137,18 +145,6 @@ def paint_scene(painter: QPainter, scene: Scene, canvas: CanvasHost, scale: floa
             blocks.paint(painter, boxes_of(chain, part.bounds), max(scale, 1.0))
         painter.translate(part.bounds.x - left, part.bounds.y - y)
         y += part.bounds.height + scene.margin
-
-
-def _paint_title(
-    painter: QPainter, title: str, at: QPointF, scene: Scene, canvas: CanvasHost
-) -> None:
-    font = QFont(canvas.look.block_font)
-    font.setPointSizeF(font.pointSizeF() * 1.3)
-    font.setBold(True)
-    painter.setFont(font)
-    painter.setPen(canvas.look.theme.colour("text"))
-    row = QRectF(at.x(), at.y(), scene.width - 2 * scene.margin, scene.title_height)
-    painter.drawText(row, title)
 
 
 def _selected(canvas: CanvasHost) -> list[Chain]:

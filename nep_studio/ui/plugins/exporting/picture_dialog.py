@@ -81,7 +81,12 @@ class PictureDialog(QDialog):
         """Write the picture; says why not when that fails."""
         if not path.suffix:
             path = path.with_suffix(f".{self.kind}")
-        return self._attempt(path)
+        try:
+            write_picture(self._canvas, path, self.kind, self.options)
+        except EditRefused as refusal:
+            self.reason.tell(refusal.sentence)
+            return False
+        return True
 
     def _arrange(self) -> None:
         form = QFormLayout()
@@ -125,11 +130,3 @@ class PictureDialog(QDialog):
             self.reason.tell(refusal.sentence)
             return
         self.accept()
-
-    def _attempt(self, path: Path) -> bool:
-        try:
-            write_picture(self._canvas, path, self.kind, self.options)
-        except EditRefused as refusal:
-            self.reason.tell(refusal.sentence)
-            return False
-        return True

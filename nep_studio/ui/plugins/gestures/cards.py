@@ -215,7 +215,9 @@ class GestureCard(QFrame):
     def _connect(self) -> None:
         self.title.editingFinished.connect(self._on_title_edited)
         self.record.clicked.connect(self.record_asked)
-        self.menu.clicked.connect(lambda: self.menu_asked.emit(_below(self.menu)))
+        self.menu.clicked.connect(
+            lambda: self.menu_asked.emit(self.menu.mapToGlobal(QPoint(0, self.menu.height())))
+        )
         self.takes.menu_asked.connect(self.take_menu_asked)
         self.takes.current_changed.connect(self.activated)
 
@@ -309,10 +311,6 @@ class GestureCard(QFrame):
         self.takes_dropped.emit(list(takes_in(event.mimeData())))
 
 
-def _below(widget: QToolButton) -> QPoint:
-    return widget.mapToGlobal(QPoint(0, widget.height()))
-
-
 class Cards(QScrollArea):
     """``record_asked`` and ``menu_asked`` give the name of a gesture, ``current_changed`` tells
     that Space records another one."""
@@ -400,7 +398,13 @@ class Cards(QScrollArea):
         self.cards = {name: self.cards[name] for name in gestures}
         self.new_name.setEnabled(self._controller.editor is not None)
         self.new_button.setEnabled(self._controller.editor is not None)
-        self._show_empty()
+        self.empty.setVisible(not self._controller.gestures)
+        words = tr(
+            "A gesture is a movement that your program waits for, such as a wave. "
+            "Give it a name here, then make it five times: the program learns it."
+        )
+        no_project = tr("Gestures belong to a project. Open one, or make a new one.")
+        self.empty.setText(words if self._controller.editor is not None else no_project)
         if self.current not in gestures:
             self.choose(next(iter(gestures), ""))
         self._show_states()
@@ -436,15 +440,6 @@ class Cards(QScrollArea):
         if card is not None:
             self._box.activate()
             QTimer.singleShot(0, card, lambda: self.ensureWidgetVisible(card))
-
-    def _show_empty(self) -> None:
-        self.empty.setVisible(not self._controller.gestures)
-        words = tr(
-            "A gesture is a movement that your program waits for, such as a wave. "
-            "Give it a name here, then make it five times: the program learns it."
-        )
-        no_project = tr("Gestures belong to a project. Open one, or make a new one.")
-        self.empty.setText(words if self._controller.editor is not None else no_project)
 
     def _make_card(self, name: str) -> GestureCard:
         card = self.cards[name] = GestureCard(name, self._controller, self._canvas, self._pictures)

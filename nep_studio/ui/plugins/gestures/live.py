@@ -99,7 +99,13 @@ class LiveStream:
         is_later = t > latest
         t, values = t[is_later], values[:, is_later]
         if len(t):
-            self._learn_rate(t, message.rate_hz)
+            told_hz = message.rate_hz
+            steps = np.diff(t)
+            if not self.rate_hz:
+                self.rate_hz = told_hz if told_hz > 0 else _FALLBACK_HZ
+            if len(steps):
+                measured_hz = 1 / max(float(np.median(steps)), _LEAST_STEP_S)
+                self.rate_hz += _LEARNING * (measured_hz - self.rate_hz)
             self._ring.append(np.vstack([t[None], values]))
             self._last_t = float(t[-1])
             self.has_rotation = message.gyr is not None
@@ -124,14 +130,6 @@ class LiveStream:
         elif behind_s > 0.5:
             waited_s = min(max(now_s - self.heard_s, 1 / (self.rate_hz or _FALLBACK_HZ)), KEPT_S)
             self._shift_s = self._last_t + waited_s - float(t[0])
-
-    def _learn_rate(self, t: Floats, told_hz: float) -> None:
-        steps = np.diff(t)
-        if not self.rate_hz:
-            self.rate_hz = told_hz if told_hz > 0 else _FALLBACK_HZ
-        if len(steps):
-            measured_hz = 1 / max(float(np.median(steps)), _LEAST_STEP_S)
-            self.rate_hz += _LEARNING * (measured_hz - self.rate_hz)
 
 
 def _whole(message: Imu) -> tuple[Floats, Floats]:

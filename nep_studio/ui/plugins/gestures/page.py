@@ -85,7 +85,9 @@ def next_step(controller: GestureController) -> tuple[Step, str]:
     """The step, and the name of the gesture that it is about."""
     if controller.editor is None:
         return "project", ""
-    lacking = _lacking(controller)
+    # The first gesture with too few takes
+    few = (name for name, one in controller.gestures.items() if _used(one) < ENOUGH_TAKES)
+    lacking = next(few, "")
     if not controller.is_hearing and (lacking or len(controller.gestures) < 2):
         return "connect", ""
     if not controller.gestures:
@@ -132,12 +134,6 @@ def button_words(step: Step) -> str:
         "train": tr("Train"),
         "try": tr("Try it"),
     }.get(step, "")
-
-
-def _lacking(controller: GestureController) -> str:
-    """The first gesture with too few takes."""
-    few = (name for name, one in controller.gestures.items() if _used(one) < ENOUGH_TAKES)
-    return next(few, "")
 
 
 def _used(gesture: OwnGesture) -> int:
@@ -457,22 +453,19 @@ class TrainerPage(QWidget):
         shape = shape_for(self.width() / line, self.height() / line)
         if shape != self._shape:
             self._shape = shape
-            self._take_shape(shape)
-
-    def _take_shape(self, shape: Shape) -> None:
-        shown = self.tabs.currentWidget()
-        is_first = self.tabs.indexOf(self.inner) >= 0
-        if shape.is_tabbed and not is_first:
-            self.tabs.insertTab(0, self.inner, tr("Record"))
-            self.tabs.setCurrentIndex(0)
-        elif not shape.is_tabbed and is_first:
-            self.outer.insertWidget(0, self.inner)
-            self.inner.show()
-            self.tabs.setCurrentWidget(self.trial if shown is self.inner else shown)
-        across, down = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
-        self.outer.setOrientation(across if shape.is_beside else down)
-        self.inner.setOrientation(across if shape.has_cards_beside else down)
-        QTimer.singleShot(0, self, self._share_room)
+            shown = self.tabs.currentWidget()
+            is_first = self.tabs.indexOf(self.inner) >= 0
+            if shape.is_tabbed and not is_first:
+                self.tabs.insertTab(0, self.inner, tr("Record"))
+                self.tabs.setCurrentIndex(0)
+            elif not shape.is_tabbed and is_first:
+                self.outer.insertWidget(0, self.inner)
+                self.inner.show()
+                self.tabs.setCurrentWidget(self.trial if shown is self.inner else shown)
+            across, down = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
+            self.outer.setOrientation(across if shape.is_beside else down)
+            self.inner.setOrientation(across if shape.has_cards_beside else down)
+            QTimer.singleShot(0, self, self._share_room)
 
     def _share_room(self) -> None:
         """Give the parts their usual shares, once they have the room of the shape."""

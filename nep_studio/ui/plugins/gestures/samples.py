@@ -302,7 +302,11 @@ class TakesList(QWidget):
             return
         if (place - self._pressed).manhattanLength() >= QApplication.startDragDistance():
             self._pressed = None
-            self._carry()
+            drag, data = QDrag(self), QMimeData()
+            data.setData(TAKES_MIME, "\n".join(self.chosen).encode())
+            drag.setMimeData(data)
+            drag.setPixmap(self.grab(self.grid.rect(self.current)))
+            drag.exec(Qt.DropAction.MoveAction)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Look at what was clicked."""
@@ -320,13 +324,6 @@ class TakesList(QWidget):
             if event.reason() == QContextMenuEvent.Reason.Keyboard:
                 place = self.mapToGlobal(self.grid.rect(self.current).center())
             self.menu_asked.emit(place)
-
-    def _carry(self) -> None:
-        drag, data = QDrag(self), QMimeData()
-        data.setData(TAKES_MIME, "\n".join(self.chosen).encode())
-        drag.setMimeData(data)
-        drag.setPixmap(self.grab(self.grid.rect(self.current)))
-        drag.exec(Qt.DropAction.MoveAction)
 
     def event(self, event: QEvent) -> bool:
         """Tell of a take in a tool tip."""

@@ -132,7 +132,12 @@ class Strip(QWidget):
             for mark in marks:
                 paint_label(painter, window, mark, theme, self.font())
             self._paint_over(painter, window)
-            self._paint_frame(painter)
+            theme = self._controller.look.theme
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            width = 2 if self.hasFocus() else 1
+            painter.setPen(QPen(theme.colour("focus" if self.hasFocus() else "line"), width))
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
     def _paint_over(self, painter: QPainter, window: Window) -> None:
         theme, take = self._controller.look.theme, self.take
@@ -154,14 +159,6 @@ class Strip(QWidget):
         elif self._controller.live is None or not self._controller.is_hearing:
             words = tr("No movement is heard. Connect a watch or phone, and move it.")
             paint_words(painter, window.rect, words, theme, self.font())
-
-    def _paint_frame(self, painter: QPainter) -> None:
-        theme = self._controller.look.theme
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        width = 2 if self.hasFocus() else 1
-        painter.setPen(QPen(theme.colour("focus" if self.hasFocus() else "line"), width))
-        painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
     def _marks(self) -> list[Mark]:
         if self.take.is_open:

@@ -132,7 +132,7 @@ class HelpBrowser(QTextBrowser):
         theme = load_theme(PRINTED_THEME)
         look = replace(self.picture_look(theme), widest=widest, ratio=3.0)
         html = self.page.html if self.page is not None else ""
-        for address in _addresses(html):
+        for address in [part.partition('"')[0] for part in html.split('<img src="')[1:]]:
             picture = self._picture(QUrl(address), look)
             document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(address), picture)
         document.setDefaultTextOption(self._text_option())
@@ -255,11 +255,6 @@ class HelpBrowser(QTextBrowser):
             self.refresh()
 
 
-def _addresses(html: str) -> list[str]:
-    """The addresses of the pictures in a page."""
-    return [part.partition('"')[0] for part in html.split('<img src="')[1:]]
-
-
 # The buttons below a page that has an example: put it on the page, or try it.
 
 
@@ -294,7 +289,13 @@ class ExampleBar(QWidget):
         self.setVisible(example is not None)
         self.insert.setVisible(self.can_insert)
         if example is not None:
-            told = self._spoken(example)
+            # The example's blocks as sentences
+            language = self._book().language
+            clip = example.clip(language, language_code())
+            blocks = (each for root in clip.roots for each in clip.project.within(root))
+            definitions = language.of(clip.project).definitions
+            steps = (block for block in blocks if not definitions[block.type].is_value)
+            told = ". ".join(sentence(clip.project, language, block.id) for block in steps)
             self.insert.setAccessibleDescription(told)
             self.try_it.setAccessibleDescription(told)
 
@@ -348,12 +349,3 @@ class ExampleBar(QWidget):
             canvas.show_page(page)
         where = free_place(canvas, clip)
         return paste(canvas.editor, clip, canvas.page, where.x(), where.y())
-
-    def _spoken(self, example: Example) -> str:
-        """The example's blocks as sentences."""
-        language = self._book().language
-        clip = example.clip(language, language_code())
-        blocks = (each for root in clip.roots for each in clip.project.within(root))
-        definitions = language.of(clip.project).definitions
-        steps = (block for block in blocks if not definitions[block.type].is_value)
-        return ". ".join(sentence(clip.project, language, block.id) for block in steps)

@@ -71,7 +71,9 @@ class ContentsView(QStackedWidget):
 
     def fill(self, contents: Iterable[Content], theme: Theme) -> None:
         """Show these contents."""
-        self._size_icons()
+        side = self.fontMetrics().height()
+        self.tree.setIconSize(QSize(side, side))
+        self.found.setIconSize(QSize(side, side))
         self.tree.clear()
         for content in contents:
             item = _item(content, theme)
@@ -117,11 +119,6 @@ class ContentsView(QStackedWidget):
         item = self.found.currentItem()
         if item is not None and item.data(PAGE):
             self.chosen.emit(item.data(PAGE))
-
-    def _size_icons(self) -> None:
-        side = self.fontMetrics().height()
-        self.tree.setIconSize(QSize(side, side))
-        self.found.setIconSize(QSize(side, side))
 
     def _marked(self) -> str:
         item = self.tree.currentItem()
@@ -195,7 +192,19 @@ class ToolRow(QWidget):
         self.search.setClearButtonEnabled(True)
         self._sign = QAction(self.search)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
-        self._arrange()
+        buttons = QHBoxLayout()
+        buttons.setSpacing(0)
+        for button in (self.back, self.forward, self.home, self.contents):
+            buttons.addWidget(button)
+        buttons.addStretch(1)
+        for button in (self.smaller, self.larger, self.print):
+            buttons.addWidget(button)
+        gap = self.fontMetrics().height() // 4
+        box = QVBoxLayout(self)
+        box.setContentsMargins(gap, gap, gap, gap)
+        box.setSpacing(gap)
+        box.addLayout(buttons)
+        box.addWidget(self.search)
 
     def dress(self, theme: Theme) -> None:
         """Take the theme and the size of the text."""
@@ -216,21 +225,6 @@ class ToolRow(QWidget):
             button.setIcon(icon(name, theme))
             button.setIconSize(QSize(side, side))
         self._sign.setIcon(icon("search", theme))
-
-    def _arrange(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.setSpacing(0)
-        for button in (self.back, self.forward, self.home, self.contents):
-            buttons.addWidget(button)
-        buttons.addStretch(1)
-        for button in (self.smaller, self.larger, self.print):
-            buttons.addWidget(button)
-        gap = self.fontMetrics().height() // 4
-        box = QVBoxLayout(self)
-        box.setContentsMargins(gap, gap, gap, gap)
-        box.setSpacing(gap)
-        box.addLayout(buttons)
-        box.addWidget(self.search)
 
 
 def _button(words: str) -> QToolButton:
@@ -412,7 +406,18 @@ class HelpPanel(QWidget):
         self.example = ExampleBar(canvas, lambda: self.book, self)
         self.searching = Searching(lambda: self.book, self)
         self.body = QSplitter(Qt.Orientation.Vertical)
-        self._arrange()
+        self.body.setChildrenCollapsible(False)
+        self.body.addWidget(self.contents)
+        self.body.addWidget(self.browser)
+        self.body.setStretchFactor(1, 1)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(0)
+        box.addWidget(self.tools)
+        box.addWidget(self.body, 1)
+        box.addWidget(self.example)
+        self.tools.dress(self._look.theme)
+        self.example.dress(self._look.theme)
         self._connect()
         self.setAccessibleName(tr("Help"))
         self.setProperty("help_page", "howto/window#help")
@@ -494,20 +499,6 @@ class HelpPanel(QWidget):
         self.tools.forward.setEnabled(self.trail.can_go_forward)
 
     # Put together
-
-    def _arrange(self) -> None:
-        self.body.setChildrenCollapsible(False)
-        self.body.addWidget(self.contents)
-        self.body.addWidget(self.browser)
-        self.body.setStretchFactor(1, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(0)
-        box.addWidget(self.tools)
-        box.addWidget(self.body, 1)
-        box.addWidget(self.example)
-        self.tools.dress(self._look.theme)
-        self.example.dress(self._look.theme)
 
     def _connect(self) -> None:
         tools = self.tools

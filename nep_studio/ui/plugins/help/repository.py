@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 
-from nep_core.processes.manifest import Manifest
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.typing_in.vocabulary import vocabulary
@@ -116,7 +115,18 @@ class Book:
             definition = self.language.definitions[rest]
             html, example = block_html(self.language, definition, self.titles), example_of(rest)
         elif kind == CATEGORY:
-            html = self._category_html(rest)
+            about = category_texts(language_code()).get(rest, "")
+            parts = [f"<h1>{escape(self.titles[CATEGORY + rest])}</h1>", f"<p>{escape(about)}</p>"]
+            for definition in self._blocks_of(rest):
+                page = BLOCK + definition.id
+                picture = f'<a href="help:{page}"><img src="{PICTURE}{definition.id}"></a>'
+                words = markdown.inline(text_of(definition.id).about)
+                parts.append(f"<p>{picture}<br>{words} {link(page, tr('More'))}</p>")
+            if rest == "my":
+                parts.append(
+                    f"<p>{link(HOW_TO + 'own-blocks', self.titles[HOW_TO + 'own-blocks'])}</p>"
+                )
+            html = "".join(parts)
         elif kind == NODE:
             html = node_html(self._manifests[rest], self.titles[name])
         elif kind == HOW_TO:
@@ -186,7 +196,7 @@ class Book:
 
     def _nodes(self) -> Iterator[Content]:
         for name, manifest in self._manifests.items():
-            yield Content(NODE + name, self.titles[NODE + name], _icon(manifest))
+            yield Content(NODE + name, self.titles[NODE + name], manifest.icon)
 
     def _blocks_of(self, category: str) -> Iterator[Definition]:
         definitions = self.language.definitions.values()
@@ -216,27 +226,9 @@ class Book:
             parts.append(f"<h2>{escape(content.title)}</h2><ul>{items}</ul>")
         return "".join(parts)
 
-    def _category_html(self, category: str) -> str:
-        about = category_texts(language_code()).get(category, "")
-        parts = [f"<h1>{escape(self.titles[CATEGORY + category])}</h1>", f"<p>{escape(about)}</p>"]
-        for definition in self._blocks_of(category):
-            page = BLOCK + definition.id
-            picture = f'<a href="help:{page}"><img src="{PICTURE}{definition.id}"></a>'
-            words = markdown.inline(text_of(definition.id).about)
-            parts.append(f"<p>{picture}<br>{words} {link(page, tr('More'))}</p>")
-        if category == "my":
-            parts.append(
-                f"<p>{link(HOW_TO + 'own-blocks', self.titles[HOW_TO + 'own-blocks'])}</p>"
-            )
-        return "".join(parts)
-
     def _how_to_html(self, name: str) -> str:
         inserts = {"shortcuts": _table(self._shortcuts()), "errors": _errors_html()}
         return markdown.read(page_texts(language_code())[name], inserts).html
-
-
-def _icon(manifest: Manifest) -> str:
-    return manifest.icon
 
 
 def _table(rows: Rows) -> str:

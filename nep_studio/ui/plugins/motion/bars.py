@@ -50,7 +50,14 @@ class Header(QWidget):
         self.kind.setAccessibleName(tr("Used to"))
         for kind, words in kind_words().items():
             self.kind.addItem(words, kind)
-        self._lay_out()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.title, 1)
+        for words, field in ((tr("Starts from"), self.start), (tr("Used to"), self.kind)):
+            label = QLabel(words)
+            label.setBuddy(field)
+            row.addWidget(label)
+            row.addWidget(field)
         self.title.textEdited.connect(self._on_title_edited)
         self.title.editingFinished.connect(controller.seal)
         self.start.activated.connect(self._on_start_chosen)
@@ -65,16 +72,6 @@ class Header(QWidget):
             self.title.setText(motion.title)
         self.start.setCurrentIndex(max(0, self.start.findData(motion.starts_from)))
         self.kind.setCurrentIndex(max(0, self.kind.findData(motion.kind)))
-
-    def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.title, 1)
-        for words, field in ((tr("Starts from"), self.start), (tr("Used to"), self.kind)):
-            label = QLabel(words)
-            label.setBuddy(field)
-            row.addWidget(label)
-            row.addWidget(field)
 
     def _on_title_edited(self, title: str) -> None:
         self.controller.change(tr("name the motion"), merge="title", title=title)
@@ -129,7 +126,14 @@ class NotesBar(QFrame):
         self.open = QPushButton(tr("Open one as a start…"))
         for button in (self.give_time, self.show_place, self.open):
             button.setAutoDefault(False)
-        self._lay_out()
+        line = self.fontMetrics().height()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
+        row.addWidget(self.words, 1)
+        for button in (self.open, self.show_place, self.give_time):
+            row.addWidget(button)
+        self.setMinimumHeight(line * 2)
         self.give_time.clicked.connect(self.time_asked)
         self.open.clicked.connect(self.open_asked)
         self.show_place.clicked.connect(self._on_show_asked)
@@ -165,16 +169,6 @@ class NotesBar(QFrame):
             "Drag a hand, a foot or the head of the robot, or move a slider: that is the first "
             "key pose. Then choose a later moment on the timeline, and pose it again."
         )
-
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
-        row.addWidget(self.words, 1)
-        for button in (self.open, self.show_place, self.give_time):
-            row.addWidget(button)
-        self.setMinimumHeight(line * 2)
 
     def _say(self, sign: str, colour: str, words: str) -> None:
         line = self.fontMetrics().height()

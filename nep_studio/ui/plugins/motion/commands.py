@@ -50,7 +50,20 @@ class Commands:
 
     def __init__(self, window: MotionWindow) -> None:
         self.window, self.controller, self.player = window, window.controller, window.player
-        self._add_edit()
+        add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
+        controller = self.controller
+        add("undo_motion", tr("Undo"), controller.undo, icon_name="undo-2", keys=keys.Undo)
+        add(
+            "redo_motion",
+            tr("Redo"),
+            controller.redo,
+            icon_name="redo-2",
+            keys=(keys.Redo, "Ctrl+Y"),
+        )
+        self._add_plain("add_pose", tr("Add a pose"), self.add_pose, "plus")
+        self._add_plain("copy_pose", tr("Copy the poses to here"), self.copy, "copy-plus")
+        self._add_plain("delete_pose", tr("Delete the poses"), self.delete, "trash-2")
+        add("all_poses", tr("Choose all poses"), self.choose_all, keys=keys.SelectAll)
         self._add_play()
         self._add_changes()
 
@@ -79,22 +92,6 @@ class Commands:
             return False
         self.window.actions_by_name[name].trigger()
         return True
-
-    def _add_edit(self) -> None:
-        add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
-        controller = self.controller
-        add("undo_motion", tr("Undo"), controller.undo, icon_name="undo-2", keys=keys.Undo)
-        add(
-            "redo_motion",
-            tr("Redo"),
-            controller.redo,
-            icon_name="redo-2",
-            keys=(keys.Redo, "Ctrl+Y"),
-        )
-        self._add_plain("add_pose", tr("Add a pose"), self.add_pose, "plus")
-        self._add_plain("copy_pose", tr("Copy the poses to here"), self.copy, "copy-plus")
-        self._add_plain("delete_pose", tr("Delete the poses"), self.delete, "trash-2")
-        add("all_poses", tr("Choose all poses"), self.choose_all, keys=keys.SelectAll)
 
     def _add_play(self) -> None:
         begin = tr("To the beginning")

@@ -120,7 +120,14 @@ class CurveView(QWidget):
                 sign = 1.0 if event.key() == Qt.Key.Key_Up else -1.0
                 self._turn(sign * turn)
             case Qt.Key.Key_PageUp | Qt.Key.Key_PageDown:
-                self._next_key(is_later=event.key() == Qt.Key.Key_PageDown)
+                is_later = event.key() == Qt.Key.Key_PageDown
+                now, times = self.controller.cursor_s, [time for time, _ in self.keys]
+                later = [t for t in times if t > now + editing.SAME_S]
+                earlier = [t for t in times if t < now - editing.SAME_S]
+                found = min(later, default=None) if is_later else max(earlier, default=None)
+                if found is not None:
+                    self.key_s = found
+                    self.controller.show(found)
             case Qt.Key.Key_Delete | Qt.Key.Key_Backspace if self.key_s is not None:
                 motion = editing.without_key(self.controller.motion, self.joint, self.key_s)
                 self.key_s = None
@@ -131,15 +138,6 @@ class CurveView(QWidget):
                 )
             case _:
                 super().keyPressEvent(event)
-
-    def _next_key(self, *, is_later: bool) -> None:
-        now, times = self.controller.cursor_s, [time for time, _ in self.keys]
-        later = [t for t in times if t > now + editing.SAME_S]
-        earlier = [t for t in times if t < now - editing.SAME_S]
-        found = min(later, default=None) if is_later else max(earlier, default=None)
-        if found is not None:
-            self.key_s = found
-            self.controller.show(found)
 
     def _turn(self, change: float) -> None:
         if self.key_s is None:

@@ -159,8 +159,8 @@ class Pilot(QObject):
 
     def _on_tick(self) -> None:
         way = HEAD_RAD_S * TICK_MS / 1000.0
-        yaw = _within(self._head[0] + self.drive.head_left * way, -FARTHEST_YAW, FARTHEST_YAW)
-        pitch = _within(self._head[1] - self.drive.head_up * way, HIGHEST_PITCH, LOWEST_PITCH)
+        yaw = min(max(self._head[0] + self.drive.head_left * way, -FARTHEST_YAW), FARTHEST_YAW)
+        pitch = min(max(self._head[1] - self.drive.head_up * way, HIGHEST_PITCH), LOWEST_PITCH)
         self._head = (yaw, pitch)
         self.set_angles({"HeadYaw": yaw, "HeadPitch": pitch})
 
@@ -173,10 +173,6 @@ class Pilot(QObject):
         )
         self._runner.send(m.ACTION_REQUEST, request)
         self.sent.emit(request)
-
-
-def _within(value: float, low: float, high: float) -> float:
-    return min(max(value, low), high)
 
 
 # A watch that is tilted drives a robot: forward and back to walk, to the sides to turn.
@@ -220,7 +216,14 @@ class Tilt:
                 ]
         self._heard_s += step_s * len(imu.acc)
         if self._gravity:
-            self._follow()
+            x, y, z = self._gravity
+            forward, aside = math.atan2(y, math.hypot(x, z)), math.atan2(x, math.hypot(y, z))
+            if self._middle is None:
+                if self._heard_s >= SETTLING_S:
+                    self._middle = forward, aside
+                return
+            self.forward_rad = forward - self._middle[0]
+            self.aside_rad = aside - self._middle[1]
 
     def drive(self) -> Drive:
         """What the tilt asks for."""
@@ -233,16 +236,6 @@ class Tilt:
             "RShoulderPitch": min(max(1.4 - 1.6 * self.forward_rad, -2.0), 2.0),
             "RShoulderRoll": min(max(-0.15 - 1.2 * self.aside_rad, -1.3), 0.3),
         }
-
-    def _follow(self) -> None:
-        x, y, z = self._gravity
-        forward, aside = math.atan2(y, math.hypot(x, z)), math.atan2(x, math.hypot(y, z))
-        if self._middle is None:
-            if self._heard_s >= SETTLING_S:
-                self._middle = forward, aside
-            return
-        self.forward_rad = forward - self._middle[0]
-        self.aside_rad = aside - self._middle[1]
 
 
 def _share(angle: float) -> float:

@@ -43,13 +43,6 @@ class JointRow(QWidget):
         self.slider = QSlider(Qt.Orientation.Horizontal, self)
         self.box = QDoubleSpinBox(self)
         self._is_showing = False
-        self._lay_out()
-        self.slider.valueChanged.connect(lambda value: self._on_changed(value / STEPS))
-        self.slider.sliderReleased.connect(self.released)
-        self.box.valueChanged.connect(self._on_changed)
-        self.box.editingFinished.connect(self.released)
-
-    def _lay_out(self) -> None:
         low, high = self._shown(self.joint.min_rad), self._shown(self.joint.max_rad)
         self.slider.setRange(math.ceil(low * STEPS), math.floor(high * STEPS))
         self.box.setRange(math.ceil(low * STEPS) / STEPS, math.floor(high * STEPS) / STEPS)
@@ -61,6 +54,10 @@ class JointRow(QWidget):
         unit = "%" if self.is_hand else "°"
         limits = tr("from {low} to {high}", low=f"{low:.0f}{unit}", high=f"{high:.0f}{unit}")
         self.setToolTip(f"{self.joint.name}: {limits}")
+        self.slider.valueChanged.connect(lambda value: self._on_changed(value / STEPS))
+        self.slider.sliderReleased.connect(self.released)
+        self.box.valueChanged.connect(self._on_changed)
+        self.box.editingFinished.connect(self.released)
 
     def show_angle(self, angle: float, *, is_key: bool) -> None:
         """Show an angle; a joint with a key at this moment stands out."""

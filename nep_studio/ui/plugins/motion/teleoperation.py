@@ -87,7 +87,11 @@ class TeleoperationWindow(QDialog):
         self.start_button.setVisible(bool(waiting))
         if waiting:
             self.start_button.setText(tr("Start {robot}", robot=waiting[0].name))
-        self._show_robot()
+        for name in set(self.view.room.names) - {self.pilot.robot}:
+            self.view.remove_robot(name)
+        if self.pilot.robot:
+            state = self.states.get(self.pilot.robot)
+            self.view.show_robot(self.pilot.robot, state, can_touch=False)
         if names:
             self.missing.hide()
         else:
@@ -264,10 +268,3 @@ class TeleoperationWindow(QDialog):
                 self._runner.start_node(planned)
                 break
         self.pad.setFocus()
-
-    def _show_robot(self) -> None:
-        for name in set(self.view.room.names) - {self.pilot.robot}:
-            self.view.remove_robot(name)
-        if self.pilot.robot:
-            state = self.states.get(self.pilot.robot)
-            self.view.show_robot(self.pilot.robot, state, can_touch=False)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -52,12 +51,31 @@ class TimelinePainter:
         self.painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self.painter.fillRect(self.timeline.rect(), self.theme.colour("field"))
         self._rows()
-        self._ruler()
+        row, text = self.timeline.row(0), self.theme.colour("muted")
+        self.painter.fillRect(row, self.theme.colour("panel_alt"))
+        for time in self.scale.marks(self.timeline.shown_s, self.line * 3):
+            x = self.scale.x(time)
+            self.painter.setPen(QPen(text, 1.0))
+            self.painter.drawLine(QLineF(x, row.bottom() - self.line * 0.3, x, row.bottom()))
+            words = f"{time:g}" if time else tr("0 s")
+            place = QRectF(x - self.line * 2, row.top(), self.line * 4, self.line * 1.15)
+            self.painter.drawText(place, Qt.AlignmentFlag.AlignCenter, words)
         for fault in self.timeline.faults:
             self._fault(fault)
         self._limb_keys()
-        self._pose_keys()
-        self._names()
+        row = self.timeline.row(1)
+        for time in key_times(self.controller.motion):
+            self._diamond(time, row, self.line * 0.42, self._is_chosen(time))
+        names = ["", tr("Poses"), *limb_words().values()]
+        width = self.timeline.names_width
+        for number, name in enumerate(names):
+            row = self.timeline.row(number)
+            row.setWidth(width)
+            self.painter.fillRect(row.adjusted(0, 0, 0, -1), self.theme.colour("panel_alt"))
+            self.painter.setPen(self.theme.colour("text"))
+            row.setLeft(self.line * 0.4)
+            flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft
+            self.painter.drawText(row, flags, name)
         self._cursor()
         if self.timeline.hasFocus():
             self._focus()
@@ -75,17 +93,6 @@ class TimelinePainter:
         shade = self.theme.colour("panel_alt")
         shade.setAlphaF(0.5)
         self.painter.fillRect(beyond, shade)
-
-    def _ruler(self) -> None:
-        row, text = self.timeline.row(0), self.theme.colour("muted")
-        self.painter.fillRect(row, self.theme.colour("panel_alt"))
-        for time in self.scale.marks(self.timeline.shown_s, self.line * 3):
-            x = self.scale.x(time)
-            self.painter.setPen(QPen(text, 1.0))
-            self.painter.drawLine(QLineF(x, row.bottom() - self.line * 0.3, x, row.bottom()))
-            words = f"{time:g}" if time else tr("0 s")
-            place = QRectF(x - self.line * 2, row.top(), self.line * 4, self.line * 1.15)
-            self.painter.drawText(place, Qt.AlignmentFlag.AlignCenter, words)
 
     def _fault(self, fault: Fault) -> None:
         """Hatched, with a sign: colour does not speak alone."""
@@ -123,11 +130,6 @@ class TimelinePainter:
             for time in times:
                 self._diamond(time, row, self.line * 0.22, self._is_chosen(time))
 
-    def _pose_keys(self) -> None:
-        row = self.timeline.row(1)
-        for time in key_times(self.controller.motion):
-            self._diamond(time, row, self.line * 0.42, self._is_chosen(time))
-
     def _diamond(self, time: float, row: QRectF, size: float, is_chosen: bool) -> None:
         x, y = self.scale.x(time), row.center().y()
         around = [(0, -size), (size, 0), (0, size), (-size, 0)]
@@ -143,18 +145,6 @@ class TimelinePainter:
     def _is_chosen(self, time: float) -> bool:
         return any(abs(one - time) < SAME_S for one in self.controller.chosen)
 
-    def _names(self) -> None:
-        names = ["", tr("Poses"), *limb_words().values()]
-        width = self.timeline.names_width
-        for number, name in enumerate(names):
-            row = self.timeline.row(number)
-            row.setWidth(width)
-            self.painter.fillRect(row.adjusted(0, 0, 0, -1), self.theme.colour("panel_alt"))
-            self.painter.setPen(self.theme.colour("text"))
-            row.setLeft(self.line * 0.4)
-            flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft
-            self.painter.drawText(row, flags, name)
-
     def _cursor(self) -> None:
         x = self.scale.x(self.controller.cursor_s)
         colour = self.theme.colour("snap")
@@ -166,7 +156,7 @@ class TimelinePainter:
         self.painter.setBrush(colour)
         self.painter.setPen(Qt.PenStyle.NoPen)
         points = [(x - half, low - self.line * 0.6), (x + half, low - self.line * 0.6), (x, low)]
-        self.painter.drawPolygon(_polygon(points))
+        self.painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in points]))
 
     def _focus(self) -> None:
         wide = max(2.0, self.line / 8)
@@ -174,10 +164,6 @@ class TimelinePainter:
         self.painter.setPen(QPen(self.theme.colour("focus"), wide))
         inner = QRectF(self.timeline.rect()).adjusted(wide / 2, wide / 2, -wide / 2, -wide / 2)
         self.painter.drawRect(inner)
-
-
-def _polygon(points: Iterable[tuple[float, float]]) -> QPolygonF:
-    return QPolygonF([QPointF(x, y) for x, y in points])
 
 
 # Where the moments of a motion are on its timeline, in pixels.

@@ -64,7 +64,13 @@ class GraphPainter:
             self._draw_rate(curve, look, is_chosen=False)
         for key, rect in shapes.rects.items():
             if rect.intersects(view):
-                self._draw_item(key, rect, look)
+                if key[0] == "node":
+                    self._draw_node(key, rect, look)
+                else:
+                    self._draw_topic(key, rect, look)
+                if key == look.selected and look.has_focus:
+                    edge = self._line * 0.22
+                    self._outline(rect.adjusted(-edge, -edge, edge, edge), "focus", 0.14)
         for curve in second:
             self._draw_rate(curve, look, is_chosen=True)
 
@@ -97,15 +103,6 @@ class GraphPainter:
         self._painter.setPen(self._theme.colour("text"))
         self._painter.setFont(self._small)
         self._painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, words)
-
-    def _draw_item(self, key: Key, rect: QRectF, look: Look) -> None:
-        if key[0] == "node":
-            self._draw_node(key, rect, look)
-        else:
-            self._draw_topic(key, rect, look)
-        if key == look.selected and look.has_focus:
-            edge = self._line * 0.22
-            self._outline(rect.adjusted(-edge, -edge, edge, edge), "focus", 0.14)
 
     def _draw_node(self, key: Key, rect: QRectF, look: Look) -> None:
         painter, theme, line = self._painter, self._theme, self._line

@@ -90,7 +90,15 @@ class GraphView(QWidget):
         """Choose something, and bring it into view."""
         self._look = replace(self._look, selected=key)
         if key is not None and key in self.shapes.rects:
-            self._show_rect(self.shapes.rects[key])
+            rect = self.shapes.rects[key]
+            view = self._view()
+            edge = self._line() * MARGIN
+            wanted = rect.adjusted(-edge, -edge, edge, edge)
+            dx = min(0.0, wanted.left() - view.left()) or max(0.0, wanted.right() - view.right())
+            dy = min(0.0, wanted.top() - view.top()) or max(0.0, wanted.bottom() - view.bottom())
+            if dx or dy:
+                self._corner += QPointF(dx, dy)
+                self._is_fitted = False
             announce(self, self._words(key).replace("\n", ". "))
         self.update()
 
@@ -152,16 +160,6 @@ class GraphView(QWidget):
         status, node = self._look.statuses.get(key[1]), seen.nodes.get(key[1])
         words = type_words(status.type if status else "")
         return node_words(node, words) if node else key[1]
-
-    def _show_rect(self, rect: QRectF) -> None:
-        view = self._view()
-        edge = self._line() * MARGIN
-        wanted = rect.adjusted(-edge, -edge, edge, edge)
-        dx = min(0.0, wanted.left() - view.left()) or max(0.0, wanted.right() - view.right())
-        dy = min(0.0, wanted.top() - view.top()) or max(0.0, wanted.bottom() - view.bottom())
-        if dx or dy:
-            self._corner += QPointF(dx, dy)
-            self._is_fitted = False
 
     def _view(self) -> QRectF:
         return QRectF(

@@ -74,11 +74,6 @@ class TopicBar(QWidget):
         self.filter.setPlaceholderText(tr("Show only messages with…"))
         self.filter.setAccessibleName(tr("Show only messages with…"))
         self.filter.setClearButtonEnabled(True)
-        self._lay_out()
-        look.theme_changed.connect(self._on_theme_changed)
-        self._on_theme_changed()
-
-    def _lay_out(self) -> None:
         first, second = QHBoxLayout(), QHBoxLayout()
         first.addWidget(self.title, 1)
         first.addWidget(self.close_button)
@@ -89,6 +84,8 @@ class TopicBar(QWidget):
         box.setContentsMargins(0, 0, 0, 0)
         box.addLayout(first)
         box.addLayout(second)
+        look.theme_changed.connect(self._on_theme_changed)
+        self._on_theme_changed()
 
     def show_topic(self, topic: str) -> None:
         """Say whose messages these are."""

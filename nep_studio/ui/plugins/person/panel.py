@@ -219,7 +219,14 @@ class HumanPanel(QScrollArea):
         """Show what the program waits for now, if somebody looks."""
         if not self.isVisible():
             return
-        self._show_robots()
+        robots = self.stimuli.robots
+        if robots != [self.robot.itemText(row) for row in range(self.robot.count())]:
+            before = self.stimuli.robot
+            self.robot.clear()
+            self.robot.addItems(robots)
+            self.robot.setCurrentText(before)
+        self.stimuli.robot = self.robot.currentText()
+        self._which.setVisible(len(robots) > 1)
         self._show_waiting()
         self._show_state()
 
@@ -242,16 +249,6 @@ class HumanPanel(QScrollArea):
         """Let all visitors go, and all sensors measure what they usually do."""
         self.visitors.go_all()
         self.sensors.rest()
-
-    def _show_robots(self) -> None:
-        robots = self.stimuli.robots
-        if robots != [self.robot.itemText(row) for row in range(self.robot.count())]:
-            before = self.stimuli.robot
-            self.robot.clear()
-            self.robot.addItems(robots)
-            self.robot.setCurrentText(before)
-        self.stimuli.robot = self.robot.currentText()
-        self._which.setVisible(len(robots) > 1)
 
     def _show_waiting(self) -> None:
         if not self.isVisible():

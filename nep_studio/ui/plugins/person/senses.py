@@ -306,7 +306,23 @@ class GestureBox(QWidget):
         offered = {**wanted, **known}
         if offered != self._shown:
             self._shown = offered
-            self._make_buttons(offered)
+            for button in self.buttons:
+                self._flow.removeWidget(button)
+                button.hide()
+                button.deleteLater()
+            self.buttons = [
+                OccurrenceButton(
+                    Occurrence("gesture", name, label),
+                    self._look,
+                    self._stimuli.begin,
+                    self._stimuli.end,
+                    _capital(label),
+                )
+                for name, label in offered.items()
+            ]
+            for button in self.buttons:
+                self._flow.addWidget(button)
+                button.show()
         self.refresh()
 
     def refresh(self) -> None:
@@ -316,25 +332,6 @@ class GestureBox(QWidget):
         by_hand = tr("No watch runs: the program is told by hand that the gesture was made.")
         self.how.setText(by_watch if is_moved else by_hand)
         self._certain.setVisible(not is_moved)
-
-    def _make_buttons(self, gestures: dict[str, str]) -> None:
-        for button in self.buttons:
-            self._flow.removeWidget(button)
-            button.hide()
-            button.deleteLater()
-        self.buttons = [
-            OccurrenceButton(
-                Occurrence("gesture", name, label),
-                self._look,
-                self._stimuli.begin,
-                self._stimuli.end,
-                _capital(label),
-            )
-            for name, label in gestures.items()
-        ]
-        for button in self.buttons:
-            self._flow.addWidget(button)
-            button.show()
 
     def _on_certainty_changed(self, percent: int) -> None:
         self._stimuli.certainty = percent / 100.0

@@ -157,10 +157,6 @@ def lines(columns: Columns, channel: int, frame: Frame) -> list[Floats]:
     points[1::2, 1] = np.where(is_falling, low, high)
     points[:, 1] = (frame.values.high - points[:, 1]) * scale
     np.clip(points[:, 1], -_FAR * frame.height, (1 + _FAR) * frame.height, out=points[:, 1])
-    return _between_gaps(points)
-
-
-def _between_gaps(points: Floats) -> list[Floats]:
     is_gap = np.isnan(points[:, 1])
     if not is_gap.any():
         return [points]
@@ -227,7 +223,12 @@ class CurvesView(QWidget):
         painter.fillRect(self.rect(), self._ground)
         picture = self.picture
         if picture is not None:
-            self._draw_grid(painter, picture)
+            # Lines one pixel wide, which are quicker to fill than to draw
+            frame = picture.frame
+            for time_s in picture.grid_s:
+                painter.fillRect(QRectF(round(frame.x(time_s)), 0, 1, frame.height), self._grid)
+            for value in picture.grid_values:
+                painter.fillRect(QRectF(0, round(frame.y(value)), frame.width, 1), self._grid)
             if picture.layer is not None:
                 painter.drawPixmap(QPointF(picture.layer[1], 0), picture.layer[0])
             for pen, polygons in picture.curves:
@@ -235,18 +236,18 @@ class CurvesView(QWidget):
                 for polygon in polygons:
                     painter.drawPolyline(polygon)
             self._draw_marks(painter, picture)
-            self._draw_cursors(painter, picture)
+            frame = picture.frame
+            for name, time_s in zip("AB", picture.cursors, strict=False):
+                x = frame.x(time_s)
+                pen = QPen(self._cursor, 2)
+                pen.setStyle(Qt.PenStyle.SolidLine if name == "A" else Qt.PenStyle.DashLine)
+                painter.setPen(pen)
+                painter.drawLine(QPointF(x, 0), QPointF(x, frame.height))
+                if picture.has_words:
+                    self._draw_words(painter, x, 0, name, is_marked=True)
             if picture.title:
                 self._draw_words(painter, 0, 0, picture.title, is_marked=False)
         painter.end()
-
-    def _draw_grid(self, painter: QPainter, picture: Picture) -> None:
-        """Lines one pixel wide, which are quicker to fill than to draw."""
-        frame = picture.frame
-        for time_s in picture.grid_s:
-            painter.fillRect(QRectF(round(frame.x(time_s)), 0, 1, frame.height), self._grid)
-        for value in picture.grid_values:
-            painter.fillRect(QRectF(0, round(frame.y(value)), frame.width, 1), self._grid)
 
     def _draw_marks(self, painter: QPainter, picture: Picture) -> None:
         frame = picture.frame
@@ -258,17 +259,6 @@ class CurvesView(QWidget):
             line = next((at for at, end in enumerate(ends) if x >= end), None)
             if picture.has_words and line is not None:
                 ends[line] = self._draw_words(painter, x, line + 1, mark.words, is_marked=True)
-
-    def _draw_cursors(self, painter: QPainter, picture: Picture) -> None:
-        frame = picture.frame
-        for name, time_s in zip("AB", picture.cursors, strict=False):
-            x = frame.x(time_s)
-            pen = QPen(self._cursor, 2)
-            pen.setStyle(Qt.PenStyle.SolidLine if name == "A" else Qt.PenStyle.DashLine)
-            painter.setPen(pen)
-            painter.drawLine(QPointF(x, 0), QPointF(x, frame.height))
-            if picture.has_words:
-                self._draw_words(painter, x, 0, name, is_marked=True)
 
     def _draw_words(
         self, painter: QPainter, x: float, line: int, words: str, *, is_marked: bool

@@ -40,7 +40,8 @@ def export_csv(path: Path, plots: Plots) -> list[Path]:
     written: list[Path] = []
     for key in keys:
         samples = plots.samples(key).between(start_s, end_s)
-        samples = _without_gaps(samples)
+        kept = np.isfinite(samples.values[0])
+        samples = Samples(samples.t[kept], samples.values[:, kept])
         if len(samples.t) >= 2:
             written.append(_named(path, len(written)))
             _write(written[-1], plots, key, samples)
@@ -104,11 +105,6 @@ def _write_numbers(path: Path, curve: Curve, samples: Samples) -> None:
             path=path,
             reason=reason_of(error),
         ) from error
-
-
-def _without_gaps(samples: Samples) -> Samples:
-    kept = np.isfinite(samples.values[0])
-    return Samples(samples.t[kept], samples.values[:, kept])
 
 
 def _named(path: Path, number: int) -> Path:

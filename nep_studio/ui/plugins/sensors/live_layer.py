@@ -77,18 +77,15 @@ class LiveLayer:
         keys = tuple(curve.key for curve, _ in pairs)
         looks = hash(tuple((pens[key].color().rgba(), pens[key].widthF()) for key in keys))
         state = _State(keys, column_s, count, pixels, ratio, frame.height, frame.values, looks)
-        edge = self._final_edge(pairs, column_s)
+        # The column up to which nothing changes any more
+        ends = [int(one.number[-1]) for _, one in pairs if len(one.number)]
+        edge = max(ends, default=self._edge) - math.ceil(_LATE_S / column_s)
         if state != self._state or edge > self._left + 2 * (count + 2 * _SPARE):
             self._start(state, frame, edge)
         if edge >= self._edge + _AT_ONCE:
             self._draw(pairs, pens, edge)
         x = round((self._left * column_s - frame.start_s) / frame.length_s * frame.width * ratio)
         return self._pixmap, x / ratio, self._tails(pairs, pens, x / ratio)
-
-    def _final_edge(self, pairs: Pairs, column_s: float) -> int:
-        """The column up to which nothing changes any more."""
-        ends = [int(one.number[-1]) for _, one in pairs if len(one.number)]
-        return max(ends, default=self._edge) - math.ceil(_LATE_S / column_s)
 
     def _start(self, state: _State, frame: Frame, edge: int) -> None:
         self._state = state

@@ -64,14 +64,6 @@ class Plots(QWidget):
         self._zero_s = 0.0
         self._live: dict[StreamKey, LiveColumns] = {}
         self._frozen: dict[StreamKey, Samples] = {}
-        self._make_canvas()
-        self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer)
-        self._timer.timeout.connect(self.draw)
-        feed.streams_changed.connect(self._on_streams_changed)
-        look.theme_changed.connect(self._on_theme_changed)
-        self._fit_rows()
-
-    def _make_canvas(self) -> None:
         self.canvas = new_canvas()
         self._scroll = QScrollArea()
         self._scroll.setWidgetResizable(True)
@@ -81,6 +73,11 @@ class Plots(QWidget):
         box.setContentsMargins(0, 0, 0, 0)
         box.addWidget(self._scroll)
         self.setMinimumWidth(self.fontMetrics().height() * _LEAST_WIDTH_LINES)
+        self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self.draw)
+        feed.streams_changed.connect(self._on_streams_changed)
+        look.theme_changed.connect(self._on_theme_changed)
+        self._fit_rows()
 
     # What is shown
 

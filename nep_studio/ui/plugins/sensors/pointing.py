@@ -63,7 +63,9 @@ class Hand(QObject):
             case QEvent.Type.MouseMove if self._at is not None:
                 self._drag(row, cast(QMouseEvent, event))
             case QEvent.Type.MouseMove:
-                self._hover(row, cast(QMouseEvent, event))
+                is_near = self._cursor_at(row, cast(QMouseEvent, event).position().x()) is not None
+                shape = Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor
+                row.view.setCursor(shape)
             case QEvent.Type.MouseButtonRelease:
                 self._at = self._held = None
             case QEvent.Type.MouseButtonDblClick:
@@ -111,11 +113,6 @@ class Hand(QObject):
             )
             self._plots.draw()
         self._at = (x, y)
-
-    def _hover(self, row: PlotRow, event: QMouseEvent) -> None:
-        is_near = self._cursor_at(row, event.position().x()) is not None
-        shape = Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor
-        row.view.setCursor(shape)
 
     def _cursor_at(self, row: PlotRow, x: float) -> int | None:
         """The cursor that is near enough to be taken, the nearest one."""

@@ -40,7 +40,18 @@ class Tools(QToolBar):
         self.setMovable(False)
         self._add_time()
         self._add_views(hand)
-        self._add_keeping()
+        self.addSeparator()
+        self._add("choose", tr("Choose…"), "chart-line", lambda: None, has_words=True)
+        self._add("record", tr("Record"), "circle-dot", lambda: None, has_words=True)
+        self._add("replay", tr("Replay…"), "circle-play", lambda: None, has_words=True)
+        menu = QMenu(self)
+        for name, words in (("csv", tr("Numbers (CSV)…")), ("png", tr("Picture (PNG)…"))):
+            self.by_name[name] = menu.addAction(words)
+        export = self._add("export", tr("Export"), "download", lambda: None, has_words=True)
+        export.setMenu(menu)
+        button = self.widgetForAction(export)
+        if isinstance(button, QToolButton):
+            button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         for changed in (plots.view_changed, plots.cursors_changed, plots.rows_changed):
             changed.connect(self.refresh)
         recorder.started.connect(self.refresh)
@@ -99,20 +110,6 @@ class Tools(QToolBar):
         measure.setToolTip(tr("Measure between two cursors (Alt or Shift with Left and Right)"))
         measure.triggered.connect(hand.measure)
 
-    def _add_keeping(self) -> None:
-        self.addSeparator()
-        self._add("choose", tr("Choose…"), "chart-line", lambda: None, has_words=True)
-        self._add("record", tr("Record"), "circle-dot", lambda: None, has_words=True)
-        self._add("replay", tr("Replay…"), "circle-play", lambda: None, has_words=True)
-        menu = QMenu(self)
-        for name, words in (("csv", tr("Numbers (CSV)…")), ("png", tr("Picture (PNG)…"))):
-            self.by_name[name] = menu.addAction(words)
-        export = self._add("export", tr("Export"), "download", lambda: None, has_words=True)
-        export.setMenu(menu)
-        button = self.widgetForAction(export)
-        if isinstance(button, QToolButton):
-            button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-
     def _add(
         self,
         name: str,
@@ -132,7 +129,12 @@ class Tools(QToolBar):
         self.addAction(action)
         button = self.widgetForAction(action)
         if isinstance(button, QToolButton):
-            _let_show(button, has_words=has_words, has_icon=bool(icon_name))
+            has_icon = bool(icon_name)
+            style = Qt.ToolButtonStyle.ToolButtonIconOnly
+            if has_words or not has_icon:
+                style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+            button.setToolButtonStyle(style)
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             button.setAccessibleName(words.removesuffix("…"))
         return action
 
@@ -156,11 +158,3 @@ class Tools(QToolBar):
             more.setAccessibleName(tr("More"))
         for action, name in self._icons.items():
             action.setIcon(icon(name, self._look.theme))
-
-
-def _let_show(button: QToolButton, *, has_words: bool, has_icon: bool) -> None:
-    style = Qt.ToolButtonStyle.ToolButtonIconOnly
-    if has_words or not has_icon:
-        style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
-    button.setToolButtonStyle(style)
-    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)

@@ -160,22 +160,6 @@ class SharingDialog(QDialog):
         self.open_page.keep.setChecked(bool(self._settings.kept_open_at))
         if self._sharing.joined is not None:
             self.joined_page.show_network(self._sharing.joined)
-        self._show_buttons(page)
-        if is_new:
-            self._on_turned(page)
-
-    def show_error(self, error: NepError) -> None:
-        """Say what did not go, and what to try."""
-        self._clear_problem()
-        steps = tuple(map(tr, error.checklist))
-        message = Message("error", tr(error.title), tr(error.sentence), steps, error.details)
-        box = self.problem.layout()
-        assert box is not None
-        box.addWidget(MessageText(message))
-        self.problem.show()
-        announce(self, message.spoken)
-
-    def _show_buttons(self, page: PageName) -> None:
         words: dict[PageName, tuple[str, str]] = {
             "closed": (tr("Open the network"), tr("Join another computer…")),
             "join": (tr("Join"), tr("Back")),
@@ -189,6 +173,19 @@ class SharingDialog(QDialog):
             button.setVisible(bool(said))
         may_open = page != "closed" or bool(self.closed_page.address)
         self.main_button.setEnabled(may_open and (page != "join" or self.join_page.is_complete))
+        if is_new:
+            self._on_turned(page)
+
+    def show_error(self, error: NepError) -> None:
+        """Say what did not go, and what to try."""
+        self._clear_problem()
+        steps = tuple(map(tr, error.checklist))
+        message = Message("error", tr(error.title), tr(error.sentence), steps, error.details)
+        box = self.problem.layout()
+        assert box is not None
+        box.addWidget(MessageText(message))
+        self.problem.show()
+        announce(self, message.spoken)
 
     def _on_turned(self, page: PageName) -> None:
         """Another page: what belonged to the last one goes; the next one begins."""

@@ -218,16 +218,13 @@ class JoinPage(QWidget):
                 )
             )
         )
-        self._add_search(box)
+        for widget in (self.networks, self.progress, self.told, self.again):
+            box.addWidget(widget)
+        box.setAlignment(self.again, Qt.AlignmentFlag.AlignLeading)
         box.addWidget(labelled(tr("Address of the other computer"), self.address))
         box.addWidget(labelled(tr("Code"), self.code))
         box.addWidget(self.restart_told)
         box.addStretch(1)
-
-    def _add_search(self, box: QVBoxLayout) -> None:
-        for widget in (self.networks, self.progress, self.told, self.again):
-            box.addWidget(widget)
-        box.setAlignment(self.again, Qt.AlignmentFlag.AlignLeading)
 
     def begin(self) -> None:
         """Look for networks, unless some have been found."""
@@ -383,14 +380,6 @@ class CodeView(QFrame):
         self.left = hint("")
         self.new_button = QPushButton(tr("New code"))
         self.new_button.setAutoDefault(False)
-        self._lay_out()
-        self._looking = QTimer(self, interval=LOOK_MS)
-        self._looking.timeout.connect(self.refresh)
-        self.new_button.clicked.connect(sharing.new_code)
-        sharing.changed.connect(self.refresh)
-        self.refresh()
-
-    def _lay_out(self) -> None:
         font = QFont(self.font())
         font.setPixelSize(round(self.fontMetrics().height() * TIMES_LARGER * 0.75))
         font.setBold(True)
@@ -403,6 +392,11 @@ class CodeView(QFrame):
         for widget in (self.line, self.left, self.new_button):
             box.addWidget(widget)
         box.setAlignment(self.new_button, Qt.AlignmentFlag.AlignLeading)
+        self._looking = QTimer(self, interval=LOOK_MS)
+        self._looking.timeout.connect(self.refresh)
+        self.new_button.clicked.connect(sharing.new_code)
+        sharing.changed.connect(self.refresh)
+        self.refresh()
 
     def refresh(self) -> None:
         """Show the code that holds now, and how long it still does."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QPushButton, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from nep_studio.study.records import Reply, Sitting, write_events, write_replies
 from nep_studio.ui.host import Host, Parts, Plugin
@@ -93,7 +93,11 @@ class StudyKit(QObject):
         """Make the menu."""
         add, theme = self._host.actions.add, self._host.services.look.theme
         help_menu = self._host.menus["help"]
-        self._follow_help(help_menu)
+        # Note which pages of the help are shown, and what else its menu opens
+        self._host.ask("help.follow", self._on_page_shown)
+        for action in help_menu.actions():
+            if action.iconText() and not action.objectName().startswith(HELP_PAGES):
+                action.triggered.connect(self._note_help(action.iconText()))
         menu = help_menu.addMenu(icon("graduation-cap", theme), tr("Study"))
         form, results = tr("Fill in the questionnaire…"), tr("Results…")
         menu.addAction(add("study_start", tr("Start a study…"), self.start, icon_name="play"))
@@ -213,13 +217,6 @@ class StudyKit(QObject):
             self._host.services.messages.tell(Message("error", title, "", (words,), str(error)))
             return
         self._host.services.messages.confirm(tr("All answers and events are deleted"))
-
-    def _follow_help(self, menu: QMenu) -> None:
-        """Note which pages of the help are shown, and what else its menu opens."""
-        self._host.ask("help.follow", self._on_page_shown)
-        for action in menu.actions():
-            if action.iconText() and not action.objectName().startswith(HELP_PAGES):
-                action.triggered.connect(self._note_help(action.iconText()))
 
     def _on_page_shown(self, panel: QWidget, page: str) -> None:
         if panel.isVisible() and page != self._page:  # the same one is drawn again, as for a theme

@@ -244,7 +244,11 @@ class QuestionnaireDialog(QDialog):
         self.cancel_button = QPushButton(tr("Cancel"))
         self.area = QScrollArea()
         replies, sitting = folder.replies(), folder.sitting()
-        self._fill_which(replies[-1].questionnaire if replies else PAPER)
+        usual = replies[-1].questionnaire if replies else PAPER
+        for form in (questionnaire(PAPER, tr), questionnaire(BROOKE, tr)):
+            self.which.addItem(form.title, form.id)
+        self.which.setCurrentIndex(self.which.findData(usual))
+        self.which.setAccessibleName(tr("Which questionnaire"))
         if sitting is not None:
             self.participant_fields.show_sitting(sitting.participant, sitting.condition)
         self._lay_out()
@@ -253,12 +257,6 @@ class QuestionnaireDialog(QDialog):
         self.participant_fields.changed.connect(self._show_note)
         self.save_button.clicked.connect(self._on_save_clicked)
         self.cancel_button.clicked.connect(self.reject)
-
-    def _fill_which(self, usual: str) -> None:
-        for form in (questionnaire(PAPER, tr), questionnaire(BROOKE, tr)):
-            self.which.addItem(form.title, form.id)
-        self.which.setCurrentIndex(self.which.findData(usual))
-        self.which.setAccessibleName(tr("Which questionnaire"))
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()

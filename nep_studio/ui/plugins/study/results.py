@@ -49,12 +49,6 @@ class ResultsDialog(QDialog):
         self.events_button = QPushButton(tr("Save the events…"))
         self.delete_button = QPushButton(tr("Delete all…"))
         self.close_button = QPushButton(tr("Close"))
-        self._fill_which()
-        self._lay_out()
-        self._connect()
-        self.refresh()
-
-    def _fill_which(self) -> None:
         for form in (questionnaire(PAPER, tr), questionnaire(BROOKE, tr)):
             self.which.addItem(form.title, form.id)
         replies = self._folder.replies()
@@ -62,6 +56,9 @@ class ResultsDialog(QDialog):
             self.which.findData(replies[-1].questionnaire if replies else PAPER)
         )
         self.which.setAccessibleName(tr("Which questionnaire"))
+        self._lay_out()
+        self._connect()
+        self.refresh()
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()

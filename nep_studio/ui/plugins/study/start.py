@@ -57,12 +57,6 @@ class ParticipantFields(QWidget):
         self.conditions.setPlaceholderText(tr("Such as: blocks, text"))
         self.condition = QComboBox()
         self.order = QLabel()
-        self._lay_out(may_change_conditions)
-        self.code.textChanged.connect(self._on_changed)
-        self.conditions.textChanged.connect(self._on_changed)
-        self._on_changed()
-
-    def _lay_out(self, may_change_conditions: bool) -> None:
         self._form = QFormLayout(self)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._form.addRow(tr("Participant"), self.code)
@@ -73,6 +67,9 @@ class ParticipantFields(QWidget):
         self.order.setProperty("role", "hint")
         self.order.setWordWrap(True)
         self._form.addRow("", self.order)
+        self.code.textChanged.connect(self._on_changed)
+        self.conditions.textChanged.connect(self._on_changed)
+        self._on_changed()
 
     @property
     def participant(self) -> str:
@@ -338,15 +335,12 @@ class StudyRecorder(QObject):
         elif state == "running" and not self._run_started_s:
             self._run_started_s = time.time()
             self.note("run_started")
-            self._note_first_run()
+            # How long it took until the program ran for the first time
+            if self.sitting is not None and not self._has_run:
+                self._has_run = True
+                self.note("first_run", number=round(time.time() - self.sitting.started_s, 3))
         elif state == "stopping":
             self.note("stop_pressed")
-
-    def _note_first_run(self) -> None:
-        """How long it took until the program ran for the first time."""
-        if self.sitting is not None and not self._has_run:
-            self._has_run = True
-            self.note("first_run", number=round(time.time() - self.sitting.started_s, 3))
 
     def _has_run_before(self) -> bool:
         if self.sitting is None:

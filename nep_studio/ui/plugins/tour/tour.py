@@ -88,13 +88,6 @@ class Bubble(QFrame):
         self._dots = Dots(look, self)
         self.next_button, self.back_button = QPushButton(), QPushButton()
         self.leave_button = QPushButton()
-        self._arrange()
-        self.next_button.clicked.connect(self.forth)
-        self.back_button.clicked.connect(self.back)
-        self.leave_button.clicked.connect(self.left)
-        self.hide()
-
-    def _arrange(self) -> None:
         line = self.fontMetrics().height()
         self._title.setProperty("role", "title")
         for label in (self._title, self._text):
@@ -114,6 +107,10 @@ class Bubble(QFrame):
         self._box.addWidget(self._text)
         self._box.addWidget(self._dots)
         self._box.addLayout(row)
+        self.next_button.clicked.connect(self.forth)
+        self.back_button.clicked.connect(self.back)
+        self.leave_button.clicked.connect(self.left)
+        self.hide()
 
     def say(self, step: Step, number: int, count: int) -> None:
         """Show a step, ``number`` of ``count`` from 0."""

@@ -109,7 +109,7 @@ class WatchKit(QObject):
         """What the project says of its watch."""
         from .dialog import Plan
 
-        editor = self._editor
+        editor = self._host.workbench.canvas.editor
         folder = self._host.services.settings.last_folder / RECORDINGS
         blank = Plan(
             free_watch_name(editor),
@@ -130,17 +130,13 @@ class WatchKit(QObject):
         """What a simulated person is to make: what the program waits for, as far as it is known."""
         from nodes.sensory.arm.gestures import GESTURES
 
-        editor = self._editor
+        editor = self._host.workbench.canvas.editor
         own = own_gestures(editor.project)
         used = gestures_used(editor.project, editor.language)
         offered = editor.language.choices.get("gestures", {})
         known = {name for name, one in own.items() if one.takes} | set(GESTURES)
         wanted = [name for name in used if name in known]
         return ", ".join(wanted or [name for name in offered if name in known][:MOST_GESTURES])
-
-    @property
-    def _editor(self) -> Editor:
-        return self._host.workbench.canvas.editor
 
     def _is_in_use(self, name: str) -> bool:
         """Whether a real watch of this name sends now."""
@@ -157,7 +153,7 @@ class WatchKit(QObject):
             return
         try:
             block = use_watch(
-                self._editor,
+                self._host.workbench.canvas.editor,
                 planned.parameters,
                 tr("connect a watch"),
                 node=planned.node,

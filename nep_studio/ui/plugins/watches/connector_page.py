@@ -82,7 +82,11 @@ class WayPage(QWidget):
         self.live = LiveView(listener, look, connector.asks_columns)
         self._take(known.settings)
         self.steps = StepsList(steps(connector, self.place), self._extras(), look)
-        self._hide_what_is_not_asked()
+        asked = {step.extra for step in steps(self.connector, self.place)}
+        for name, question in self._extras().items():
+            if name not in asked:
+                question.setParent(self)
+                question.hide()
         self._lay_out()
         self._connect()
         self._update()
@@ -167,13 +171,6 @@ class WayPage(QWidget):
             "gestures": self.gestures,
             "recording": self.recording,
         }
-
-    def _hide_what_is_not_asked(self) -> None:
-        asked = {step.extra for step in steps(self.connector, self.place)}
-        for name, question in self._extras().items():
-            if name not in asked:
-                question.setParent(self)
-                question.hide()
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()

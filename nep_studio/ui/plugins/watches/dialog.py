@@ -176,7 +176,8 @@ class WatchDialog(QDialog):
         self.listener.begin_anew(self.plan.name)
         self._settling.start()  # who looks through the ways starts no node for each
         self._update()
-        self._focus_first(page)
+        first = next((one for one in _asked_first(page) if one.isVisible()), self.close_button)
+        first.setFocus()
 
     @property
     def planned(self) -> PlannedNode | None:
@@ -226,7 +227,9 @@ class WatchDialog(QDialog):
             is_silent = self.listener.silent_s > PATIENCE_S
             page.live.show_arriving(page.advice if is_silent else ())
         else:
-            advice = self._advice(page)
+            waited_s = time.monotonic() - self._waiting_since_s
+            has_waited = self.trial.state == "listening" and waited_s > PATIENCE_S
+            advice = page.advice if has_waited else ()
             title, told = self._waiting_words(page)
             page.live.show_waiting(title, "" if advice and page.connector.listens else told, advice)
 
@@ -241,21 +244,12 @@ class WatchDialog(QDialog):
             return tr("Let this network in first"), told
         return tr("Waiting for the first movement…"), told
 
-    def _advice(self, page: WayPage) -> tuple[str, ...]:
-        waited_s = time.monotonic() - self._waiting_since_s
-        has_waited = self.trial.state == "listening" and waited_s > PATIENCE_S
-        return page.advice if has_waited else ()
-
     def _drop_page(self) -> None:
         area = self.pages.widget(1)
         if area is not None:
             self.pages.removeWidget(area)
             area.deleteLater()
             self.page = None
-
-    def _focus_first(self, page: WayPage) -> None:
-        first = next((one for one in _asked_first(page) if one.isVisible()), self.close_button)
-        first.setFocus()
 
     def _on_use(self) -> None:
         self.used.emit()

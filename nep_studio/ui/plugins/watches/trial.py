@@ -37,13 +37,7 @@ class WatchTrial(QObject):
         self._started: PlannedNode | None = None
         self._pid_before = 0
         self._has_ended = False
-        self._take_over(parent)
-        runner.told_elsewhere.add(name)
-        runner.nodes_changed.connect(self._on_nodes_changed)
-        runner.node_failed.connect(self._on_node_failed)
-
-    def _take_over(self, parent: QObject) -> None:
-        """Go on for a trial that has ended, but whose node is still starting."""
+        # Go on for a trial that has ended, but whose node is still starting
         for one in parent.findChildren(WatchTrial):
             if one is not self and one.name == self.name and one.state == "starting":
                 self.state, self.before = one.state, one.before
@@ -51,6 +45,9 @@ class WatchTrial(QObject):
                 self._runner.nodes_changed.disconnect(one._on_nodes_changed)
                 self._runner.node_failed.disconnect(one._on_node_failed)
                 one.deleteLater()
+        runner.told_elsewhere.add(name)
+        runner.nodes_changed.connect(self._on_nodes_changed)
+        runner.node_failed.connect(self._on_node_failed)
 
     def want(self, planned: PlannedNode) -> None:
         """Let this node run from now on."""
@@ -106,7 +103,9 @@ class WatchTrial(QObject):
         wanted = self._wanted
         if wanted is None:
             return
-        if is_same(wanted, self._runner.local.planned.get(self.name)) and self._is_there:
+        if is_same(wanted, self._runner.local.planned.get(self.name)) and _runs(
+            self._runner, self.name
+        ):
             self._started = wanted
             self._set_state("listening")
             return
@@ -123,10 +122,6 @@ class WatchTrial(QObject):
         mine = self._runner.local.planned.get(self.name)
         planned = self._runner.planned() if self._runner.state != "idle" else ()
         return any(is_same(one, mine) for one in planned)
-
-    @property
-    def _is_there(self) -> bool:
-        return _runs(self._runner, self.name)
 
     def _on_nodes_changed(self, names: list[str]) -> None:
         status = self._runner.board.nodes.get(self.name)

@@ -232,7 +232,14 @@ class BandView(QWidget):
             painter.setPen(theme.colour("muted"))
             room = QRectF(0, strip.top(), strip.left(), strip.height())
             painter.drawText(room, Qt.AlignmentFlag.AlignCenter, axis)
-        self._paint_legend(painter, theme)
+        line, metrics = self.fontMetrics().height(), self.fontMetrics()
+        x, middle = self.strip(0).left(), line * 0.7
+        for colour, words in (("plot_1", tr("expected")), ("plot_2", tr("yours"))):
+            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
+            painter.drawLine(QPointF(x, middle), QPointF(x + line * 1.6, middle))
+            painter.setPen(theme.colour("text"))
+            painter.drawText(QPointF(x + line * 1.9, middle + metrics.ascent() * 0.4), words)
+            x += line * 2.9 + metrics.horizontalAdvance(words)
         painter.end()
 
     def _paint_strip(
@@ -258,16 +265,6 @@ class BandView(QWidget):
         if band.live is not None:
             painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
             painter.drawPolyline(QPolygonF(line_of(band.live[:, column])))
-
-    def _paint_legend(self, painter: QPainter, theme: Theme) -> None:
-        line, metrics = self.fontMetrics().height(), self.fontMetrics()
-        x, middle = self.strip(0).left(), line * 0.7
-        for colour, words in (("plot_1", tr("expected")), ("plot_2", tr("yours"))):
-            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
-            painter.drawLine(QPointF(x, middle), QPointF(x + line * 1.6, middle))
-            painter.setPen(theme.colour("text"))
-            painter.drawText(QPointF(x + line * 1.9, middle + metrics.ascent() * 0.4), words)
-            x += line * 2.9 + metrics.horizontalAdvance(words)
 
     def _pen(self, theme: Theme, colour: str, *, is_dashed: bool = False) -> QPen:
         pen = QPen(theme.colour(colour), max(2.0, self.fontMetrics().height() / 9))
@@ -314,12 +311,6 @@ class BandPanel(QWidget):
         self.kind.setAccessibleName(tr("What is drawn"))
         self.view = BandView(controller.look)
         self.sentence = Words()
-        self._lay_out()
-        self.gesture.currentIndexChanged.connect(self._on_chosen)
-        self.kind.currentIndexChanged.connect(self._show)
-        self.use_model(None)
-
-    def _lay_out(self) -> None:
         row = QHBoxLayout()
         for box in (self.gesture, self.kind):
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -329,6 +320,9 @@ class BandPanel(QWidget):
         column.addLayout(row)
         column.addWidget(self.view)
         column.addWidget(self.sentence)
+        self.gesture.currentIndexChanged.connect(self._on_chosen)
+        self.kind.currentIndexChanged.connect(self._show)
+        self.use_model(None)
 
     def use_model(self, model: Model | None) -> None:
         """Show the curves of this model."""

@@ -155,27 +155,24 @@ class PointCurve(QWidget):
         painter.setPen(QPen(theme.colour("line"), 1))
         painter.drawRect(area)
         if self.points:
-            self._paint_curves(painter, theme)
+            most = self.most_per_hour
+            caught = [self._place(point.certainty, point.caught) for point in self.points]
+            false = [self._place(p.certainty, _height(p.false_per_hour, most)) for p in self.points]
+            pale = QColor(theme.colour("plot_1"))
+            pale.setAlphaF(0.15)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(pale)
+            bottom = self.area().bottom()
+            ends = [QPointF(caught[-1].x(), bottom), QPointF(caught[0].x(), bottom)]
+            painter.drawPolygon(QPolygonF([*caught, *ends]))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
+            painter.drawPolyline(QPolygonF(false))
+            painter.setPen(self._pen(theme, "plot_1"))
+            painter.drawPolyline(QPolygonF(caught))
+            self._paint_legend(painter, theme)
         self._paint_place(painter, theme)
         painter.end()
-
-    def _paint_curves(self, painter: QPainter, theme: Theme) -> None:
-        most = self.most_per_hour
-        caught = [self._place(point.certainty, point.caught) for point in self.points]
-        false = [self._place(p.certainty, _height(p.false_per_hour, most)) for p in self.points]
-        pale = QColor(theme.colour("plot_1"))
-        pale.setAlphaF(0.15)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(pale)
-        bottom = self.area().bottom()
-        ends = [QPointF(caught[-1].x(), bottom), QPointF(caught[0].x(), bottom)]
-        painter.drawPolygon(QPolygonF([*caught, *ends]))
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
-        painter.drawPolyline(QPolygonF(false))
-        painter.setPen(self._pen(theme, "plot_1"))
-        painter.drawPolyline(QPolygonF(caught))
-        self._paint_legend(painter, theme)
 
     def _paint_legend(self, painter: QPainter, theme: Theme) -> None:
         """Above the curves, each word with a piece of its line."""
@@ -246,16 +243,6 @@ class PointPanel(QWidget):
         self.reset = QPushButton(tr("Usual"))
         self.reset.setToolTip(tr("Set the recognition point to {percent} %", percent=75))
         self.reset.setProperty("kind", "quiet")
-        self._lay_out()
-        self.gesture.currentIndexChanged.connect(self.refresh)
-        self.curve.dragged.connect(lambda certainty: tuning.preview(self.name, certainty))
-        self.curve.let_go.connect(lambda: tuning.keep(self.name))
-        self.reset.clicked.connect(lambda: tuning.reset(self.name))
-        tuning.point_changed.connect(self._on_point_changed)
-        tuning.method_changed.connect(self.refresh)
-        self.fill()
-
-    def _lay_out(self) -> None:
         row = QHBoxLayout()
         row.addWidget(self.gesture, 1)
         row.addWidget(self.reset)
@@ -265,6 +252,13 @@ class PointPanel(QWidget):
         box.addWidget(self.curve)
         box.addWidget(self.slider)
         box.addWidget(self.sentence)
+        self.gesture.currentIndexChanged.connect(self.refresh)
+        self.curve.dragged.connect(lambda certainty: tuning.preview(self.name, certainty))
+        self.curve.let_go.connect(lambda: tuning.keep(self.name))
+        self.reset.clicked.connect(lambda: tuning.reset(self.name))
+        tuning.point_changed.connect(self._on_point_changed)
+        tuning.method_changed.connect(self.refresh)
+        self.fill()
 
     @property
     def name(self) -> str:

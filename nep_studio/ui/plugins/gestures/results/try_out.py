@@ -283,7 +283,11 @@ class TryOut(QWidget):
         last = self.looks.triggers[-1] if self.looks.triggers else None
         if last is not None and last.t_end > self._told_s:
             self._told_s = last.t_end
-            self._flash(last)
+            self._flashing = last
+            self._flash_over.start()
+            self._say_soon.start()
+            self._show_state()
+            self.recognised.emit(last)
         self._show_looks()
         self.band.follow(self.looks)
 
@@ -293,13 +297,6 @@ class TryOut(QWidget):
         for name, bar in self.bars.items():
             bar.show_certainty(certainties.get(name, 0.0), is_flashing=name == flashing)
         self.timeline.show_looks(self.looks, tuple(self.looks.triggers))
-
-    def _flash(self, found: Detection) -> None:
-        self._flashing = found
-        self._flash_over.start()
-        self._say_soon.start()
-        self._show_state()
-        self.recognised.emit(found)
 
     def _on_flash_over(self) -> None:
         self._flashing = None
@@ -316,15 +313,12 @@ class TryOut(QWidget):
         self._told_s = max(self._told_s, self.looks.now_s)
         if name in self.bars:
             self.bars[name].show_gesture(name)
-        self._show_meaning(name)
-        self._show_looks()
-
-    def _show_meaning(self, name: str) -> None:
-        """What the recognition point that is moved means for takes and everyday movement."""
+        # What the recognition point that is moved means for takes and everyday movement
         findings = self.tuning.findings
         words = both_sides(findings, name, self.tuning.point(name)) if findings else ""
         self.meaning.setText(f"{self._title(name)}: {words}" if words else "")
         self.meaning.setVisible(bool(words))
+        self._show_looks()
 
     def _show_state(self) -> None:
         icon, colour, words, step = self._state()
