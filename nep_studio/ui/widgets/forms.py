@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 UNKNOWN = "…"
@@ -37,16 +38,13 @@ class CopyLine(QWidget):
         self, look: Look, words: str, is_long: bool = False, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self.text = QLineEdit()
-        self.text.setReadOnly(True)
+        self.text = QLineEdit(readOnly=True, alignment=Qt.AlignmentFlag.AlignLeft)
         self.text.setAccessibleName(words)
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.text.setAlignment(Qt.AlignmentFlag.AlignLeft)
         self._words = words
         self._look = look
-        self.button = QPushButton(words)
+        self.button = QPushButton(words, autoDefault=False)
         self.redraw()
-        self.button.setAutoDefault(False)
         line = self.fontMetrics().height()
         self.button.setIconSize(QSize(line, line))
         self._again = QTimer(self, singleShot=True, interval=COPIED_MS)
@@ -77,8 +75,7 @@ class CopyLine(QWidget):
 
 def hint(words: str) -> QLabel:
     """Words that explain, in a quiet colour."""
-    label = QLabel(words)
-    label.setWordWrap(True)
+    label = QLabel(words, wordWrap=True)
     label.setProperty("role", "hint")
     return label
 
@@ -102,8 +99,7 @@ def labelled(words: str, field: QWidget) -> QWidget:
 
 def quiet_button(words: str) -> QPushButton:
     """A button that does not call for attention, and never is what Enter presses."""
-    button = QPushButton(words)
-    button.setAutoDefault(False)
+    button = QPushButton(words, autoDefault=False)
     button.setProperty("kind", "quiet")
     return button
 
@@ -121,9 +117,7 @@ def card_around(label: QLabel, kind: str) -> QFrame:
     card = QFrame()
     card.setProperty("kind", kind)
     room = label.fontMetrics().height() // 2
-    box = QVBoxLayout(card)
-    box.setContentsMargins(room, room, room, room)
-    box.addWidget(label)
+    in_column(label, of=card, margins=room)
     return card
 
 

@@ -66,14 +66,19 @@ def _fill(
     if spacing is not None:
         box.setSpacing(spacing)
     for part in parts:
-        if isinstance(part, int):
-            box.addStretch(part)
-            continue
-        what, *how = part if isinstance(part, tuple) else (part,)
-        if isinstance(what, QWidget):
-            box.addWidget(what, *how)
-        else:
-            box.addLayout(what, *how)
+        match part:
+            case int():
+                box.addStretch(part)
+            case QWidget():
+                box.addWidget(part)
+            case QLayout():
+                box.addLayout(part)
+            case (QLayout() as inner, stretch):
+                box.addLayout(inner, stretch)
+            case (QWidget() as widget, stretch):
+                box.addWidget(widget, stretch)
+            case (widget, stretch, alignment):
+                box.addWidget(widget, stretch, alignment)
 
 
 class Flow(QLayout):
@@ -289,8 +294,7 @@ class Halves(QWidget):
 
 def scrolled(page: QWidget) -> QScrollArea:
     """Put a page into an area that scrolls up and down."""
-    area = QScrollArea()
-    area.setWidgetResizable(True)
+    area = QScrollArea(widgetResizable=True)
     area.setFrameShape(QFrame.Shape.NoFrame)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     area.setWidget(page)

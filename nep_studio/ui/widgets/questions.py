@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtWidgets import QFileDialog, QFrame, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QFrame, QWidget
 
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.problems import Problem
@@ -15,6 +15,7 @@ from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
 from nep_studio.ui.canvas.fields.popup import Question
 from nep_studio.ui.messages import Message, Messages
 from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .forms import room_around
@@ -45,9 +46,7 @@ class Asking(QFrame):
             words, yes, answered=self._on_answered, refused=self._on_refused, name=name
         )
         self.reason = ReasonBubble(theme, self)
-        column = QVBoxLayout(self)
-        column.addWidget(self.question)
-        column.addWidget(self.reason)
+        in_column(self.question, self.reason, of=self)
         self.setMinimumWidth(self.fontMetrics().averageCharWidth() * 38)
 
     def show_at(self, place: QPoint) -> None:

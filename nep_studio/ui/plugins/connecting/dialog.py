@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import card_around, room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 from .search import FoundList, RobotTest
@@ -76,7 +77,7 @@ class StepsView(QFrame):
         self._signs: dict[str, QLabel] = {}
         self._words: dict[str, QLabel] = {}
         self.states: dict[str, str] = {}
-        self.advice = QLabel()
+        self.advice = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.advice_card = card_around(self.advice, "warning")
         line = self.fontMetrics().height()
         grid = QGridLayout()
@@ -89,14 +90,8 @@ class StepsView(QFrame):
             grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(words, row, 1)
             self._signs[step], self._words[step] = sign, words
-        self.advice.setWordWrap(True)
-        self.advice.setTextFormat(Qt.TextFormat.PlainText)
         self.advice.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.setSpacing(line // 2)
-        box.addLayout(grid)
-        box.addWidget(self.advice_card)
+        in_column(grid, self.advice_card, of=self, margins=line // 2, spacing=line // 2)
         self.clear()
 
     def clear(self) -> None:
@@ -191,16 +186,11 @@ class ConnectDialog(QDialog):
         self.about.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         column.addWidget(self._about_card)
         column.addStretch(1)
-        self._area = area = QScrollArea()
-        area.setWidgetResizable(True)
+        self._area = area = QScrollArea(widgetResizable=True)
         area.setFrameShape(QFrame.Shape.NoFrame)
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setWidget(page)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(area, 1)
-        box.addLayout(self._foot())
+        in_column((area, 1), self._foot(), of=self, margins=line, spacing=line // 2)
         room = room_around(self.parentWidget()).size()
         self.resize(min(line * 32, room.width()), min(line * 44, round(room.height() * 0.9)))
 
@@ -225,15 +215,12 @@ class ConnectDialog(QDialog):
         form.addRow(_label(tr("In this project it is"), self.robot), self.robot)
         self.test_button.setProperty("kind", "primary")
         self.test_button.setDefault(True)
-        row = QHBoxLayout()
-        row.addWidget(self.test_button)
-        row.addStretch(1)
+        row = in_row(self.test_button, 1)
         form.addRow("", row)
         return form
 
     def _foot(self) -> QHBoxLayout:
-        foot = QHBoxLayout()
-        foot.addStretch(1)
+        foot = in_row(1)
         self.use_button.setProperty("kind", "primary")
         for button in (self.close_button, self.use_button):
             button.setAutoDefault(False)

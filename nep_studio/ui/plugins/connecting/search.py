@@ -10,19 +10,18 @@ from typing import TYPE_CHECKING, cast
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QHideEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QListWidget,
     QListWidgetItem,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.ui.background import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 if TYPE_CHECKING:
@@ -92,27 +91,18 @@ class FoundList(QWidget):
         self.interfaces: tuple[str, ...] = ()
         self.search = RobotSearch(self)
         self.robots = QListWidget()
-        self.told = QLabel()
-        self.progress = QProgressBar()
+        self.told = QLabel(wordWrap=True)
+        self.progress = QProgressBar(textVisible=False)
         self.button = QPushButton()
         line = self.fontMetrics().height()
         self.robots.setAccessibleName(tr("Robots in this network"))
         self.robots.setIconSize(QSize(round(line * 1.4), round(line * 1.4)))
         self.robots.setFixedHeight(round(line * 1.9) * ROWS)
-        self.told.setWordWrap(True)
         self.told.setProperty("role", "hint")
         self.progress.setRange(0, 0)
-        self.progress.setTextVisible(False)
         self.progress.setAccessibleName(tr("Looking for robots…"))
-        foot = QHBoxLayout()
-        foot.addWidget(self.told, 1)
-        foot.addWidget(self.button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(line // 3)
-        box.addWidget(self.robots)
-        box.addWidget(self.progress)
-        box.addLayout(foot)
+        foot = in_row((self.told, 1), self.button)
+        in_column(self.robots, self.progress, foot, of=self, margins=0, spacing=line // 3)
         self.search.found.connect(self._on_found)
         self.search.ended.connect(self._on_ended)
         self.robots.currentItemChanged.connect(self._on_chosen)

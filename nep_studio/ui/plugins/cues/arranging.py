@@ -10,13 +10,11 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +22,7 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import KEYS, Cue, own_cue
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 from .board import COLOURS, ICONS, colour_words, cue_words
@@ -51,9 +50,8 @@ class ArrangeDialog(QDialog):
         self.own = QLineEdit()
         self.add_state_button = _button(tr("Add a state"), "flag", theme)
         self.add_word_button = _button(tr("Add words"), "ear", theme)
-        self.why_not = QLabel()
+        self.why_not = QLabel(wordWrap=True)
         self.why_not.setProperty("role", "hint")
-        self.why_not.setWordWrap(True)
         self.done_button = QPushButton(tr("Done"))
         self.cancel_button = QPushButton(tr("Cancel"))
         self._fill_choices()
@@ -81,33 +79,17 @@ class ArrangeDialog(QDialog):
         self.own.setPlaceholderText(tr("Name of a state, or words that somebody says"))
         self.own.setAccessibleName(self.own.placeholderText())
         self.label.setPlaceholderText(tr("As it is"))
-        order = QVBoxLayout()
-        for button in (self.up_button, self.down_button, self.remove_button):
-            order.addWidget(button)
-        order.addStretch(1)
-        top = QHBoxLayout()
-        top.addWidget(self.list, 1)
-        top.addLayout(order)
+        order = in_column(self.up_button, self.down_button, self.remove_button, 1)
+        top = in_row((self.list, 1), order)
         form = QFormLayout()
         form.addRow(tr("Words"), self.label)
         form.addRow(tr("Colour"), self.colour)
         form.addRow(tr("Key"), self.key)
         form.addRow("", self.is_shown)
-        new = QHBoxLayout()
-        new.addWidget(self.own, 1)
-        new.addWidget(self.add_state_button)
-        new.addWidget(self.add_word_button)
-        end = QHBoxLayout()
-        end.addStretch(1)
-        end.addWidget(self.cancel_button)
-        end.addWidget(self.done_button)
+        new = in_row((self.own, 1), self.add_state_button, self.add_word_button)
+        end = in_row(1, self.cancel_button, self.done_button)
         self.done_button.setDefault(True)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        for part in (top, form, new):
-            box.addLayout(part)
-        box.addWidget(self.why_not)
-        box.addLayout(end)
+        in_column(top, form, new, self.why_not, end, of=self, margins=line)
         self.resize(line * 30, line * 30)
 
     def _connect(self) -> None:
@@ -205,6 +187,5 @@ class ArrangeDialog(QDialog):
 
 
 def _button(words: str, icon_name: str, theme: Theme) -> QPushButton:
-    button = QPushButton(icon(icon_name, theme), words)
-    button.setAutoDefault(False)
+    button = QPushButton(icon(icon_name, theme), words, autoDefault=False)
     return button

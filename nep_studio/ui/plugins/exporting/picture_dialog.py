@@ -14,13 +14,13 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QFormLayout,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
 from nep_studio.ui.canvas.host import CanvasHost
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .picture import SCALES, Format, PictureOptions, What, copy_picture, write_picture
@@ -50,10 +50,8 @@ class PictureDialog(QDialog):
             ("pdf", tr("PDF, to print")),
         ):
             self.format.addItem(label, kind)
-        self.scale = QDoubleSpinBox(self)
+        self.scale = QDoubleSpinBox(self, singleStep=0.5, decimals=1)
         self.scale.setRange(*SCALES)
-        self.scale.setSingleStep(0.5)
-        self.scale.setDecimals(1)
         self.scale.setValue(2.0)
         self.transparent = QCheckBox(tr("Nothing behind the blocks (transparent)"), self)
         self.program = QCheckBox(tr("With the program inside: the picture can be opened"), self)
@@ -99,17 +97,12 @@ class PictureDialog(QDialog):
         buttons = QDialogButtonBox(standard.Save | standard.Cancel)
         buttons.button(standard.Save).setText(tr("Save…"))
         buttons.button(standard.Cancel).setText(tr("Cancel"))
-        copying = QPushButton(tr("Copy picture"))
-        copying.setAutoDefault(False)
+        copying = QPushButton(tr("Copy picture"), autoDefault=False)
         copying.clicked.connect(self._on_copied)
         buttons.addButton(copying, QDialogButtonBox.ButtonRole.ActionRole)
         buttons.accepted.connect(self._on_save)
         buttons.rejected.connect(self.reject)
-        column = QVBoxLayout(self)
-        column.addLayout(form)
-        column.addWidget(self.reason)
-        column.addStretch(1)
-        column.addWidget(buttons)
+        in_column(form, self.reason, 1, buttons, of=self)
 
     def _on_format_changed(self) -> None:
         self.scale.setEnabled(self.kind == "png")

@@ -12,16 +12,15 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QFormLayout,
-    QHBoxLayout,
     QPushButton,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 from .paper import PrintOptions, print_program
@@ -73,9 +72,7 @@ class ProgramPrintDialog(QDialog):
         form.addRow(tr("What"), self.what)
         form.addRow("", self.code)
         form.addRow(tr("Paper"), self.orientation)
-        top = QHBoxLayout()
-        top.addLayout(form)
-        top.addStretch(1)
+        top = in_row(form, 1)
         for name, words, do in (
             ("zoom-out", tr("Zoom out"), self.preview.zoomOut),
             ("zoom-in", tr("Zoom in"), self.preview.zoomIn),
@@ -87,18 +84,9 @@ class ProgramPrintDialog(QDialog):
             button.setAccessibleName(words)
             button.clicked.connect(do)
             top.addWidget(button, 0, Qt.AlignmentFlag.AlignBottom)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.setup_button)
-        buttons.addStretch(1)
-        buttons.addWidget(self.close_button)
-        buttons.addWidget(self.print_button)
+        buttons = in_row(self.setup_button, 1, self.close_button, self.print_button)
         self.print_button.setDefault(True)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addLayout(top)
-        box.addWidget(self.preview, 1)
-        box.addLayout(buttons)
+        in_column(top, (self.preview, 1), buttons, of=self, margins=line, spacing=line // 2)
         self.resize(line * 40, line * 36)
 
     def _connect(self) -> None:

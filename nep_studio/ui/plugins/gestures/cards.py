@@ -18,7 +18,6 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import (
     QAbstractButton,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -34,7 +33,7 @@ from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.blocks.program import PAGES
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_row
 from nep_studio.ui.words import count_words, tr
 from nep_studio.ui.workbench.placing import insert_clip
 
@@ -198,10 +197,7 @@ class GestureCard(QFrame):
         self.record.setAutoDefault(False)
         self.menu.setToolTip(tr("More"))
         self.menu.setAccessibleName(tr("More"))
-        above = QHBoxLayout()
-        above.addWidget(self.title, 1)
-        above.addWidget(self.count)
-        above.addWidget(self.menu)
+        above = in_row((self.title, 1), self.count, self.menu)
         between = FlowLayout(gap=line // 3)
         for widget in (self.record, self.chip):
             between.addWidget(widget)
@@ -355,9 +351,7 @@ class Cards(QScrollArea):
         self.new_button.setAutoDefault(False)
         self.empty.setWordWrap(True)
         self.empty.setProperty("role", "hint")
-        new = QHBoxLayout()
-        new.addWidget(self.new_name, 1)
-        new.addWidget(self.new_button)
+        new = in_row((self.new_name, 1), self.new_button)
         inner = QWidget()
         self._box = QVBoxLayout(inner)
         self._box.setContentsMargins(line // 4, line // 4, line // 2, line // 4)

@@ -26,6 +26,7 @@ from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.watch_view.status import WatchStatus
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards
@@ -153,8 +154,7 @@ class HintLine(QWidget):
     def __init__(self, controller: GestureController) -> None:
         super().__init__()
         self._controller = controller
-        self._sign, self.words, self.button = QLabel(), QLabel(), QPushButton()
-        self.words.setWordWrap(True)
+        self._sign, self.words, self.button = QLabel(), QLabel(wordWrap=True), QPushButton()
         self.words.setTextFormat(Qt.TextFormat.PlainText)
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.button.setAutoDefault(False)
@@ -212,14 +212,8 @@ class Head(QWidget):
         self.more.setAccessibleName(tr("Import, export and more"))
         self.more.setToolTip(tr("Import, export and more"))
         self.more.clicked.connect(self.more_asked)
-        row = QHBoxLayout()
-        row.addWidget(self.watch, 1)
-        row.addWidget(self.more)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(self.fontMetrics().height() // 3)
-        box.addLayout(row)
-        box.addWidget(self.hint)
+        row = in_row((self.watch, 1), self.more)
+        in_column(row, self.hint, of=self, margins=0, spacing=self.fontMetrics().height() // 3)
         controller.look.theme_changed.connect(self._dress)
         self._dress()
 
@@ -254,8 +248,7 @@ class TrainerPage(QWidget):
         self._on_current_changed(self.cards.current)
 
     def _lay_out(self) -> None:
-        self.tabs = QTabWidget()
-        self.tabs.setDocumentMode(True)
+        self.tabs = QTabWidget(documentMode=True)
         self.tabs.addTab(self.trial, tr("Try it"))
         self.tabs.addTab(self.results, tr("What was learned"))
         self.inner, self.outer = QSplitter(), QSplitter()
@@ -267,9 +260,7 @@ class TrainerPage(QWidget):
             for part in parts:
                 splitter.addWidget(part)
         self._shape: Shape | None = None
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self.outer)
+        in_column(self.outer, of=self, margins=0)
         fit_icons(self)
 
     def _top(self) -> QScrollArea:
@@ -281,8 +272,7 @@ class TrainerPage(QWidget):
         box.addWidget(self.head)
         box.addWidget(self.strip, 1)
         box.addWidget(self.bar)
-        area = QScrollArea()
-        area.setWidgetResizable(True)
+        area = QScrollArea(widgetResizable=True)
         area.setFrameShape(QFrame.Shape.NoFrame)
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setWidget(top)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, QPoint, QSignalBlocker, QSize, Qt
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QMenu,
     QProgressBar,
@@ -20,7 +19,7 @@ from nep_studio.blocks.own_gestures import WRISTS
 from nep_studio.blocks.slots import why_not_name
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
 
@@ -83,11 +82,7 @@ class WearerBox(QObject):
             box.setMinimumContentsLength(9)
         people, places = (self.sign, self.person, self.more), (self.wrist, self.source)
         for outer, widgets in ((self.who, people), (self.where, places)):
-            row = QHBoxLayout(outer)
-            row.setContentsMargins(0, 0, 0, 0)
-            row.setSpacing(outer.fontMetrics().height() // 3)
-            for widget in widgets:
-                row.addWidget(widget)
+            in_row(*widgets, of=outer, margins=0, spacing=outer.fontMetrics().height() // 3)
 
     def refresh(self) -> None:
         """Show who is there."""

@@ -16,7 +16,7 @@ from PySide6.QtGui import (
     QTextOption,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTextBrowser, QWidget
+from PySide6.QtWidgets import QPushButton, QTextBrowser, QWidget
 
 from nep_studio.blocks.operations.copying import Clip, paste
 from nep_studio.blocks.program import PAGES
@@ -27,6 +27,7 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme.colours import Theme, load_theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, code_font
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import is_right_to_left, language_code, tr
 from nep_studio.ui.workbench.placing import free_place
 
@@ -277,10 +278,7 @@ class ExampleBar(QWidget):
         self.insert.clicked.connect(self.put_on_page)
         self.try_it.clicked.connect(self.ask_to_try)
         gap = self.fontMetrics().height() // 3
-        row = QHBoxLayout(self)
-        row.setContentsMargins(gap, gap, gap, gap)
-        row.addWidget(self.insert, 1)
-        row.addWidget(self.try_it, 1)
+        in_row((self.insert, 1), (self.try_it, 1), of=self, margins=gap)
         self.hide()
 
     def show_example(self, example: Example | None, title: str) -> None:

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QMenu,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,6 +22,7 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.popup import FieldPopup
 from nep_studio.ui.message_cards import MessageCard
 from nep_studio.ui.messages import Message, Messages
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import language_code, tr
 from nep_studio.ui.workbench.help_card import BlockOpening
 from nep_studio.ui.workbench.palette.shelf import Shelf
@@ -188,9 +188,7 @@ class HelpWindow(QWidget):
         self.setWindowTitle(tr("Help"))
         self.setAttribute(Qt.WidgetAttribute.WA_QuitOnClose, False)  # the main window decides
         self.panel = panel
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(panel)
+        in_column(panel, of=self, margins=0)
         line = self.fontMetrics().height()
         self.resize(52 * line, 40 * line)
 

@@ -22,7 +22,6 @@ from PySide6.QtWidgets import (
     QTreeWidget,
     QTreeWidgetItem,
     QTreeWidgetItemIterator,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -34,6 +33,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import UnknownIcon, icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .browser import ZOOM_STEP, ExampleBar, HelpBrowser
@@ -186,10 +186,9 @@ class ToolRow(QWidget):
         self.smaller = _button(tr("Smaller text"))
         self.larger = _button(tr("Larger text"))
         self.print = _button(tr("Print this page…"))
-        self.search = QLineEdit()
+        self.search = QLineEdit(clearButtonEnabled=True)
         self.search.setPlaceholderText(tr("Search the help"))
         self.search.setAccessibleName(tr("Search the help"))
-        self.search.setClearButtonEnabled(True)
         self._sign = QAction(self.search)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
         buttons = QHBoxLayout()
@@ -200,11 +199,7 @@ class ToolRow(QWidget):
         for button in (self.smaller, self.larger, self.print):
             buttons.addWidget(button)
         gap = self.fontMetrics().height() // 4
-        box = QVBoxLayout(self)
-        box.setContentsMargins(gap, gap, gap, gap)
-        box.setSpacing(gap)
-        box.addLayout(buttons)
-        box.addWidget(self.search)
+        in_column(buttons, self.search, of=self, margins=gap, spacing=gap)
 
     def dress(self, theme: Theme) -> None:
         """Take the theme and the size of the text."""
@@ -228,8 +223,7 @@ class ToolRow(QWidget):
 
 
 def _button(words: str) -> QToolButton:
-    button = QToolButton()
-    button.setAutoRaise(True)
+    button = QToolButton(autoRaise=True)
     button.setToolTip(words.removesuffix("…"))
     button.setAccessibleName(words.removesuffix("…"))
     return button
@@ -405,17 +399,11 @@ class HelpPanel(QWidget):
         self.browser = HelpBrowser(canvas, look, lambda: self.book, self)
         self.example = ExampleBar(canvas, lambda: self.book, self)
         self.searching = Searching(lambda: self.book, self)
-        self.body = QSplitter(Qt.Orientation.Vertical)
-        self.body.setChildrenCollapsible(False)
+        self.body = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         self.body.addWidget(self.contents)
         self.body.addWidget(self.browser)
         self.body.setStretchFactor(1, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(0)
-        box.addWidget(self.tools)
-        box.addWidget(self.body, 1)
-        box.addWidget(self.example)
+        in_column(self.tools, (self.body, 1), self.example, of=self, margins=0, spacing=0)
         self.tools.dress(self._look.theme)
         self.example.dress(self._look.theme)
         self._connect()

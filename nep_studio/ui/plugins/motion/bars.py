@@ -20,6 +20,7 @@ from nep_studio.ui.actions import Actions
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import count_words, tr
 from robots.body.body import Body, posture_name
 from robots.errors import ActionFailed
@@ -37,8 +38,7 @@ class Header(QWidget):
     ) -> None:
         super().__init__(parent)
         self.controller = controller
-        self.title = QLineEdit()
-        self.title.setMaxLength(100)
+        self.title = QLineEdit(maxLength=100)
         self.title.setPlaceholderText(tr("Name of the motion"))
         self.title.setAccessibleName(tr("Name of the motion"))
         self.start = QComboBox()
@@ -50,9 +50,7 @@ class Header(QWidget):
         self.kind.setAccessibleName(tr("Used to"))
         for kind, words in kind_words().items():
             self.kind.addItem(words, kind)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.title, 1)
+        row = in_row((self.title, 1), of=self, margins=0)
         for words, field in ((tr("Starts from"), self.start), (tr("Used to"), self.kind)):
             label = QLabel(words)
             label.setBuddy(field)
@@ -119,8 +117,7 @@ class NotesBar(QFrame):
         super().__init__(parent)
         self.controller, self.look = controller, look
         self.faults: list[Fault] = []
-        self.sign, self.words = QLabel(), QLabel()
-        self.words.setWordWrap(True)
+        self.sign, self.words = QLabel(), QLabel(wordWrap=True)
         self.give_time = QPushButton(tr("Give it the time it needs"))
         self.show_place = QPushButton(tr("Show the place"))
         self.open = QPushButton(tr("Open one as a start…"))

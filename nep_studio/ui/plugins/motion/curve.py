@@ -6,10 +6,11 @@ import math
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QWidget
 
 from nep_studio.blocks.language import Language
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from . import editing
@@ -258,10 +259,7 @@ class CurvePanel(QWidget):
         self.joint = QComboBox()
         self.joint.setAccessibleName(tr("Joint"))
         self._moving: tuple[str, ...] | None = None
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.joint)
-        box.addWidget(self.curve, 1)
+        in_column(self.joint, (self.curve, 1), of=self, margins=0)
         self.joint.currentIndexChanged.connect(self._on_chosen)
         controller.changed.connect(self.refresh)
         self.refresh()

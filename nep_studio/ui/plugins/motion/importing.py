@@ -8,15 +8,14 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 from robots.body.body import Body
 from robots.body.choregraphe import KeyframesUnreadable, read_choregraphe
@@ -41,8 +40,7 @@ class ImportDialog(QDialog):
         self.text = QPlainTextEdit()
         self.text.setAccessibleName(tr("The exported text"))
         self.text.setPlaceholderText('names.append("HeadYaw")\ntimes.append([0.8, 1.6])\n…')
-        self.reason = QLabel()
-        self.reason.setWordWrap(True)
+        self.reason = QLabel(wordWrap=True)
         self.file_button = QPushButton(tr("From a file…"))
         self.use_button = QPushButton(tr("Use this motion"))
         self.cancel_button = QPushButton(tr("Cancel"))
@@ -78,16 +76,8 @@ class ImportDialog(QDialog):
         )
         how.setWordWrap(True)
         self.use_button.setProperty("kind", "primary")
-        foot = QHBoxLayout()
-        foot.addWidget(self.file_button)
-        foot.addStretch(1)
-        foot.addWidget(self.cancel_button)
-        foot.addWidget(self.use_button)
-        box = QVBoxLayout(self)
-        box.addWidget(how)
-        box.addWidget(self.text, 1)
-        box.addWidget(self.reason)
-        box.addLayout(foot)
+        foot = in_row(self.file_button, 1, self.cancel_button, self.use_button)
+        in_column(how, (self.text, 1), self.reason, foot, of=self)
         self.resize(line * 36, line * 24)
 
     def _motion(self) -> OwnAnimation | str:

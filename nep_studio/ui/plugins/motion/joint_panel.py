@@ -13,11 +13,11 @@ from PySide6.QtWidgets import (
     QLabel,
     QScrollArea,
     QSlider,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.blocks.language import Language
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 from robots.body.body import Joint
 
@@ -41,12 +41,11 @@ class JointRow(QWidget):
         self.is_hand = joint.name.endswith("Hand")
         self.label = QLabel(words, self)
         self.slider = QSlider(Qt.Orientation.Horizontal, self)
-        self.box = QDoubleSpinBox(self)
+        self.box = QDoubleSpinBox(self, decimals=1)
         self._is_showing = False
         low, high = self._shown(self.joint.min_rad), self._shown(self.joint.max_rad)
         self.slider.setRange(math.ceil(low * STEPS), math.floor(high * STEPS))
         self.box.setRange(math.ceil(low * STEPS) / STEPS, math.floor(high * STEPS) / STEPS)
-        self.box.setDecimals(1)
         self.box.setSuffix(" %" if self.is_hand else "°")
         self.box.setKeyboardTracking(False)
         for widget in (self.slider, self.box):
@@ -116,8 +115,6 @@ class JointPanel(QScrollArea):
 
     def _lay_out(self) -> None:
         inner = QWidget()
-        box = QVBoxLayout(inner)
-        box.addWidget(self.both)
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
         body = self.controller.body
@@ -126,8 +123,7 @@ class JointPanel(QScrollArea):
             if names:
                 grid.addWidget(self._heading(words), grid.rowCount(), 0, 1, 3)
                 self._add_rows(grid, names)
-        box.addLayout(grid)
-        box.addStretch(1)
+        in_column(self.both, grid, 1, of=inner)
         self.setWidget(inner)
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)

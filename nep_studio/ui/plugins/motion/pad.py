@@ -7,7 +7,6 @@ from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QVBoxLayout,
@@ -16,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 from .drive import KEYS, sum_of
@@ -135,11 +135,7 @@ class DrivePad(QFrame):
             int(Qt.Key.Key_S): (1, 1),
             int(Qt.Key.Key_D): (1, 2),
         }
-        row = QHBoxLayout()
-        row.addLayout(self._group(tr("Walk"), walk))
-        row.addStretch(1)
-        row.addLayout(self._group(tr("Head"), head))
-        row.addStretch(1)
+        row = in_row(self._group(tr("Walk"), walk), 1, self._group(tr("Head"), head), 1)
         self.stop_button.setText(tr("Stop"))
         self.stop_button.setToolTip(tr("Stop everything the robot does (Space)"))
         self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -148,9 +144,7 @@ class DrivePad(QFrame):
         self.stop_button.clicked.connect(self._on_stop_clicked)
         row.addWidget(self.stop_button)
         self.hint.setWordWrap(True)
-        box = QVBoxLayout(self)
-        box.addLayout(row)
-        box.addWidget(self.hint)
+        in_column(row, self.hint, of=self)
 
     def _group(self, words: str, keys: dict[int, Place]) -> QVBoxLayout:
         group = QWidget()
@@ -159,11 +153,8 @@ class DrivePad(QFrame):
         grid.setContentsMargins(0, 0, 0, 0)
         for key, (row, column) in keys.items():
             grid.addWidget(self._button(key), row, column)
-        box = QVBoxLayout()
-        heading = QLabel(words)
-        heading.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        box.addWidget(heading)
-        box.addWidget(group)
+        heading = QLabel(words, alignment=Qt.AlignmentFlag.AlignCenter)
+        box = in_column(heading, group)
         return box
 
     def _button(self, key: int) -> QPushButton:

@@ -12,17 +12,16 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDialog,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QSlider,
-    QVBoxLayout,
 )
 
 from nep_core.wire import messages as m
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 from .drive import SILENT_S, STILL, Drive, Pilot, Tilt, sum_of
@@ -55,8 +54,7 @@ class TeleoperationWindow(QDialog):
         self.view = RobotView(host.services.look)
         self.robot = QComboBox()
         self.robot.setAccessibleName(tr("Robot"))
-        self.start_button = QPushButton()
-        self.start_button.setAutoDefault(False)
+        self.start_button = QPushButton(autoDefault=False)
         self.pad = DrivePad(host.services.look)
         self.speed = QSlider(Qt.Orientation.Horizontal)
         self.with_gamepad = QCheckBox(tr("Gamepad"))
@@ -118,9 +116,7 @@ class TeleoperationWindow(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        top = QHBoxLayout()
-        top.addWidget(self.robot, 1)
-        top.addWidget(self.start_button)
+        top = in_row((self.robot, 1), self.start_button)
         self.speed.setRange(20, 100)
         self.speed.setValue(60)
         self.speed.setAccessibleName(tr("How fast it walks"))
@@ -128,25 +124,12 @@ class TeleoperationWindow(QDialog):
         self.watch_use.addItem(tr("moves the right arm"), ARM)
         self.watch_use.setAccessibleName(tr("What the watch does"))
         self.watch_use.setEnabled(False)
-        speed = QHBoxLayout()
-        speed.addWidget(QLabel(tr("How fast it walks")))
-        speed.addWidget(self.speed, 1)
-        others = QHBoxLayout()
-        others.addWidget(self.with_gamepad)
-        others.addStretch(1)
-        others.addWidget(self.with_watch)
-        others.addWidget(self.watch_use)
+        speed = in_row(QLabel(tr("How fast it walks")), (self.speed, 1))
+        others = in_row(self.with_gamepad, 1, self.with_watch, self.watch_use)
         self.missing.setWordWrap(True)
         self.told.setWordWrap(True)
         self.view.setMinimumSize(line * 14, line * 10)
-        box = QVBoxLayout(self)
-        box.addLayout(top)
-        box.addWidget(self.missing)
-        box.addWidget(self.view, 1)
-        box.addWidget(self.told)
-        box.addWidget(self.pad)
-        box.addLayout(speed)
-        box.addLayout(others)
+        in_column(top, self.missing, (self.view, 1), self.told, self.pad, speed, others, of=self)
         fit_icons(self)
         room = room_around(self).size()
         self.resize(min(line * 30, room.width()), min(line * 40, room.height()))

@@ -90,16 +90,14 @@ class MotionWindow(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        body = QSplitter(Qt.Orientation.Horizontal)
+        body = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         body.addWidget(self.view)
         body.addWidget(self.joints)
         body.setStretchFactor(0, 1)
-        body.setChildrenCollapsible(False)
         self.view.setMinimumSize(line * 12, line * 8)
         self.time_pages = QStackedWidget()
-        holder = QScrollArea()
+        holder = QScrollArea(widgetResizable=True)
         holder.setWidget(self.timeline)
-        holder.setWidgetResizable(True)
         holder.setFrameShape(QFrame.Shape.StyledPanel)
         holder.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         frame = 2 * holder.frameWidth()
@@ -129,8 +127,7 @@ class MotionWindow(QDialog):
         self.time_pages.setFixedHeight(height + line * 5 if is_shown else height)
 
     def _toolbar(self) -> QWidget:
-        bar = QToolBar()
-        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        bar = QToolBar(toolButtonStyle=Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         bar.setIconSize(icon_room(self.fontMetrics().height()))
         actions = self.actions_by_name
         for name in ("new_motion", "open_motion", "save_motion"):

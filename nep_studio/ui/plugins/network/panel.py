@@ -9,7 +9,6 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
@@ -18,7 +17,6 @@ from PySide6.QtWidgets import (
     QToolButton,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -27,6 +25,7 @@ from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, type_words
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .graph import Graph, Key, graph_of
@@ -82,29 +81,19 @@ class NetworkPanel(QWidget):
         self._on_changed(feed.seen)
 
     def _lay_out(self) -> None:
-        bar = QHBoxLayout()
-        bar.addWidget(self.summary, 1)
-        bar.addWidget(self.sharing_button)
         tools = (self.whole_button, self.list_button, self.smaller_button, self.larger_button)
-        for button in (*tools, self.fit_button):
-            bar.addWidget(button)
+        bar = in_row((self.summary, 1), self.sharing_button, *tools, self.fit_button)
         self.views = QStackedWidget()
         for widget in (self.empty, self.graph, self.list):
             self.views.addWidget(widget)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(bar)
-        column.addWidget(self.views, 1)
-        split = QSplitter(Qt.Orientation.Horizontal)
+        in_column(bar, (self.views, 1), of=left, margins=0)
+        split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         split.addWidget(left)
         split.addWidget(self.pane)
         split.setStretchFactor(0, 3)
         split.setStretchFactor(1, 2)
-        split.setChildrenCollapsible(False)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(split)
+        in_column(split, of=self, margins=0)
 
     def _connect(self) -> None:
         self._feed.changed.connect(self._on_changed)
@@ -205,21 +194,11 @@ class _Empty(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.words = QLabel()
-        self.words.setWordWrap(True)
-        self.words.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.words = QLabel(wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
         self.words.setProperty("role", "hint")
         self.run_button = QPushButton(tr("Run"))
         self.run_button.setProperty("kind", "run")
-        row = QHBoxLayout()
-        row.addStretch(1)
-        row.addWidget(self.run_button)
-        row.addStretch(1)
-        box = QVBoxLayout(self)
-        box.addStretch(1)
-        box.addWidget(self.words)
-        box.addLayout(row)
-        box.addStretch(2)
+        in_column(1, self.words, in_row(1, self.run_button, 1), 2, of=self)
         self.tell(is_up=False)
 
     def tell(self, *, is_up: bool) -> None:

@@ -10,11 +10,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut, QTextCursor
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +22,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.node_style import one_line, pretty
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, base_point_size, code_font
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 # Messages to begin with when one is sent by hand, and the check of what was written.
@@ -125,18 +124,14 @@ class SendBox(QWidget):
         self._topic = ""
         self._sent: list[tuple[str, str]] = []
         self._drafts: dict[str, str] = {}
-        self.text = QPlainTextEdit()
+        self.text = QPlainTextEdit(tabChangesFocus=True)
         self.text.setAccessibleName(tr("The message, as JSON"))
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.text.setTabChangesFocus(True)
-        self.note = QLabel()
-        self.note.setWordWrap(True)
-        self.note.setTextFormat(Qt.TextFormat.PlainText)
-        self.history = QComboBox()
-        self.history.setAccessibleName(tr("Messages that you have sent"))
-        self.history.setSizeAdjustPolicy(
-            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        self.note = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.history = QComboBox(
+            sizeAdjustPolicy=QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
+        self.history.setAccessibleName(tr("Messages that you have sent"))
         self.history.setMinimumContentsLength(8)
         self.send_button = QPushButton(tr("Send"))
         self.send_button.setProperty("kind", "primary")
@@ -156,15 +151,8 @@ class SendBox(QWidget):
         self._show_history()
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout()
-        row.addWidget(self.history, 1)
-        row.addWidget(self.example_button)
-        row.addWidget(self.send_button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.text, 1)
-        box.addWidget(self.note)
-        box.addLayout(row)
+        row = in_row((self.history, 1), self.example_button, self.send_button)
+        in_column((self.text, 1), self.note, row, of=self, margins=0)
 
     def show_topic(self, topic: str, last: Any = None) -> None:
         """Write messages of this topic; what was begun for it before is there again."""

@@ -32,7 +32,6 @@ from PySide6.QtWidgets import (
     QSplitter,
     QTabWidget,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -43,6 +42,7 @@ from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import count_words, tr
 
 from .saving import number_fields, save
@@ -70,20 +70,16 @@ class TopicBar(QWidget):
         self.close_button = QToolButton()
         self.close_button.setToolTip(tr("Close"))
         self.close_button.setAccessibleName(tr("Close these messages"))
-        self.filter = QLineEdit()
+        self.filter = QLineEdit(clearButtonEnabled=True)
         self.filter.setPlaceholderText(tr("Show only messages with…"))
         self.filter.setAccessibleName(tr("Show only messages with…"))
-        self.filter.setClearButtonEnabled(True)
         first, second = QHBoxLayout(), QHBoxLayout()
         first.addWidget(self.title, 1)
         first.addWidget(self.close_button)
         for button in (self.pause_button, self.copy_button, self.save_button, self.plot_button):
             second.addWidget(button)
         second.addWidget(self.filter, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(first)
-        box.addLayout(second)
+        in_column(first, second, of=self, margins=0)
         look.theme_changed.connect(self._on_theme_changed)
         self._on_theme_changed()
 
@@ -105,11 +101,10 @@ class TopicBar(QWidget):
 
 
 def _button(words: str, tip: str) -> QToolButton:
-    button = QToolButton()
+    button = QToolButton(toolButtonStyle=Qt.ToolButtonStyle.ToolButtonIconOnly)
     button.setText(words)
     button.setToolTip(tip)
     button.setAccessibleName(words)
-    button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
     return button
 
 
@@ -211,16 +206,14 @@ class TopicPane(QWidget):
         self.folder = Path.home()
         self.heard = HeardList(self)
         self.bar = TopicBar(look)
-        self.about = QLabel()
-        self.about.setWordWrap(True)
+        self.about = QLabel(wordWrap=True)
         self.about.setProperty("role", "hint")
         self.list = QListView()
         self.list.setModel(self.heard)
         self.list.setUniformItemSizes(True)
         self.list.setAccessibleName(tr("Messages, the newest first"))
         self.list.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.full = QPlainTextEdit()
-        self.full.setReadOnly(True)
+        self.full = QPlainTextEdit(readOnly=True)
         self.full.setAccessibleName(tr("The message in full"))
         self.full.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.send_box = SendBox(talks.send, look)
@@ -230,18 +223,13 @@ class TopicPane(QWidget):
         self._connect()
 
     def _lay_out(self) -> None:
-        split = QSplitter(Qt.Orientation.Vertical)
+        split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         split.addWidget(self.list)
         split.addWidget(self.full)
-        split.setChildrenCollapsible(False)
-        self.tabs = QTabWidget()
-        self.tabs.setDocumentMode(True)
+        self.tabs = QTabWidget(documentMode=True)
         self.tabs.addTab(split, tr("Messages"))
         self.tabs.addTab(self.send_box, tr("Send by hand"))
-        box = QVBoxLayout(self)
-        for widget in (self.bar, self.about):
-            box.addWidget(widget)
-        box.addWidget(self.tabs, 1)
+        in_column(self.bar, self.about, (self.tabs, 1), of=self)
 
     def _connect(self) -> None:
         bar = self.bar

@@ -10,7 +10,6 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -30,7 +29,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import Columns, FlowLayout
+from nep_studio.ui.widgets.layouts import Columns, FlowLayout, in_column, in_row
 from nep_studio.ui.words import tr
 
 from .person_box import OccurrenceButton, PersonBox, Section, WordsButton
@@ -60,13 +59,9 @@ class WaitingBoard(QWidget):
         self.buttons: list[OccurrenceButton] = []
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = QLabel(wordWrap=True)
         self.words.setProperty("role", "hint")
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self._rows)
-        box.addWidget(self.words)
+        in_column(self._rows, self.words, of=self, margins=0)
 
     def show_occurrences(self, occurrences: list[Occurrence], here: dict[str, str]) -> None:
         """Show these; ``here`` are the visitors that are there now, with their names."""
@@ -163,13 +158,7 @@ class HumanPanel(QScrollArea):
         self.words.setPlaceholderText(tr("Somebody says…"))
         self.words.setAccessibleName(tr("Words that somebody says"))
         said = QWidget()
-        row = QHBoxLayout()
-        row.addWidget(self.words, 1)
-        row.addWidget(self.say_button)
-        box = QVBoxLayout(said)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(row)
-        box.addWidget(self.listening)
+        in_column(in_row((self.words, 1), self.say_button), self.listening, of=said, margins=0)
         return said
 
     def _lay_out(self) -> None:
@@ -181,14 +170,9 @@ class HumanPanel(QScrollArea):
             label.setTextFormat(Qt.TextFormat.PlainText)
         self.told.setProperty("role", "hint")
         self.told.hide()
-        top = QHBoxLayout()
-        top.addWidget(self.state, 1)
-        top.addWidget(self.run_button)
+        top = in_row((self.state, 1), self.run_button)
         self._which = QWidget()
-        which = QHBoxLayout(self._which)
-        which.setContentsMargins(0, 0, 0, 0)
-        which.addWidget(QLabel(tr("Before")))
-        which.addWidget(self.robot, 1)
+        in_row(QLabel(tr("Before")), (self.robot, 1), of=self._which, margins=0)
         inner, line = QWidget(self.viewport()), self.fontMetrics().height()
         box = QVBoxLayout(inner)
         box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)

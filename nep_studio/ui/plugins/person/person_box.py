@@ -9,7 +9,6 @@ from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -29,7 +28,7 @@ from nep_studio.project.surroundings import FIRST_NAMES, LONGEST_NAME
 from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import tr
 
 from .stimuli import DISTANCES_M, ICONS, Stimuli, words_of
@@ -45,12 +44,10 @@ class PersonBox(QWidget):
         super().__init__()
         self._stimuli, self._language = stimuli, language
         self.is_there = QCheckBox(tr("Somebody is there"))
-        self.name = QComboBox()
-        self.name.setEditable(True)
+        self.name = QComboBox(editable=True, insertPolicy=QComboBox.InsertPolicy.NoInsert)
         line_edit = self.name.lineEdit() or QLineEdit()
         line_edit.setPlaceholderText(tr("anybody"))
         line_edit.setMaxLength(LONGEST_NAME)
-        self.name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.name.setMinimumContentsLength(6)
         self.name.setAccessibleName(tr("Whose face it is"))
         self.way = QSlider(Qt.Orientation.Horizontal)
@@ -81,12 +78,8 @@ class PersonBox(QWidget):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        named = QHBoxLayout()
-        named.addWidget(QLabel(tr("Face of")))
-        named.addWidget(self.name, 1)
-        far = QHBoxLayout()
-        far.addWidget(self.way, 1)
-        far.addWidget(self.way_words)
+        named = in_row(QLabel(tr("Face of")), (self.name, 1))
+        far = in_row((self.way, 1), self.way_words)
         looks = QWidget()
         flow = FlowLayout(looks, line // 3)
         for button in self.looks:
@@ -260,20 +253,15 @@ class Section(QWidget):
     def __init__(self, title: str, look: Look, *, is_open: bool = True) -> None:
         super().__init__()
         self._look, self.is_open = look, is_open
-        self.heading = QToolButton()
+        self.heading = QToolButton(toolButtonStyle=Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.heading.setText(title)
-        self.heading.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.body = QWidget()
         self.box = QVBoxLayout(self.body)
         line = self.fontMetrics().height()
         self.box.setContentsMargins(line // 2, 0, 0, line // 2)
         self.box.setSpacing(line // 3)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(line // 6)
-        outer.addWidget(self.heading)
-        outer.addWidget(self.body)
+        in_column(self.heading, self.body, of=self, margins=0, spacing=line // 6)
         self.heading.clicked.connect(lambda: self.open(not self.is_open))
         look.theme_changed.connect(self._dress)
         self.open(is_open)

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QSlider,
     QSpinBox,
@@ -23,7 +22,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import FIRST_MARK
 from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
@@ -47,13 +46,12 @@ class SensorBox(QWidget):
         self._grid.setColumnStretch(0, 1)
         for row, sensor in enumerate(SLIDERS):
             self._add_slider(2 * row, sensor, names.get(sensor, sensor))
-        self.other = QComboBox()
+        self.other = QComboBox(
+            sizeAdjustPolicy=QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        )
         for sensor, name in names.items():
             if sensor not in SLIDERS:
                 self.other.addItem(name, sensor)
-        self.other.setSizeAdjustPolicy(
-            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
-        )
         self.other.setMinimumContentsLength(8)
         self.other.setAccessibleName(tr("Another sensor"))
         self.value = QDoubleSpinBox()
@@ -65,10 +63,7 @@ class SensorBox(QWidget):
         flow = FlowLayout(others, self.fontMetrics().height() // 3)
         for widget in (self.other, self.value, self.measure):
             flow.addWidget(widget)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(self._grid)
-        box.addWidget(others)
+        in_column(self._grid, others, of=self, margins=0)
 
     def rest(self) -> None:
         """Let all measure by themselves again."""
@@ -85,8 +80,7 @@ class SensorBox(QWidget):
         slider.setValue(usual)
         slider.setPageStep(25)
         slider.setAccessibleName(name)
-        title, value = QLabel(name[:1].upper() + name[1:]), QLabel(str(usual))
-        title.setWordWrap(True)
+        title, value = QLabel(name[:1].upper() + name[1:], wordWrap=True), QLabel(str(usual))
         value.setMinimumWidth(self.fontMetrics().horizontalAdvance("000"))
         self._values[sensor] = value
         self._grid.addWidget(title, row, 0, 1, 2)
@@ -122,9 +116,8 @@ class BodyBox(QWidget):
                 self.joint.addItem(words[:1].upper() + words[1:], joint)
         _fit(self.joint)
         self.joint.setAccessibleName(tr("Joint"))
-        self.angle = QDoubleSpinBox()
+        self.angle = QDoubleSpinBox(decimals=0)
         self.angle.setRange(-180.0, 180.0)
-        self.angle.setDecimals(0)
         self.angle.setSuffix("°")
         self.angle.setAccessibleName(tr("Angle"))
         self.turn = WordsButton(tr("Turn it"), look, "rotate-ccw")
@@ -202,23 +195,13 @@ class ThingsBox(QWidget):
         self.refresh()
 
     def _lay_out(self) -> None:
-        marked = QHBoxLayout()
-        marked.addWidget(self.mark)
-        marked.addWidget(self.number)
-        marked.addStretch(1)
         sounds = QWidget()
         flow = FlowLayout(sounds, self.fontMetrics().height() // 3)
         for button in self.sounds.values():
             flow.addWidget(button)
-        hint = QLabel(tr("Other things are placed in the scene of the robots."))
-        hint.setWordWrap(True)
+        hint = QLabel(tr("Other things are placed in the scene of the robots."), wordWrap=True)
         hint.setProperty("role", "hint")
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.ball)
-        box.addLayout(marked)
-        box.addWidget(sounds)
-        box.addWidget(hint)
+        in_column(self.ball, in_row(self.mark, self.number, 1), sounds, hint, of=self, margins=0)
 
     def refresh(self) -> None:
         """Show what is there."""
@@ -278,8 +261,7 @@ class GestureBox(QWidget):
         self._shown: dict[str, str] | None = None
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
-        self.how = QLabel()
-        self.how.setWordWrap(True)
+        self.how = QLabel(wordWrap=True)
         self.how.setProperty("role", "hint")
         self.certainty = QSpinBox()
         self.certainty.setRange(1, 100)
@@ -288,16 +270,8 @@ class GestureBox(QWidget):
         self.certainty.setAccessibleName(tr("How certain the gesture is"))
         self.certainty.valueChanged.connect(self._on_certainty_changed)
         self._certain = QWidget()
-        row = QHBoxLayout(self._certain)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(QLabel(tr("Certainty")))
-        row.addWidget(self.certainty)
-        row.addStretch(1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self._rows)
-        box.addWidget(self.how)
-        box.addWidget(self._certain)
+        in_row(QLabel(tr("Certainty")), self.certainty, 1, of=self._certain, margins=0)
+        in_column(self._rows, self.how, self._certain, of=self, margins=0)
         self.show_gestures([], language.choices.get("gestures", {}))
 
     def show_gestures(self, of_program: Iterable[Occurrence], known: Mapping[str, str]) -> None:

@@ -16,13 +16,13 @@ from PySide6.QtWidgets import (
     QTreeView,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_core.wire.messages import IMU
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .curves import Curve, CurveKey, icon_size
@@ -213,19 +213,15 @@ class FieldChooser(QDialog):
         self._items: dict[Field, QStandardItem] = {}
         self._topics: dict[str, QStandardItem] = {}
         self.setWindowTitle(tr("Choose what is plotted"))
-        self.search = QLineEdit()
+        self.search = QLineEdit(clearButtonEnabled=True)
         self.search.setPlaceholderText(tr("Find a number"))
-        self.search.setClearButtonEnabled(True)
-        self.hint = QLabel(tr("Numbers appear here as soon as a node sends some."))
+        self.hint = QLabel(tr("Numbers appear here as soon as a node sends some."), wordWrap=True)
         self.hint.setProperty("role", "hint")
-        self.hint.setWordWrap(True)
         self._make_tree()
         buttons = QDialogButtonBox()
         close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.AcceptRole)
         close.clicked.connect(self.accept)
-        box = QVBoxLayout(self)
-        for widget in (self.search, self.hint, self.tree, buttons):
-            box.addWidget(widget)
+        in_column(self.search, self.hint, self.tree, buttons, of=self)
         line = self.fontMetrics().height()
         self.resize(line * _WIDTH_LINES, line * _HEIGHT_LINES)
         network.changed.connect(self._on_changed)
@@ -240,11 +236,10 @@ class FieldChooser(QDialog):
         self._found.setAutoAcceptChildRows(True)
         self._found.setFilterCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.search.textChanged.connect(self._on_search_changed)
-        self.tree = QTreeView()
+        self.tree = QTreeView(uniformRowHeights=True)
         self.tree.setModel(self._found)
         self.tree.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.tree.setAccessibleName(tr("Numbers that nodes send"))
-        self.tree.setUniformRowHeights(True)
 
     def show_topic(self, topic: str) -> None:
         """Show the numbers of one topic."""

@@ -11,10 +11,11 @@ import numpy as np
 import pyqtgraph
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHideEvent, QPen, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QScrollArea, QWidget
 
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 
 from .curves import Curve, CurveKey, Row, ValueRange, curves_of, rows_of
 from .curves_view import (
@@ -65,13 +66,10 @@ class Plots(QWidget):
         self._live: dict[StreamKey, LiveColumns] = {}
         self._frozen: dict[StreamKey, Samples] = {}
         self.canvas = new_canvas()
-        self._scroll = QScrollArea()
-        self._scroll.setWidgetResizable(True)
+        self._scroll = QScrollArea(widgetResizable=True)
         self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._scroll.setWidget(self.canvas)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self._scroll)
+        in_column(self._scroll, of=self, margins=0)
         self.setMinimumWidth(self.fontMetrics().height() * _LEAST_WIDTH_LINES)
         self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.draw)

@@ -26,6 +26,7 @@ from nep_studio.ui.messages import Answer, Messages
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .curve_list import CurveList, FieldChooser
@@ -52,8 +53,7 @@ class EmptyPage(QScrollArea):
         super().__init__(parent)
         self.setWidgetResizable(True)
         inside = QWidget()
-        box = QVBoxLayout(inside)
-        box.addStretch(1)
+        box = in_column(1, of=inside)
         title = QLabel(tr("What sensors measure is drawn here as curves."))
         title.setProperty("role", "heading")
         hint = QLabel(
@@ -85,11 +85,7 @@ class EmptyPage(QScrollArea):
         self.watch_button.setEnabled(not is_starting)
 
     def _buttons(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.addStretch(1)
-        for button in (self.watch_button, self.replay_button, self.choose_button):
-            row.addWidget(button)
-        row.addStretch(1)
+        row = in_row(1, self.watch_button, self.replay_button, self.choose_button, 1)
         return row
 
 
@@ -131,18 +127,14 @@ class Workspace(QWidget):
 
     def _lay_out(self) -> None:
         side = QWidget()
-        column = QVBoxLayout(side)
-        column.setContentsMargins(0, 0, 0, 0)
         line = self.fontMetrics().height()
         self.measured.setContentsMargins(line // 2, line // 4, line // 2, line // 4)
         self.measured.setWordWrap(True)
-        column.addWidget(self.measured)
-        column.addWidget(self.list, 1)
-        self.split = QSplitter(Qt.Orientation.Horizontal)
+        in_column(self.measured, (self.list, 1), of=side, margins=0)
+        self.split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         self.split.addWidget(self.plots)
         self.split.addWidget(side)
         self.split.setStretchFactor(0, 1)
-        self.split.setChildrenCollapsible(False)
         self.pages = QStackedWidget()
         self.pages.addWidget(self.empty)
         self.pages.addWidget(self.split)

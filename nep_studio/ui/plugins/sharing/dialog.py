@@ -9,7 +9,6 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QDialog,
     QFrame,
-    QHBoxLayout,
     QPushButton,
     QScrollArea,
     QStackedWidget,
@@ -25,7 +24,7 @@ from nep_studio.ui.messages import Message, announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import fit_on_screen, room_around
-from nep_studio.ui.widgets.layouts import scrolled
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
 from .pages import ClosedPage, JoinedPage, JoinPage, OpenPage, restart_words, words_label
@@ -94,19 +93,10 @@ class SharingDialog(QDialog):
         within.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
         self.problem.hide()
         self.main_button.setProperty("kind", "primary")
-        foot = QHBoxLayout()
         for button in (self.other_button, self.done_button, self.main_button):
             button.setAutoDefault(False)
-        foot.addWidget(self.other_button)
-        foot.addStretch(1)
-        foot.addWidget(self.done_button)
-        foot.addWidget(self.main_button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(self.problem)
-        box.addWidget(self.pages, 1)
-        box.addLayout(foot)
+        foot = in_row(self.other_button, 1, self.done_button, self.main_button)
+        in_column(self.problem, (self.pages, 1), foot, of=self, margins=line, spacing=line // 2)
         fit_on_screen(self, LINES_WIDE, LINES_HIGH)
 
     def minimumSizeHint(self) -> QSize:

@@ -16,16 +16,15 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.ui.messages import announce
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -94,12 +93,9 @@ class HoldBar(QFrame):
         super().__init__(parent)
         self._over = parent
         self.setProperty("kind", "card")
-        self.bar = QProgressBar()
+        self.bar = QProgressBar(textVisible=False)
         self.bar.setRange(0, 100)
-        self.bar.setTextVisible(False)
-        row = QHBoxLayout(self)
-        row.addWidget(QLabel(tr("Keep holding to leave the show")))
-        row.addWidget(self.bar, 1)
+        in_row(QLabel(tr("Keep holding to leave the show")), (self.bar, 1), of=self)
         self.hide()
 
     def show_progress(self, progress: float) -> None:
@@ -124,8 +120,7 @@ class PinQuestion(QFrame):
         self._over = parent
         self._is_pin = is_pin
         self.setProperty("kind", "card")
-        self.line = QLineEdit()
-        self.line.setEchoMode(QLineEdit.EchoMode.Password)
+        self.line = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
         self.line.setAccessibleName(tr("PIN"))
         self.words = QLabel(tr("The PIN to leave the show"))
         self.leave_button = QPushButton(tr("Leave"))
@@ -133,13 +128,8 @@ class PinQuestion(QFrame):
         self.back_button = QPushButton(tr("Back to the show"))
         self._going = QTimer(self, singleShot=True, interval=PIN_STAYS_MS)
         self._going.timeout.connect(self.hide)
-        box = QVBoxLayout(self)
-        box.addWidget(self.words)
-        box.addWidget(self.line)
-        box.addWidget(self._digits())
-        row = QHBoxLayout()
-        row.addWidget(self.back_button)
-        row.addWidget(self.leave_button)
+        box = in_column(self.words, self.line, self._digits(), of=self)
+        row = in_row(self.back_button, self.leave_button)
         box.addLayout(row)
         self.line.returnPressed.connect(self._on_given)
         self.line.textEdited.connect(lambda: self._going.start())

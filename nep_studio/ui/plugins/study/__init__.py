@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QWidget
 
 from nep_studio.study.records import Reply, Sitting, write_events, write_replies
 from nep_studio.ui.host import Host, Parts, Plugin
@@ -15,6 +15,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import count_words, tr
 
@@ -37,11 +38,7 @@ class StudySign(QFrame):
         self.dot, self.words = QLabel(), ElidedLabel()
         self.form_button = QPushButton(tr("Fill in the questionnaire"))
         self.stop_button = QPushButton(tr("Stop the study"))
-        row = QHBoxLayout(self)
-        row.addWidget(self.dot)
-        row.addWidget(self.words, 1)
-        row.addWidget(self.form_button)
-        row.addWidget(self.stop_button)
+        in_row(self.dot, (self.words, 1), self.form_button, self.stop_button, of=self)
         recorder.changed.connect(self.refresh)
         look.theme_changed.connect(self.refresh)
         self.refresh()

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QRadioButton,
@@ -25,6 +24,7 @@ from nep_studio.study.records import Reply, StudyFolder
 from nep_studio.study.sus import BROOKE, PAPER, Answers, Questionnaire, questionnaire
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .start import ParticipantFields
@@ -136,8 +136,7 @@ class ItemRow(QFrame):
         super().__init__()
         self.setProperty("kind", "card")
         words = form.items[number]
-        self.label = QLabel(tr("{number}. {item}", number=number + 1, item=words))
-        self.label.setWordWrap(True)
+        self.label = QLabel(tr("{number}. {item}", number=number + 1, item=words), wordWrap=True)
         self.label.setProperty("role", "heading")
         self.clear_button = QPushButton(tr("Leave open"))
         self.clear_button.setProperty("kind", "quiet")
@@ -158,9 +157,7 @@ class ItemRow(QFrame):
         self._show_clear()
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.addWidget(self.label, 1)
-        head.addWidget(self.clear_button, 0, Qt.AlignmentFlag.AlignTop)
+        head = in_row((self.label, 1), (self.clear_button, 0, Qt.AlignmentFlag.AlignTop))
         policy = self.clear_button.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         self.clear_button.setSizePolicy(policy)
@@ -168,9 +165,7 @@ class ItemRow(QFrame):
         self._options.setSpacing(0)
         for button in self.buttons:
             self._options.addWidget(button, 1)
-        box = QVBoxLayout(self)
-        box.addLayout(head)
-        box.addLayout(self._options)
+        in_column(head, self._options, of=self)
 
     def fit(self, width: int) -> None:
         """Put the options in a row where there is room for it, else one below the other."""
@@ -265,13 +260,8 @@ class QuestionnaireDialog(QDialog):
         self.note.setWordWrap(True)
         self.save_button.setDefault(True)
         self.save_button.setProperty("kind", "primary")
-        foot = QHBoxLayout()
-        foot.addWidget(self.note, 1)
-        foot.addWidget(self.cancel_button)
-        foot.addWidget(self.save_button)
-        box = QVBoxLayout(self)
-        box.addWidget(self.area, 1)
-        box.addLayout(foot)
+        foot = in_row((self.note, 1), self.cancel_button, self.save_button)
+        in_column((self.area, 1), foot, of=self)
         room = room_around(self).size()
         self.resize(min(line * 52, room.width()), min(line * 46, room.height()))
 
@@ -349,6 +339,5 @@ def _instruction() -> QLabel:
         "Say how much you agree with each sentence. Answer at once, do not think long. An item"
         " that you cannot answer may stay open. Keys: Tab to the next item, digits to answer."
     )
-    label = QLabel(words)
-    label.setWordWrap(True)
+    label = QLabel(words, wordWrap=True)
     return label

@@ -9,20 +9,19 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
     QDialog,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
     QTabWidget,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.study.records import Spread, StudyFolder, Summary, summarize
 from nep_studio.study.sus import BROOKE, PAPER, questionnaire
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 
@@ -66,20 +65,14 @@ class ResultsDialog(QDialog):
         self.overall.setWordWrap(True)
         self.note.setProperty("role", "hint")
         self.note.setWordWrap(True)
-        tabs = QTabWidget()
-        tabs.setDocumentMode(True)
+        tabs = QTabWidget(documentMode=True)
         tabs.addTab(self.items, tr("Questions"))
         tabs.addTab(self.people, tr("Participants"))
-        foot = QHBoxLayout()
-        foot.addWidget(self.delete_button)
-        foot.addStretch(1)
-        for button in (self.answers_button, self.events_button, self.close_button):
-            foot.addWidget(button)
+        foot = in_row(
+            self.delete_button, 1, self.answers_button, self.events_button, self.close_button
+        )
         self.close_button.setDefault(True)
-        box = QVBoxLayout(self)
-        for widget in (self.which, self.overall, tabs, self.note):
-            box.addWidget(widget)
-        box.addLayout(foot)
+        in_column(self.which, self.overall, tabs, self.note, foot, of=self)
         room = room_around(self).size()
         self.resize(min(line * 44, room.width()), min(line * 32, room.height()))
 

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -31,6 +30,7 @@ from nep_studio.study.sus import conditions_for, next_code, participant_number
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Message, Told
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class ParticipantFields(QWidget):
         self.conditions = QLineEdit(", ".join(folder.conditions()))
         self.conditions.setPlaceholderText(tr("Such as: blocks, text"))
         self.condition = QComboBox()
-        self.order = QLabel()
+        self.order = QLabel(wordWrap=True)
         self._form = QFormLayout(self)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._form.addRow(tr("Participant"), self.code)
@@ -65,7 +65,6 @@ class ParticipantFields(QWidget):
             self._form.addRow(tr("Conditions"), self.conditions)
         self._form.addRow(tr("Condition now"), self.condition)
         self.order.setProperty("role", "hint")
-        self.order.setWordWrap(True)
         self._form.addRow("", self.order)
         self.code.textChanged.connect(self._on_changed)
         self.conditions.textChanged.connect(self._on_changed)
@@ -118,9 +117,8 @@ class ParticipantFields(QWidget):
 
 
 def _hint(words: str) -> QLabel:
-    label = QLabel(words)
+    label = QLabel(words, wordWrap=True)
     label.setProperty("role", "hint")
-    label.setWordWrap(True)
     return label
 
 
@@ -156,27 +154,14 @@ class StartDialog(QDialog):
             told.addWidget(label)
         self.start_button.setDefault(True)
         self.start_button.setProperty("kind", "primary")
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        foot.addWidget(self.cancel_button)
-        foot.addWidget(self.start_button)
+        foot = in_row(1, self.cancel_button, self.start_button)
         page = QWidget()
-        inner = QVBoxLayout(page)
-        inner.setContentsMargins(0, 0, 0, 0)
-        inner.setSpacing(line)
-        inner.addWidget(self.participant_fields)
-        inner.addWidget(card)
-        inner.addStretch(1)
-        area = QScrollArea()
-        area.setWidgetResizable(True)
+        in_column(self.participant_fields, card, 1, of=page, margins=0, spacing=line)
+        area = QScrollArea(widgetResizable=True)
         area.setFrameShape(QFrame.Shape.NoFrame)
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setWidget(page)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line)
-        box.addWidget(area, 1)
-        box.addLayout(foot)
+        in_column((area, 1), foot, of=self, margins=line, spacing=line)
         room = room_around(self).size()
         self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
 

@@ -9,7 +9,6 @@ from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPlainTextEdit,
@@ -20,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import begin_where_reading_begins
+from nep_studio.ui.widgets.layouts import begin_where_reading_begins, in_row
 from nep_studio.ui.words import tr
 
 from .steps import FIRST_STEPS, PROJECT, Step, steps
@@ -94,12 +93,7 @@ class Bubble(QFrame):
             label.setWordWrap(True)
         self.next_button.setProperty("kind", "primary")
         self.leave_button.setProperty("kind", "quiet")
-        row = QHBoxLayout()
-        row.setSpacing(line // 3)
-        row.addWidget(self.leave_button)
-        row.addStretch(1)
-        row.addWidget(self.back_button)
-        row.addWidget(self.next_button)
+        row = in_row(self.leave_button, 1, self.back_button, self.next_button, spacing=line // 3)
         self._box = QVBoxLayout(self)
         self._box.setSpacing(line // 2)
         self._box.setContentsMargins(line, line * 3 // 4, line, line * 3 // 4)

@@ -23,8 +23,6 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.blocks.editor import Editor
-
     from .dialog import Plan, WatchDialog
 
 

@@ -23,6 +23,7 @@ from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import column_in
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .connectors import APPS, BLUETOOTH, PAPER_WATCH, PHONE_PAGE, RECORDING, VIRTUAL
@@ -158,13 +159,9 @@ class ChoosingPage(QWidget):
     def __init__(self, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         line = self.fontMetrics().height()
-        heading = QLabel(tr("What do you have?"))
+        heading = QLabel(tr("What do you have?"), wordWrap=True)
         heading.setProperty("role", "title")
-        heading.setWordWrap(True)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, line // 2, 0)
-        box.setSpacing(line // 2)
-        box.addWidget(heading)
+        box = in_column(heading, of=self, margins=(0, 0, line // 2, 0), spacing=line // 2)
         self.cards = {one.connector: OfferCard(one, look) for one in offers()}
         for connector, card in self.cards.items():
             card.clicked.connect(lambda _=False, connector=connector: self.chosen.emit(connector))
@@ -214,13 +211,11 @@ class RecordingQuestion(QWidget):
         self.path = ""
         self._folder = folder
         self._look = look
-        self.button = QPushButton(tr("Choose a recording…"))
+        self.button = QPushButton(tr("Choose a recording…"), autoDefault=False)
         self.redraw()
-        self.button.setAutoDefault(False)
         line = self.fontMetrics().height()
         self.button.setIconSize(QSize(line, line))
-        self.name = QLabel()
-        self.name.setWordWrap(True)
+        self.name = QLabel(wordWrap=True)
         self.repeats = QCheckBox(tr("Play it again and again"))
         self.repeats.setChecked(True)
         box = column_in(self)

@@ -15,6 +15,7 @@ from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.watch_view.indicators import WatchListener
 from nep_studio.ui.widgets.forms import UNKNOWN, hint
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .choosing import GesturesQuestion, RecordingQuestion
@@ -174,9 +175,8 @@ class WayPage(QWidget):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        heading = QLabel(title_of(self.connector))
+        heading = QLabel(title_of(self.connector), wordWrap=True)
         heading.setProperty("role", "title")
-        heading.setWordWrap(True)
         left, right = QVBoxLayout(), QVBoxLayout()
         for column in (left, right):
             column.setSpacing(line * 2 // 3)
@@ -197,10 +197,7 @@ class WayPage(QWidget):
         self._both.setSpacing(line)
         self._both.addLayout(left, 6)
         self._both.addLayout(right, 5)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, line // 2, 0)
-        box.setSpacing(line * 2 // 3)
-        box.addWidget(heading)
+        box = in_column(heading, of=self, margins=(0, 0, line // 2, 0), spacing=line * 2 // 3)
         if self.connector in APPS:
             box.addWidget(self._app_choice())
         box.addLayout(self._both, 1)

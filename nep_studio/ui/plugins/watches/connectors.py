@@ -20,6 +20,7 @@ from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import UNKNOWN, CopyLine
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 OWN_PROFILE = "six_int16"
@@ -334,11 +335,8 @@ class StepsList(QWidget):
                 copy_line.show_text(step.copied)
 
     def _column(self, step: Step, extra: QWidget | None) -> QVBoxLayout:
-        column = QVBoxLayout()
-        column.setSpacing(self.fontMetrics().height() // 3)
-        label = QLabel()
-        label.setWordWrap(True)
-        column.addWidget(label)
+        label = QLabel(wordWrap=True)
+        column = in_column(label, spacing=self.fontMetrics().height() // 3)
         self.words.append(label)
         is_address = step.copied.startswith("http") or "." in step.copied
         words = tr("Copy the address") if is_address else tr("Copy")

@@ -10,10 +10,8 @@ from pathlib import Path
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QDialog,
-    QHBoxLayout,
     QPushButton,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,7 +21,7 @@ from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.watch_view.indicators import WatchListener
 from nep_studio.ui.widgets.forms import fit_on_screen, room_around
-from nep_studio.ui.widgets.layouts import scrolled, show_top
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled, show_top
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .choosing import ChoosingPage
@@ -97,20 +95,12 @@ class WatchDialog(QDialog):
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.pages.addWidget(scrolled(self.choosing))
-        foot = QHBoxLayout()
         self.use_button.setProperty("kind", "primary")
         self.back_button.setIconSize(QSize(line, line))
         for button in (self.back_button, self.close_button, self.use_button):
             button.setAutoDefault(False)
-        foot.addWidget(self.back_button)
-        foot.addStretch(1)
-        foot.addWidget(self.close_button)
-        foot.addWidget(self.use_button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(self.pages, 1)
-        box.addLayout(foot)
+        foot = in_row(self.back_button, 1, self.close_button, self.use_button)
+        in_column((self.pages, 1), foot, of=self, margins=line, spacing=line // 2)
         fit_on_screen(self, LINES_WIDE, LINES_HIGH)
 
     def minimumSizeHint(self) -> QSize:

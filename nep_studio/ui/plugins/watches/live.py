@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from nep_core.wire.messages import Imu
 from nep_studio.problems import Problem
@@ -23,6 +23,7 @@ from nep_studio.ui.watch_view.indicators import (
 )
 from nep_studio.ui.watch_view.status import SIGNS
 from nep_studio.ui.widgets.forms import quiet_button
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 MOST_FIGURES = 5
@@ -63,17 +64,10 @@ class LiveView(QFrame):
             label.setTextFormat(Qt.TextFormat.PlainText)
         for label in (self.sentence, self.understood, self.advice):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        words = QVBoxLayout()
-        words.addWidget(self.title)
-        words.addWidget(self.sentence)
-        words.addStretch(1)
-        head = QHBoxLayout()
-        head.setSpacing(line // 2)
-        head.addWidget(self.dot, 0, Qt.AlignmentFlag.AlignTop)
-        head.addLayout(words, 1)
+        words = in_column(self.title, self.sentence, 1)
+        head = in_row((self.dot, 0, Qt.AlignmentFlag.AlignTop), (words, 1), spacing=line // 2)
         self.advice_card.setProperty("kind", "warning")
-        inside = QVBoxLayout(self.advice_card)
-        inside.addWidget(self.advice)
+        in_column(self.advice, of=self.advice_card)
         box = QVBoxLayout(self)
         box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
         box.setSpacing(line // 2)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
@@ -16,6 +16,7 @@ from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.features import POINTS, Detection, Integers, Singles, cut_windows
 from nodes.perceptual.recognition.gmr import Gmr
@@ -315,11 +316,7 @@ class BandPanel(QWidget):
         for box in (self.gesture, self.kind):
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             row.addWidget(box, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(row)
-        column.addWidget(self.view)
-        column.addWidget(self.sentence)
+        in_column(row, self.view, self.sentence, of=self, margins=0)
         self.gesture.currentIndexChanged.connect(self._on_chosen)
         self.kind.currentIndexChanged.connect(self._show)
         self.use_model(None)

@@ -8,18 +8,17 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt, Q
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QSizePolicy,
     QSlider,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.blocks.own_gestures import TRIGGER
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .findings import Findings, Point, between
@@ -238,20 +237,12 @@ class PointPanel(QWidget):
         self.gesture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.curve = PointCurve(look)
         self.slider = PointSlider(tuning)
-        self.sentence = QLabel()
-        self.sentence.setWordWrap(True)
+        self.sentence = QLabel(wordWrap=True)
         self.reset = QPushButton(tr("Usual"))
         self.reset.setToolTip(tr("Set the recognition point to {percent} %", percent=75))
         self.reset.setProperty("kind", "quiet")
-        row = QHBoxLayout()
-        row.addWidget(self.gesture, 1)
-        row.addWidget(self.reset)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(row)
-        box.addWidget(self.curve)
-        box.addWidget(self.slider)
-        box.addWidget(self.sentence)
+        row = in_row((self.gesture, 1), self.reset)
+        in_column(row, self.curve, self.slider, self.sentence, of=self, margins=0)
         self.gesture.currentIndexChanged.connect(self.refresh)
         self.curve.dragged.connect(lambda certainty: tuning.preview(self.name, certainty))
         self.curve.let_go.connect(lambda: tuning.keep(self.name))

@@ -5,18 +5,16 @@ from __future__ import annotations
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QCheckBox,
-    QHBoxLayout,
     QProgressBar,
     QPushButton,
     QSizePolicy,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import Halves
+from nep_studio.ui.widgets.layouts import Halves, in_column, in_row
 from nep_studio.ui.words import tr
 
 from .labels import Sign, Words
@@ -36,9 +34,8 @@ class TrainBar(QWidget):
         self.button.setProperty("kind", "primary")
         self.cancel = QPushButton(tr("Cancel"))
         self.cancel.setToolTip(tr("Stop the training; what was learned before stays"))
-        self.progress = QProgressBar()
+        self.progress = QProgressBar(textVisible=False)
         self.progress.setRange(0, 100)
-        self.progress.setTextVisible(False)
         self.progress.setAccessibleName(tr("Progress of the training"))
         self.progress.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.sign = Sign(look)
@@ -56,21 +53,13 @@ class TrainBar(QWidget):
         self.refresh()
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.button)
-        buttons.addWidget(self.cancel)
-        buttons.addWidget(self.progress, 1)
-        buttons.addStretch(0)
-        status = QHBoxLayout()
-        status.addWidget(self.sign)
-        status.addWidget(self.status, 1)
+        buttons = in_row(self.button, self.cancel, (self.progress, 1), 0)
+        status = in_row(self.sign, (self.status, 1))
         halves = Halves(WIDE_LINES)
         halves.first.addLayout(buttons)
         halves.second.addLayout(status)
         halves.second.addWidget(self.by_itself)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(halves)
+        in_column(halves, of=self, margins=0)
 
     def refresh(self) -> None:
         """Show how it stands."""

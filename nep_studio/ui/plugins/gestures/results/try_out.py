@@ -7,14 +7,14 @@ from functools import partial
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMenu, QPushButton, QVBoxLayout, QWidget
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import announce
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
-from nep_studio.ui.widgets.layouts import FlowLayout, Halves, scrolled
+from nep_studio.ui.widgets.layouts import FlowLayout, Halves, in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.features import Detection
 from nodes.perceptual.recognition.model import Model
@@ -181,25 +181,17 @@ class TryOut(QWidget):
 
     def _lay_out(self) -> None:
         inner = QWidget()
-        box = QVBoxLayout(inner)
-        head = QHBoxLayout()
-        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
-        head.addWidget(self.said, 1)
-        box.addLayout(head)
-        box.addWidget(self.steps)
+        head = in_row((self.sign, 0, Qt.AlignmentFlag.AlignVCenter), (self.said, 1))
         self._bars_box = QVBoxLayout()
         self._bars_box.setSpacing(0)
         self.live = Halves(WIDE_LINES)
         self.live.first.addLayout(self._bars_box)
         self.live.add(self.meaning, self.timeline, self.corrections)
         self.live.add_beside(Words(tr("Expected curve"), "heading"), self.band)
-        box.addWidget(self.live)
-        box.addStretch(1)
+        in_column(head, self.steps, self.live, 1, of=inner)
         self.area = scrolled(inner)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self.area)
+        in_column(self.area, of=self, margins=0)
 
     def _connect(self) -> None:
         self.controller.heard.connect(self._on_heard)

@@ -10,7 +10,7 @@ from nep_studio.problems import Problem
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Message
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
-from nep_studio.ui.widgets.layouts import Halves, scrolled
+from nep_studio.ui.widgets.layouts import Halves, in_column, scrolled
 from nep_studio.ui.words import tr
 
 from .advice import Advice, AdviceList, Known, advice_on, false_triggers, headline, takes_of_pair
@@ -63,7 +63,6 @@ class ResultsView(QWidget):
 
     def _lay_out(self) -> None:
         inner = QWidget()
-        box = QVBoxLayout(inner)
         self.method.setAccessibleName(tr("Recogniser"))
         self.method.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         for method in METHODS:
@@ -84,14 +83,10 @@ class ResultsView(QWidget):
             Words(tr("Recogniser"), "heading"),
             self.method,
         )
-        for widget in (self.bar, self.failure, self.found):
-            box.addWidget(widget)
-        box.addStretch(1)
+        in_column(self.bar, self.failure, self.found, 1, of=inner)
         self.area = scrolled(inner)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self.area)
+        in_column(self.area, of=self, margins=0)
         QVBoxLayout(self.failure)
 
     def _connect(self) -> None:
