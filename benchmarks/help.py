@@ -42,7 +42,7 @@ def run() -> list[Row]:
     use_language("en")
     words = studio_language()
     canvas = Canvas(Editor(made(100, language()), language()), load_theme("light"))
-    panel = HelpPanel(canvas, Look(app, "light"), words)
+    panel = HelpPanel(canvas, Look(app, "light"), lambda: words)
     panel.resize(420, 700)
     panel.show()
     app.processEvents()

@@ -224,7 +224,7 @@ class Timeline:
     """Turns messages into sentences, which ``tr`` translates; one thread at a time."""
 
     def __init__(self, language: Language, tr: Tr = plain) -> None:
-        self._language = language
+        self.language = language
         self.tr = tr
         self._actions: dict[str, _Action] = {}
         self._stopped: set[str] = set()
@@ -297,7 +297,7 @@ class Timeline:
         name = message.human_state.removeprefix("gesture_")
         if name == message.human_state:
             return self.tr("sees {state}", state=name.replace("_", " "))
-        label = self._language.choices.get("gestures", {}).get(name, name)
+        label = self.language.choices.get("gestures", {}).get(name, name)
         certainty = f"{message.certainty:.0%}"
         return self.tr(
             "recognised {gesture} ({certainty} certain)", gesture=label, certainty=certainty
@@ -307,14 +307,14 @@ class Timeline:
         tr, reason = self.tr, result.fault.sentence
         match result.state:
             case "started":
-                return action_words(request, self._language, tr)
+                return action_words(request, self.language, tr)
             case "failed" if reason:
                 told = tr(reason)
                 return tr("failed to {action}: {reason}", action=request.action, reason=told)
             case "failed":
                 return tr("failed to {action}", action=request.action)
             case "cancelled":
-                return tr("no longer {does}", does=action_words(request, self._language, tr))
+                return tr("no longer {does}", does=action_words(request, self.language, tr))
         return ""
 
 

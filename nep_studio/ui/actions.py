@@ -8,6 +8,8 @@ from PySide6.QtCore import QKeyCombination, QObject, Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QWidget
 
+from faults import Words
+from nep_studio.ui.labels import follow_words
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -22,7 +24,9 @@ class Actions(QObject):
         super().__init__(window)
         self._window, self._look = window, look
         self._icons: dict[str, tuple[str, str]] = {}
+        self._words: dict[str, tuple[Words, Words]] = {}
         self.by_name: dict[str, QAction] = {}
+        follow_words(self, self._say_all)
         look.theme_changed.connect(self._on_theme_changed)
 
     def __getitem__(self, name: str) -> QAction:
@@ -31,42 +35,51 @@ class Actions(QObject):
     def add(
         self,
         name: str,
-        words: str,
+        words: Words,
         do: Callable[[], object],
         *,
         icon_name: str = "",
         keys: Keys | tuple[Keys, ...] = (),
-        tip: str = "",
+        tip: Words = "",
         colour: str = "text",
     ) -> QAction:
-        """Make an action; ``words`` with an ellipsis where a question follows.
+        """Make an action; ``words`` in English, with an ellipsis where a question follows.
 
         ``colour`` is the theme's colour of an icon that does not stand on a panel.
         """
-        action = QAction(words, self)
+        action = QAction(self)
         action.setObjectName(name)
         action.setShortcuts(sequences(keys))
         action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
         action.triggered.connect(lambda: do())
-        action.setIconText(words.removesuffix("…"))
-        action.setToolTip(_tip(tip or words.removesuffix("…"), action))
         self._window.addAction(action)
         self.by_name[name] = action
+        self.label(name, words, tip)
         if icon_name:
             self._icons[name] = icon_name, colour
             self._dress(name)
         return action
 
+    def label(self, name: str, words: Words, tip: Words = "") -> None:
+        """Give an action other words, and a tool tip if they do not say it all."""
+        self._words[name] = words, tip
+        self._say(name)
+
+    def _say(self, name: str) -> None:
+        (words, tip), action = self._words[name], self.by_name[name]
+        short = tr(words).removesuffix("…")
+        action.setText(tr(words))
+        action.setIconText(short)
+        action.setToolTip(_tip(tr(tip) or short, action))
+
+    def _say_all(self) -> None:
+        for name in self._words:
+            self._say(name)
+
     def enable(self, is_enabled: bool, *names: str) -> None:
         """Let these actions be used, or not."""
         for name in names:
             self.by_name[name].setEnabled(is_enabled)
-
-    def retire(self) -> None:
-        """Take the actions away from the window."""
-        for action in self.by_name.values():
-            self._window.removeAction(action)
-        self.deleteLater()
 
     def _on_theme_changed(self) -> None:
         for name in self._icons:

@@ -1,8 +1,9 @@
 """What a plugin sees of the window, and what a plugin is: neither knows the other's insides.
 
 A plugin is a folder in ``ui/plugins`` whose package has one object ``plugin``. The window finds
-the folders by themselves, asks each for its ``Parts``, and puts them where they belong. It asks
-again when the words of the window are other ones; what is to outlive that is kept (``Host.keep``).
+the folders by themselves, asks each once for its ``Parts``, and puts them where they belong. They
+stay as long as the window: in another language their words are told again, in place
+(``nep_studio/ui/labels.py``).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
 
+    from faults import Words
     from nep_studio.ui.actions import Actions, Keys
     from nep_studio.ui.canvas.editing.menu import Section
     from nep_studio.ui.services import Services
@@ -41,7 +43,7 @@ class Host(Protocol):
 
     @property
     def actions(self) -> Actions:
-        """All actions by name; they go, with what they own, when the words are other ones."""
+        """All actions by name."""
 
     @property
     def menus(self) -> Mapping[str, QMenu]:
@@ -58,22 +60,23 @@ class Host(Protocol):
         """Let another plugin do what it offers by this name; None when nobody offers it."""
 
     def keep(self, kind: type[Kept], make: Callable[[], Kept]) -> Kept:
-        """The one object of a kind, made when it is first asked for, kept as long as the window."""
+        """The one object of a kind that several plugins share, made when one first asks for it."""
 
 
 @dataclass(frozen=True)
 class NewAction:
     """An action, its menu and its place there; without a menu it is in the palette of commands.
 
+    ``words`` and ``tip`` are English templates: the window tells them, in each language.
     It stands behind, or before, the action of the name ``after`` or ``before``, else at the end.
     """
 
     name: str
-    words: str
+    words: Words
     do: Callable[[], object]
     icon_name: str = ""
     keys: Keys | tuple[Keys, ...] = ()
-    tip: str = ""
+    tip: Words = ""
     menu: MenuName | Literal[""] = ""
     after: str = ""
     before: str = ""
@@ -81,13 +84,13 @@ class NewAction:
 
 @dataclass(frozen=True)
 class NewPanel:
-    """A panel beside the canvas: left, right or at the bottom.
+    """A panel beside the canvas: left, right or at the bottom; ``title`` is an English template.
 
     It gets at least ``least_share`` of the height of the window when it is opened at the bottom.
     """
 
     widget: QWidget
-    title: str
+    title: Words
     icon_name: str
     area: AreaName
     is_shown: bool = False

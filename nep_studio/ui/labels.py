@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 from weakref import WeakKeyDictionary, WeakMethod
 
 from PySide6.QtCore import QEvent, QObject
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QComboBox, QTabWidget
 from shiboken6 import isValid
 
 from nep_studio.ui.words import tr
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from faults import Words
 
 Owner = TypeVar("Owner", bound=QObject)
+Items = TypeVar("Items", QComboBox, QTabWidget)
 Tell = Callable[[], object]
 
 SETTERS = {
@@ -34,7 +35,7 @@ SETTERS = {
 }
 """What of a widget words can be, and how Qt is told."""
 
-_labels: WeakKeyDictionary[QObject, dict[str, Words]] = WeakKeyDictionary()
+_labels: WeakKeyDictionary[QObject, dict[str | int, Words]] = WeakKeyDictionary()
 _followers: WeakKeyDictionary[QObject, list[WeakMethod[Tell]]] = WeakKeyDictionary()
 
 
@@ -48,6 +49,20 @@ def labelled(owner: Owner, /, **words: Words) -> Owner:
     for key, said in words.items():
         known[key] = said
         _put(owner, key, said)
+    return owner
+
+
+def explained(owner: Owner, words: Words) -> Owner:
+    """Put the same words on what has only a picture: as its tool tip, and for screen readers."""
+    return labelled(owner, tip=words, name=words)
+
+
+def labelled_items(owner: Items, /, *words: Words) -> Items:
+    """Put words on the items of a choice, or on tabs, as ``labelled`` does; they are there."""
+    known = _labels.setdefault(owner, {})
+    for place, said in enumerate(words):
+        known[place] = said
+        _put(owner, place, said)
     return owner
 
 
@@ -73,7 +88,13 @@ def tell_again() -> None:
                 tell()
     for window in QApplication.topLevelWidgets():
         QApplication.sendEvent(window, QEvent(QEvent.Type.LanguageChange))
+        window.update()  # for what paints its words itself
 
 
-def _put(owner: Any, key: str, said: Words) -> None:
-    getattr(owner, SETTERS[key])(tr(said))
+def _put(owner: Any, key: str | int, said: Words) -> None:
+    if isinstance(key, str):
+        getattr(owner, SETTERS[key])(tr(said))
+    elif isinstance(owner, QTabWidget):
+        owner.setTabText(key, tr(said))
+    else:
+        owner.setItemText(key, tr(said))

@@ -19,11 +19,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import Words
+
+from .labels import labelled
 from .messages import KIND_ICONS, Answer, Message
 from .theme.colours import Theme
 from .theme.icons import icon, icon_pixmap, icon_room
 from .theme.look import Look
-from .words import tr
 
 # A message as a card: icon, title, sentence, checklist, answers, and details to copy.
 
@@ -49,13 +51,12 @@ class MessageText(QWidget):
 class ChecklistStep(QWidget):
     """One thing to try, with a box before it."""
 
-    def __init__(self, words: str, parent: QWidget | None = None) -> None:
+    def __init__(self, words: Words, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        mark = QLabel("\N{WHITE SQUARE}")
+        mark = labelled(QLabel("\N{WHITE SQUARE}"), name="Try")
         mark.setAlignment(Qt.AlignmentFlag.AlignTop)
-        mark.setAccessibleName(tr("Try"))
         row.addWidget(mark)
         row.addWidget(_label(words), 1)
 
@@ -69,8 +70,8 @@ class Details(QWidget):
         self.text.setReadOnly(True)
         self.text.setVisible(False)
         self.text.setFixedHeight(self.fontMetrics().height() * 7)
-        self.show_button = _quiet_button(tr("Show details"))
-        self.copy_button = _quiet_button(tr("Copy details"))
+        self.show_button = _quiet_button("Show details")
+        self.copy_button = _quiet_button("Copy details")
         self.copy_button.setVisible(False)
         self.show_button.clicked.connect(self._on_show_clicked)
         self.copy_button.clicked.connect(self._on_copy_clicked)
@@ -87,11 +88,11 @@ class Details(QWidget):
         is_shown = self.text.isHidden()
         self.text.setVisible(is_shown)
         self.copy_button.setVisible(is_shown)
-        self.show_button.setText(tr("Hide details") if is_shown else tr("Show details"))
+        labelled(self.show_button, text="Hide details" if is_shown else "Show details")
 
     def _on_copy_clicked(self) -> None:
         QGuiApplication.clipboard().setText(self.text.toPlainText())
-        self.copy_button.setText(tr("Copied"))
+        labelled(self.copy_button, text="Copied")
 
 
 class MessageCard(QFrame):
@@ -156,11 +157,9 @@ class MessageCard(QFrame):
 
 
 def _cross(theme: Theme) -> QToolButton:
-    button = QToolButton()
+    button = labelled(QToolButton(), tip="Close", name="Close this message")
     button.setIcon(icon("x", theme))
     button.setIconSize(icon_room(button.fontMetrics().height()))
-    button.setToolTip(tr("Close"))
-    button.setAccessibleName(tr("Close this message"))
     return button
 
 
@@ -171,8 +170,8 @@ def _endless_progress() -> QProgressBar:
     return bar
 
 
-def _label(words: str, role: str = "") -> QLabel:
-    label = QLabel(words)
+def _label(words: Words, role: str = "") -> QLabel:
+    label = labelled(QLabel(), text=words)
     label.setWordWrap(True)
     label.setTextFormat(Qt.TextFormat.PlainText)
     label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -182,7 +181,7 @@ def _label(words: str, role: str = "") -> QLabel:
 
 
 def _quiet_button(words: str) -> QPushButton:
-    button = QPushButton(words)
+    button = labelled(QPushButton(), text=words)
     button.setProperty("kind", "quiet")
     return button
 

@@ -1,6 +1,6 @@
 """What all parts of the window share: built once for the life of the program.
 
-It knows neither the window nor what stands in it, and stays when the words of the window change.
+It knows neither the window nor what stands in it.
 """
 
 from __future__ import annotations
@@ -28,7 +28,11 @@ if TYPE_CHECKING:
 
 
 class Studio(QObject):
-    """What all parts of the window share. ``words_changed`` comes after a change of language."""
+    """What all parts of the window share.
+
+    ``words_changed`` comes after a change of language, before the words are told again that are
+    labels: the blocks speak first.
+    """
 
     words_changed = Signal()
 
@@ -73,9 +77,11 @@ class Studio(QObject):
     def choose_language(self, code: str) -> None:
         """Speak a language from now on; "system" is the computer's."""
         self.settings.language = code
+        was_mirrored = words.is_right_to_left()
         self._use_words()
-        self.look.refresh()
         self._language = None
+        if words.is_right_to_left() != was_mirrored:
+            self.look.refresh()
         self.words_changed.emit()
         tell_again()
 

@@ -77,8 +77,41 @@ TELLING = (ast.Expr, ast.Constant, ast.ClassDef, ast.Call, ast.keyword, ast.Assi
 """The parts of a source that can tell something."""
 
 FOR_PROGRAMMERS = ("ValueError", "TypeError")
-OF_THE_WINDOW = ("tr", "count_words")
-"""What is given to these stands in the part [window] of a table, the rest in [messages]."""
+OF_THE_WINDOW = {
+    "tr": slice(0, 1),
+    "count_words": slice(1, 3),
+    "NewAction": slice(1, 2),
+    "NewPanel": slice(1, 2),
+    "add": slice(1, 2),  # of ``Actions``
+    "add_side_panel": slice(1, 2),
+    "explained": slice(1, 2),
+    "_tool": slice(0, 1),  # buttons of panels
+    "WordsButton": slice(0, 1),
+    "Section": slice(0, 1),  # of the panel “Person”
+    "add_menu": slice(1, 2),
+    "_submenu": slice(3, 4),
+    "_heading": slice(0, 1),
+    "_quiet_button": slice(0, 1),
+    "tool_button": slice(0, 1),
+    "hint": slice(0, 1),
+    "label_of": slice(0, 1),
+    "labelled": slice(0, 1),
+    "labelled_items": slice(1, None),
+    "quiet_button": slice(0, 1),
+}
+"""What is given to these, in these places, stands in the part [window] of a table."""
+
+OF_THE_WINDOW_BY_NAME = {
+    "NewAction": ("words", "tip"),
+    "NewPanel": ("title",),
+    "add": ("words", "tip"),
+    "_tool": ("tip",),
+    "_add": ("words", "tip"),  # of the tools of the panel “Sensors”
+    "WordsButton": (),
+    "explained": (),
+    "labelled": ("text", "title", "window_title", "tip", "name", "description", "placeholder"),
+}
+"""The same, of what they are given by name; all the rest stands in [messages]."""
 
 TEMPLATES = {
     "Text": 0,
@@ -161,16 +194,18 @@ def _of_file(path: Path, nodes: list[ast.AST]) -> Iterator[str]:
     place = path.relative_to(ROOT).as_posix()
     nodes = [node for node in nodes if isinstance(node, TELLING)]
     silent = {id(part) for node in nodes for part in _silent(node)}
+    labels = {id(text) for node in nodes for text in _texts_of_labels(node)}
     constants = dict(_constants(nodes))
     is_said = place not in LEFT_OUT
     for node in in_order(nodes):
-        given = [words for one in given_to_tell(node) for words in literals(one, constants)]
+        told = () if id(node) in labels else given_to_tell(node)
+        given = [words for one in told for words in literals(one, constants)]
         words = "" if id(node) in silent else literal(node)
         is_sentence = " " in words and ENDINGS.search(words)
-        for told in [*given, *([words] if is_sentence else [])]:
-            is_shown = told in STILL_SAID or (is_said and told not in IN_A_TERMINAL | FROM_NAOQI)
-            if is_shown and not NO_SENTENCES.search(told):
-                yield told
+        for said in [*given, *([words] if is_sentence else [])]:
+            is_shown = said in STILL_SAID or (is_said and said not in IN_A_TERMINAL | FROM_NAOQI)
+            if is_shown and not NO_SENTENCES.search(said):
+                yield said
 
 
 def in_order(nodes: Iterable[ast.AST]) -> list[ast.AST]:
@@ -183,12 +218,29 @@ def _silent(node: ast.AST) -> Iterator[ast.AST]:
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         yield node.value
     elif isinstance(node, ast.Call):
-        if _is_log(node.func) or _name(node.func) in (*OF_THE_WINDOW, *FOR_PROGRAMMERS):
+        if _is_log(node.func) or _name(node.func) in ("tr", "count_words", *FOR_PROGRAMMERS):
             yield from ast.walk(node)
+        for words in words_of_window(node):
+            yield from ast.walk(words)
         if last_name(node.func) == "compile":
             yield from ast.walk(node)
     elif isinstance(node, ast.keyword) and node.arg == "details":
         yield from ast.walk(node)
+
+
+def words_of_window(call: ast.Call) -> list[ast.expr]:
+    """What a call puts on the window, in the language of the person."""
+    name = last_name(call.func)
+    by_name = OF_THE_WINDOW_BY_NAME.get(name, ())
+    named = [keyword.value for keyword in call.keywords if keyword.arg in by_name]
+    return [*call.args[OF_THE_WINDOW.get(name, slice(0, 0))], *named]
+
+
+def _texts_of_labels(node: ast.AST) -> Iterator[ast.AST]:
+    """The templates with values that are on the window: they are not told as messages."""
+    if isinstance(node, ast.Call) and last_name(node.func) in OF_THE_WINDOW_BY_NAME:
+        for words in words_of_window(node):
+            yield from ast.walk(words)
 
 
 def given_to_tell(node: ast.AST) -> Iterator[ast.expr]:

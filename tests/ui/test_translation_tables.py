@@ -20,6 +20,7 @@ from message_sources import (
     parsed,
     templates,
     unfilled,
+    words_of_window,
 )
 
 from nep_studio import paths
@@ -34,23 +35,28 @@ STUDIO = Path(paths.__file__).parent
 SOURCES = sorted(STUDIO.rglob("*.py"))
 
 SHOWN = {
-    "tr": slice(0, 1),
-    "count_words": slice(1, 3),
     "transaction": slice(0, 1),
     "apply": slice(1, 2),
-    "_label": slice(4, 5),  # "Undo “{step}”" of ui/actions_edit.py
+    "_label": slice(3, 5),  # "Undo" and "Undo “{step}”" of ui/shell/menus.py
     "Fix": slice(1, 2),
     "change": slice(0, 1),  # of the trainer's desk: the label of a step
 }
-"""Functions whose words are shown in the language of the person: which arguments."""
+"""Functions whose words are shown besides ``OF_THE_WINDOW``: which arguments."""
 
 NAMED = {
     "ui/canvas/fields/colour.py": "COLOURS",
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
     "blocks/operations/wrapping.py": "LABELS",
+    "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",
+    "ui/running/actions.py": "PACES RUN_WORDS",
+    "ui/shell/settings_dialog.py": "FOLDERS FOLDER_BUTTONS",
     "ui/plugins/gestures/project_gestures.py": "LABELS",
+    "ui/plugins/motion/commands.py": "LOOKS",
+    "ui/plugins/network/sending.py": "SENT NO_NETWORK",
+    "ui/plugins/person/senses.py": "PUSHES SOUNDS",
+    "ui/plugins/robots/stage_tools.py": "KIND_WORDS VIEWS",
 }
-"""Data whose words are given to tr() one by one."""
+"""Data whose words are given to tr() or put on the window one by one."""
 
 
 def literals(node: ast.expr) -> Iterator[str]:
@@ -104,13 +110,23 @@ def is_label(node: ast.AST) -> bool:
 
 def of_call(found: Found, path: Path, node: ast.Call) -> None:
     name = last_name(node.func)
-    for argument in node.args[SHOWN[name]] if name in SHOWN else ():
+    on_window = [one for argument in words_of_window(node) for one in templates_of(argument)]
+    for argument in [*on_window, *(node.args[SHOWN[name]] if name in SHOWN else ())]:
         found.shown.update(literals(argument))
-        if name in ("tr", "count_words") and isinstance(argument, ast.JoinedStr):
-            found.filled.append(f"{path.relative_to(STUDIO)}:{node.lineno}")
+    if any(isinstance(argument, ast.JoinedStr) for argument in on_window):
+        found.filled.append(f"{path.relative_to(STUDIO)}:{node.lineno}")
     is_asked = name == "word" or (name == "get" and ast.unparse(node.func) == "words.get")
     if is_asked and node.args and "blocks" in path.relative_to(STUDIO).parts:
         found.of_blocks.update(literals(node.args[0]))
+
+
+def templates_of(argument: ast.expr) -> Iterator[ast.expr]:
+    """What stands in the sources for words that may have values: their templates."""
+    if isinstance(argument, ast.IfExp):
+        yield from (*templates_of(argument.body), *templates_of(argument.orelse))
+    else:
+        is_filled = isinstance(argument, ast.Call) and last_name(argument.func) == "text_of"
+        yield argument.args[0] if is_filled else argument
 
 
 def words_of_data() -> Iterator[str]:
@@ -119,7 +135,7 @@ def words_of_data() -> Iterator[str]:
         for node in tree.body:
             if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
                 targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-                if [ast.unparse(target) for target in targets] == [name]:
+                if ast.unparse(targets[0]) in name.split():
                     yield from words_in(ast.literal_eval(node.value))
 
 

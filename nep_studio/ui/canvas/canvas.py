@@ -137,6 +137,16 @@ class Canvas(QAbstractScrollArea):
         self._leave_page()  # open editors have the old look
         self._take_look(theme, font, is_mirrored, self.page)
 
+    def use_words(self, *, is_mirrored: bool) -> None:
+        """Show the blocks in the words that the editor has now; what is typed stays open."""
+        self.pointing.cancel()
+        look, was_mirrored = self.look, self.look.measures.is_mirrored
+        self._take_look(look.theme, look.block_font, is_mirrored, self.page)
+        if is_mirrored != was_mirrored:  # the page is read from its other side now
+            self.sight.show_beginning()
+            self.show_block(self.selection.cursor)
+        self.fields.use_words()
+
     def set_editor(self, editor: Editor) -> None:
         """Show another project; what is under way in this one ends."""
         self._leave_page()

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
@@ -29,6 +30,13 @@ if TYPE_CHECKING:
     from .runner import Runner
 
 RUN_BUTTONS = ("run", "stop", "pause", "step")
+PACES = (
+    (0.0, "Full speed"),
+    (0.3, "Slow: a little while at each block"),
+    (1.0, "Very slow: one second at each block"),
+)
+"""How long it stays at each block, in seconds, and what that is called."""
+
 WITH_A_PROJECT = ("breakpoint", "clear_breakpoints", "needs")
 
 
@@ -39,38 +47,37 @@ def fill_run_menu(menu: QMenu, host: Host) -> None:
     def runner() -> Runner:
         return host.services.runner
 
-    run = add("run", tr("Run"), lambda: runner().run(), icon_name="play", keys="F5")
+    run = add("run", "Run", lambda: runner().run(), icon_name="play", keys="F5")
     stop = add(
         "stop",
-        tr("Stop"),
+        "Stop",
         lambda: host.services.running.stop(),
         icon_name="square",
         keys="Shift+F5",
     )
-    pause = add("pause", tr("Pause"), lambda: runner().pause(), icon_name="pause", keys="F6")
-    step = add(
-        "step", tr("One step"), lambda: runner().step(), icon_name="step-forward", keys="F10"
-    )
+    pause = add("pause", "Pause", lambda: runner().pause(), icon_name="pause", keys="F6")
+    step = add("step", "One step", lambda: runner().step(), icon_name="step-forward", keys="F10")
     menu.addActions([run, stop, pause, step])
     menu.addSeparator()
-    _add_paces(menu.addMenu(icon("gauge", host.services.look.theme), tr("Speed")), host)
+    paces = menu.addMenu(icon("gauge", host.services.look.theme), "")
+    _add_paces(labelled(paces, title="Speed"), host)
     toggle = add(
         "breakpoint",
-        tr("Pause at this block"),
+        "Pause at this block",
         lambda: host.services.running.toggle_breakpoint(),
         icon_name="pin",
         keys="F9",
     )
     clear = add(
         "clear_breakpoints",
-        tr("Pause nowhere"),
+        "Pause nowhere",
         lambda: host.services.running.breakpoints.clear(),
     )
     menu.addActions([toggle, clear])
     menu.addSeparator()
     needs = add(
         "needs",
-        tr("What the program needs…"),
+        "What the program needs…",
         lambda: host.services.running.show_needs(),
         icon_name="list",
         keys="Shift+F8",
@@ -88,25 +95,18 @@ def follow_running(host: Host, toolbar: QToolBar) -> None:
 
 def _add_paces(menu: QMenu, host: Host) -> None:
     """One of several paces, with a mark before it."""
-    paces = (
-        (0.0, tr("Full speed")),
-        (0.3, tr("Slow: a little while at each block")),
-        (1.0, tr("Very slow: one second at each block")),
-    )
-    made = host.services.made_running
-    now_s = 0.0 if made is None else made.line_s
     group = QActionGroup(menu)
-    for line_s, words in paces:
-        action = menu.addAction(words)
+    for line_s, words in PACES:
+        action = labelled(menu.addAction(""), text=words)
         action.setCheckable(True)
-        action.setChecked(line_s == now_s)
+        action.setChecked(not line_s)
         action.setData(line_s)
         group.addAction(action)
     group.triggered.connect(lambda action: host.services.running.set_pace(action.data()))
 
 
 class RunLooks(QObject):
-    """Lets the actions follow the state of the program; it goes with the actions."""
+    """Lets the actions follow the state of the program."""
 
     def __init__(self, host: Host) -> None:
         super().__init__(host.actions)
@@ -124,15 +124,11 @@ class RunLooks(QObject):
         actions.enable(state == "running", "pause")
         actions.enable(state == "paused", "step")
         actions.enable(is_open, *WITH_A_PROJECT)
-        run = actions["run"]
-        run.setText(run_words(state))
-        run.setIconText(run.text())
+        actions.label("run", RUN_WORDS.get(state, "Run"))
 
 
-def run_words(state: str) -> str:
-    """What Run means in a state of the program."""
-    words = {"paused": tr("Go on"), "running": tr("Run again")}
-    return words.get(state, tr("Run"))
+RUN_WORDS = {"paused": "Go on", "running": "Run again"}
+"""What Run means in a state of the program, if it is not what it says."""
 
 
 def state_words(state: str) -> str:
@@ -174,7 +170,7 @@ class RunState(QWidget):
         row.addWidget(self.words, 1)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         look.theme_changed.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def follow(self, running: RunControl) -> None:
         """Say how this goes, from now on."""
@@ -240,7 +236,7 @@ def keep_width(run: QToolButton) -> None:
     metrics, now = run.fontMetrics(), run.defaultAction().iconText()
     widths = [
         metrics.size(Qt.TextFlag.TextShowMnemonic, words).width()
-        for words in map(run_words, STATES)
+        for words in map(tr, ("Run", *RUN_WORDS.values()))
     ]
     now_wide = metrics.size(Qt.TextFlag.TextShowMnemonic, now).width()
     run.setMinimumWidth(run.sizeHint().width() - now_wide + max(widths))

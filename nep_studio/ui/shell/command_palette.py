@@ -40,6 +40,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -216,12 +217,11 @@ class CommandPalette(QFrame):
         self._commands: list[Command] = []
         self._before: QWidget | None = None
         self.rows: list[Ranked] = []
-        self.line = QLineEdit()
-        self.line.setPlaceholderText(tr("What do you want to do?"))
-        self.line.setAccessibleName(tr("What do you want to do?"))
+        self.line = labelled(
+            QLineEdit(), placeholder="What do you want to do?", name="What do you want to do?"
+        )
         self.line.setClearButtonEnabled(True)
-        self.list = QListView()
-        self.list.setAccessibleName(tr("Commands"))
+        self.list = labelled(QListView(), name="Commands")
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setVerticalScrollMode(QListView.ScrollMode.ScrollPerPixel)
@@ -434,15 +434,11 @@ class CommandModel(QStringListModel):
 
 
 def add_command_palette(window: MainWindow) -> CommandPalette:
-    """Make the palette and the action that opens it, in place of one in other words."""
-    for old in window.findChildren(CommandPalette):
-        window.removeEventFilter(old)
-        old.hide()
-        old.deleteLater()
+    """Make the palette and the action that opens it."""
     palette = CommandPalette(window)
     window.actions_by_name.add(
         NOT_IN_ITSELF,
-        tr("Find a command…"),
+        "Find a command…",
         palette.open,
         icon_name="search",
         keys=("Ctrl+K", "Ctrl+Shift+P"),

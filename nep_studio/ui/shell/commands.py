@@ -16,7 +16,7 @@ from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.pages_bar import page_title
 
-from .gallery import example_files, example_sentence, example_title
+from .gallery import example_files, example_sentence, example_words
 from .menus import NEEDS_SELECTION
 
 if TYPE_CHECKING:
@@ -148,7 +148,7 @@ def _examples(window: MainWindow) -> Iterator[Command]:
     for path in example_files():
         yield Command(
             f"example:{path.stem}",
-            example_title(path),
+            tr(example_words(path)),
             partial(window.files.open_example, path),
             tr("Example"),
             icon=icon("graduation-cap", window.look.theme),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QRectF, QSize, Qt, QTimer, Signal
@@ -32,8 +31,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import Words, text_of, verbatim
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.project.examples import Example, example_of, examples
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
@@ -46,33 +47,57 @@ from nep_studio.ui.words import count_words, is_right_to_left, tr
 Sign = tuple[str, str]
 """The name of an icon, and words."""
 
+NEEDS = {
+    "watch": "A watch, or the virtual one",
+    "two_robots": "Two robots on the screen",
+    "voice": "Somebody who answers",
+    "people": "Somebody in front of it",
+    "touch": "Somebody who touches it",
+    "cues": "Somebody who gives cues",
+}
+DIFFICULTIES = {"first": "Begin here", "next": "Next step", "more": "For more"}
+ICONS = {
+    "watch": "watch",
+    "two_robots": "users",
+    "voice": "message-square-text",
+    "people": "user",
+    "touch": "hand",
+    "cues": "flag",
+    "first": "star",
+    "next": "chevron-right",
+    "more": "sparkles",
+}
+TAGS = {
+    "gestures": "Gestures",
+    "museum": "Museum",
+    "robots": "Several robots",
+    "speech": "Speech",
+    "theatre": "Theatre",
+    "lights": "Lights",
+    "feelings": "Feelings",
+    "movement": "Movement",
+    "games": "Games",
+    "values": "Counting and keeping",
+    "sensors": "Sensors",
+    "goals": "Goals",
+    "own_blocks": "My blocks",
+}
+"""What a tag is called."""
+
 
 def signs_of(example: Example) -> list[Sign]:
-    """What one needs for an example, and how long it takes, each with its icon."""
-    known = _needs()
-    needs = [known[need] for need in example.needs if need in known]
-    return [*(needs or [("circle-check", tr("Needs nothing"))]), _length(example)]
-
-
-def difficulty_of(example: Example) -> Sign:
-    """How much of the block language an example uses."""
-    return {
-        "first": ("star", tr("Begin here")),
-        "next": ("chevron-right", tr("Next step")),
-        "more": ("sparkles", tr("For more")),
-    }[example.difficulty]
-
-
-def tag_words(tag: str) -> str:
-    """What a tag is called."""
-    return _tags().get(tag, tag)
+    """How hard an example is, what one needs for it, how long it takes, each with its icon."""
+    hard = example.difficulty
+    needs = [(ICONS[need], tr(NEEDS[need])) for need in example.needs if need in NEEDS]
+    needed = needs or [("circle-check", tr("Needs nothing"))]
+    return [(ICONS[hard], tr(DIFFICULTIES[hard])), *needed, _length(example)]
 
 
 def search_text(example: Example) -> str:
     """All that an example can be found by, in the person's language and in English."""
+    tags = [tr(TAGS.get(tag, tag)) for tag in example.tags]
+    signs = [words for _, words in signs_of(example)]
     shown = [tr(words) for words in example.words()]
-    tags = [tag_words(tag) for tag in example.tags]
-    signs = [words for _, words in (*signs_of(example), difficulty_of(example))]
     return " ".join([*shown, *example.words(), *tags, *example.tags, *signs]).casefold()
 
 
@@ -82,35 +107,6 @@ def _length(example: Example) -> Sign:
     if example.seconds < 60:
         return "clock", tr("{seconds} seconds", seconds=round(example.seconds))
     return "clock", count_words(round(example.seconds / 60), "1 minute", "{n} minutes")
-
-
-def _needs() -> dict[str, Sign]:
-    return {
-        "watch": ("watch", tr("A watch, or the virtual one")),
-        "two_robots": ("users", tr("Two robots on the screen")),
-        "voice": ("message-square-text", tr("Somebody who answers")),
-        "people": ("user", tr("Somebody in front of it")),
-        "touch": ("hand", tr("Somebody who touches it")),
-        "cues": ("flag", tr("Somebody who gives cues")),
-    }
-
-
-def _tags() -> dict[str, str]:
-    return {
-        "gestures": tr("Gestures"),
-        "museum": tr("Museum"),
-        "robots": tr("Several robots"),
-        "speech": tr("Speech"),
-        "theatre": tr("Theatre"),
-        "lights": tr("Lights"),
-        "feelings": tr("Feelings"),
-        "movement": tr("Movement"),
-        "games": tr("Games"),
-        "values": tr("Counting and keeping"),
-        "sensors": tr("Sensors"),
-        "goals": tr("Goals"),
-        "own_blocks": tr("My blocks"),
-    }
 
 
 # The examples as cards: a picture of the blocks, what it is, what it needs, and what to do.
@@ -131,10 +127,10 @@ def example_files() -> list[Path]:
     return [example.path for example in examples()]
 
 
-def example_title(path: Path) -> str:
+def example_words(path: Path) -> Words:
     """What an example is called."""
     example = example_of(path)
-    return tr(example.title) if example else path.stem
+    return example.title if example else verbatim(path.stem)
 
 
 def example_sentence(path: Path) -> str:
@@ -146,10 +142,17 @@ def example_sentence(path: Path) -> str:
 class Signs(QWidget):
     """Small icons with words under each other: what one needs, how long it takes."""
 
-    def __init__(self, signs: Sequence[Sign], look: Look, parent: QWidget | None = None) -> None:
+    def __init__(self, example: Example, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._signs, self._look = signs, look
+        self._example, self._look = example, look
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        self._signs = signs_of(self._example)
+        self.setAccessibleName(". ".join(words for _, words in self._signs))
+        self.updateGeometry()
+        self.update()
 
     def sizeHint(self) -> QSize:
         """A line for each."""
@@ -204,31 +207,34 @@ class Card(QFrame):
     def __init__(self, example: Example, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.example, self._look = example, look
-        title, sentence = tr(example.title), tr(example.sentence)
-        signs = [difficulty_of(example), *signs_of(example)]
         self.setProperty("kind", "card")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
-        self.setAccessibleName(f"{title}. {sentence}")
-        self.setAccessibleDescription(". ".join(words for _, words in signs))
-        self.setToolTip("\n".join(f"• {tr(each.words)}" for each in example.tries))
-        self._fill(title, sentence, signs)
+        self._fill(example)
+        follow_words(self, self._say)
 
-    def _fill(self, title: str, sentence: str, signs: Sequence[Sign]) -> None:
+    def _say(self) -> None:
+        title, sentence = tr(self.example.title), tr(self.example.sentence)
+        self.setAccessibleName(f"{title}. {sentence}")
+        self.setAccessibleDescription(self.signs.accessibleName())
+        self.setToolTip("\n".join(f"• {tr(each.words)}" for each in self.example.tries))
+        self._fit_height()
+
+    def _fill(self, example: Example) -> None:
         line = self.fontMetrics().height()
         self.picture = QLabel()
         self.picture.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
         self.picture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.picture.setFixedHeight(round(line * PICTURE_LINES))
-        self.signs = Signs(signs, self._look)
+        self.signs = Signs(example, self._look)
         inside = QVBoxLayout()
         inside.setContentsMargins(line // 2, line // 4, line // 2, 0)
         inside.setSpacing(line // 4)
-        inside.addWidget(_label(title, "heading"))
-        inside.addWidget(_label(sentence, "hint"))
+        inside.addWidget(_label(example.title, "heading"))
+        inside.addWidget(_label(example.sentence, "hint"))
         inside.addWidget(self.signs)
         inside.addStretch(1)
-        inside.addLayout(self._buttons(title, line))
+        inside.addLayout(self._buttons(example.title, line))
         box = QVBoxLayout(self)
         box.setContentsMargins(2, 2, 2, line // 2)
         box.setSpacing(0)
@@ -239,13 +245,18 @@ class Card(QFrame):
     def _buttons(self, title: str, line: int) -> Flow:
         row = Flow(spacing=line // 3)
         row.setContentsMargins(0, line // 4, 0, 0)
-        self.try_button = QPushButton(tr("Try on the simulator"))
+        named = text_of(title)
+        self.try_button = labelled(
+            QPushButton(),
+            text="Try on the simulator",
+            name=text_of("Try “{example}” on the simulator", example=named),
+        )
         self.try_button.setIcon(icon("play", self._look.theme))
         self.try_button.setIconSize(icon_room(line))
-        self.try_button.setAccessibleName(tr("Try “{example}” on the simulator", example=title))
         self.try_button.clicked.connect(self.try_requested)
-        self.open_button = QPushButton(tr("Open"))
-        self.open_button.setAccessibleName(tr("Open “{example}”", example=title))
+        self.open_button = labelled(
+            QPushButton(), text="Open", name=text_of("Open “{example}”", example=named)
+        )
         self.open_button.clicked.connect(self.clicked)
         for button in (self.try_button, self.open_button):
             button.setCursor(Qt.CursorShape.ArrowCursor)
@@ -254,11 +265,14 @@ class Card(QFrame):
 
     def set_width(self, width: int) -> None:
         """Be so wide, and as high as that needs."""
-        layout = self.layout()
-        if layout is None or self.minimumWidth() == width:
-            return
-        self.setFixedWidth(width)
-        self.setMinimumHeight(layout.totalHeightForWidth(width))
+        if self.minimumWidth() != width:
+            self.setFixedWidth(width)
+            self._fit_height()
+
+    def _fit_height(self) -> None:
+        if (layout := self.layout()) is not None:
+            layout.invalidate()  # it would keep the height of other words
+            self.setMinimumHeight(layout.totalHeightForWidth(self.minimumWidth()))
 
     def picture_size(self) -> QSize:
         """How large the picture is, in pixels of the window."""
@@ -321,7 +335,7 @@ class Card(QFrame):
 
 
 def _label(words: str, role: str) -> QLabel:
-    label = QLabel(words)
+    label = labelled(QLabel(), text=words)
     label.setWordWrap(True)
     label.setProperty("role", role)
     begin_where_reading_begins(label)
@@ -377,6 +391,12 @@ class Gallery(QWidget):
         self._settling = QTimer(self, singleShot=True, interval=SETTLED_MS)
         self._settling.timeout.connect(self._on_settled)
         self._fill()
+        studio.words_changed.connect(self._on_words_changed)
+
+    def _on_words_changed(self) -> None:
+        """Paint the blocks in other words, one example at a time."""
+        self._unpainted = list(self._cards)
+        self._painting.start()
 
     def _fill(self) -> None:
         line = self.fontMetrics().height()
@@ -385,7 +405,7 @@ class Gallery(QWidget):
         box.setSpacing(line // 2)
         box.addLayout(self._search_row(line))
         box.addWidget(self._tag_row(line))
-        self.nothing = QLabel(tr("No example is about this. Try fewer words."))
+        self.nothing = labelled(QLabel(), text="No example is about this. Try fewer words.")
         self.nothing.setProperty("role", "hint")
         self.nothing.setWordWrap(True)
         self.nothing.hide()
@@ -414,9 +434,7 @@ class Gallery(QWidget):
 
     def _search_row(self, line: int) -> QHBoxLayout:
         row = QHBoxLayout()
-        self.search = SearchLine()
-        self.search.setPlaceholderText(tr("Find an example"))
-        self.search.setAccessibleName(tr("Find an example"))
+        self.search = labelled(SearchLine(), placeholder="Find an example", name="Find an example")
         self.search.setClearButtonEnabled(True)
         self.search.addAction(
             icon("search", self._studio.look.theme), QLineEdit.ActionPosition.LeadingPosition
@@ -436,7 +454,7 @@ class Gallery(QWidget):
         flow = Flow(row, spacing=line // 3)
         counts = Counter(tag for example in examples() for tag in example.tags)
         for tag in (tag for tag, count in counts.items() if count >= FEWEST_WITH_TAG):
-            button = self.tag_buttons[tag] = QPushButton(tag_words(tag))
+            button = self.tag_buttons[tag] = labelled(QPushButton(), text=TAGS.get(tag, tag))
             button.setCheckable(True)
             button.clicked.connect(lambda _=False, tag=tag: self._on_tag_clicked(tag))
             flow.addWidget(button)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,18 +13,20 @@ from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar
 
 from nep_studio.ui.actions import Actions
 from nep_studio.ui.document_files import PICTURES, SUFFIX, FileChooser
+from nep_studio.ui.labels import follow_words
 from nep_studio.ui.message_cards import MessageArea
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.running.actions import fill_run_menu, follow_running
 from nep_studio.ui.services import Services, Studio
 from nep_studio.ui.theme.icons import fit_icons
-from nep_studio.ui.words import is_right_to_left, tr
+from nep_studio.ui.words import tr
 
 from .dialogs import offer_recovery, open_settings
 from .menus import (
     add_edit_menu,
     add_file_menu,
     add_help_menu,
+    add_menu,
     add_toolbar,
     add_view_menu,
     size_toolbar,
@@ -75,7 +76,6 @@ MODULES = (
 class LazyInitialiser(QObject):
     """The workbench and what stands around it, made by one step after the other.
 
-    It is made again each time that the window is made anew.
     ``completed`` comes when all is there.
     """
 
@@ -84,9 +84,9 @@ class LazyInitialiser(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window = window
-        self._steps: Iterator[None] = iter(())
+        self._steps = self._make()
         self._is_working = False
-        self._is_unfinished = False
+        self._is_unfinished = True
         self.is_laid_out = False
         """Whether the panels are to have the sizes that the person gave them."""
         self.made_workbench: Workbench | None = None
@@ -110,11 +110,6 @@ class LazyInitialiser(QObject):
             self.finish()
         assert self.made_workbench is not None
         return self.made_workbench
-
-    def begin(self) -> None:
-        """Let everything be made anew, once it is needed."""
-        self.made_workbench = None
-        self._steps, self._is_unfinished = self._make(), True
 
     def go_on_after_paint(self) -> None:
         """Make a step at each turn of the event loop, once the window has been painted."""
@@ -213,7 +208,6 @@ FIRST_SIZE = (1280, 800)
 class MainWindow(QMainWindow):
     """One window with at most one project.
 
-    What is in it is made anew when the language changes; the project and its history stay.
     With ``is_gradual`` the first page is there first: the workbench and what stands around it
     are made after that has been painted, or when they are needed.
     """
@@ -242,9 +236,8 @@ class MainWindow(QMainWindow):
             self.lazy.finish()
         self.files.document_changed.connect(self._on_document_changed)
         self.files.opening_changed.connect(self._on_opening_changed)
-        studio.words_changed.connect(self._on_words_changed)
         self.look.theme_changed.connect(self._on_theme_changed)
-        self._show_title()
+        follow_words(self, self._say)
 
     @property
     def workbench(self) -> Workbench:
@@ -262,8 +255,7 @@ class MainWindow(QMainWindow):
         return RunControl(self.host)
 
     def _build(self) -> None:
-        """Make all that has words in it: the first page now, the rest later."""
-        self._is_mirrored = is_right_to_left()
+        """Make what is there from the first: the first page, the menus, the toolbar."""
         self.pages = QStackedWidget()
         self.setCentralWidget(self.pages)
         self.start_page = StartPage(self.studio, self.files)
@@ -277,16 +269,12 @@ class MainWindow(QMainWindow):
             "file": add_file_menu(self),
             "edit": add_edit_menu(self),
             "view": add_view_menu(self),
-            "run": self.menuBar().addMenu(tr("&Run")),
-            "robots": self.menuBar().addMenu(tr("R&obots")),
+            "run": add_menu(self, "&Run"),
+            "robots": add_menu(self, "R&obots"),
         }
         fill_run_menu(self.menus["run"], self.host)
         self.menus["help"] = add_help_menu(self)
         self.toolbar: QToolBar = add_toolbar(self)
-        self.host.begin()
-        self.lazy.begin()
-        self._on_problems_found([])
-        self.update_actions()
         fit_icons(self.pages)
 
     def follow_workbench(self) -> None:
@@ -326,7 +314,8 @@ class MainWindow(QMainWindow):
     def reset_panels(self) -> None:
         """Put the panels back to where they were at first."""
         self.settings.forget_window()
-        self._rebuild()
+        self.workbench.reset(self.fontMetrics().height())
+        self.actions_by_name["minimap"].setChecked(self.settings.is_minimap_shown)
 
     def show_problems(self) -> None:
         """Check now, and show the problems."""
@@ -371,7 +360,7 @@ class MainWindow(QMainWindow):
         if document is not None and not document.project.blocks:
             problems = []  # that nothing happens yet is no news to somebody who begins
         worst = problems[0].severity if problems else ""
-        shown = (len(problems), worst, is_open, self.look.theme, self.toolbar)
+        shown = (len(problems), worst, is_open, self.look.theme)
         if shown == self._shown_problems:
             return  # as after most keys: nothing has changed on the toolbar
         self._shown_problems = shown
@@ -389,41 +378,19 @@ class MainWindow(QMainWindow):
             self.messages.tell(self._opening_message)
 
     def _on_theme_changed(self) -> None:
-        size_toolbar(self.toolbar)
         fit_icons(self.pages)
+        self._show_check()
+
+    def _show_check(self) -> None:
         self._on_problems_found(self.workbench.checks.problems if self.lazy.is_done else [])
+        size_toolbar(self.toolbar)
 
-    def _on_words_changed(self) -> None:
-        if self.files.document is not None:
-            self.files.document.use_language(self.studio.language)
-        self._rebuild()
-
-    def _rebuild(self) -> None:
-        """Make the contents of the window anew, and show the same place of the same project."""
-        old, page = self.workbench, self.workbench.canvas.page
-        camera, selected = replace(old.canvas.sight.camera), old.canvas.selection.ids
-        was_mirrored = self._is_mirrored
-        old.retire()
-        self.menuBar().clear()
-        for menu in self.menus.values():
-            menu.setParent(None)  # to clear the menu bar does not delete its menus
-            menu.deleteLater()
-        self.removeToolBar(self.toolbar)
-        self.toolbar.deleteLater()
-        self.actions_by_name.retire()
-        self._build()
-        self._on_document_changed(self.files.document)
-        canvas = self.workbench.canvas
-        if self.files.document is not None:
-            canvas.show_page(page)
-            canvas.selection.set(selected)
-            canvas.sight.zoom(camera.scale)
-            if was_mirrored == self._is_mirrored:
-                canvas.sight.move_camera(camera.x, camera.y)
-            else:  # the page is read from its other side now
-                canvas.sight.show_beginning()
-            if selected:
-                canvas.show_block(selected[0])
+    def _say(self) -> None:
+        """Tell what depends on more than the language."""
+        self._show_title()
+        self.update_actions()
+        self._shown_problems = ()
+        self._show_check()
 
     # Closing
 

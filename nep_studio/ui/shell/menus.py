@@ -16,15 +16,16 @@ from PySide6.QtWidgets import (
     QToolButton,
 )
 
-from faults import Words
+from faults import Words, verbatim
 from nep_studio.settings import SYSTEM
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.words import available_languages, count_words, tr
 
 from .dialogs import show_about, show_report, show_shortcuts
-from .gallery import example_files, example_title
+from .gallery import example_files, example_words
 
 if TYPE_CHECKING:
     from nep_studio.blocks.checks.problem import Problem
@@ -55,7 +56,7 @@ NEEDS_PROJECT = (
 
 def add_edit_menu(window: MainWindow) -> QMenu:
     """Make the Edit menu."""
-    menu, actions = window.menuBar().addMenu(tr("&Edit")), window.actions_by_name
+    menu, actions = add_menu(window, "&Edit"), window.actions_by_name
     add = actions.add
 
     def commands() -> Commands:
@@ -63,10 +64,10 @@ def add_edit_menu(window: MainWindow) -> QMenu:
 
     menu.addActions(
         [
-            add("undo", tr("Undo"), lambda: commands().undo(), icon_name="undo-2", keys=Key.Undo),
+            add("undo", "Undo", lambda: commands().undo(), icon_name="undo-2", keys=Key.Undo),
             add(
                 "redo",
-                tr("Redo"),
+                "Redo",
                 lambda: commands().redo(),
                 icon_name="redo-2",
                 keys=(Key.Redo, "Ctrl+Y"),
@@ -77,19 +78,19 @@ def add_edit_menu(window: MainWindow) -> QMenu:
     cut, copy, paste = _in_texts_too(commands)
     menu.addActions(
         [
-            add("cut", tr("Cut"), cut, icon_name="scissors", keys=Key.Cut),
-            add("copy", tr("Copy"), copy, icon_name="copy", keys=Key.Copy),
-            add("paste", tr("Paste"), paste, icon_name="clipboard-paste", keys=Key.Paste),
+            add("cut", "Cut", cut, icon_name="scissors", keys=Key.Cut),
+            add("copy", "Copy", copy, icon_name="copy", keys=Key.Copy),
+            add("paste", "Paste", paste, icon_name="clipboard-paste", keys=Key.Paste),
             add(
                 "duplicate",
-                tr("Duplicate"),
+                "Duplicate",
                 lambda: commands().duplicate(),
                 icon_name="copy-plus",
                 keys="Ctrl+D",
             ),
             add(
                 "delete",
-                tr("Delete"),
+                "Delete",
                 lambda: commands().delete(),
                 icon_name="trash-2",
                 keys=Key.Delete,
@@ -101,7 +102,7 @@ def add_edit_menu(window: MainWindow) -> QMenu:
     menu.addSeparator()
     menu.addActions(_finding(window))
     menu.addSeparator()
-    settings = add("settings", tr("Settings…"), window.open_settings, icon_name="settings")
+    settings = add("settings", "Settings…", window.open_settings, icon_name="settings")
     settings.setMenuRole(settings.MenuRole.PreferencesRole)
     settings.setShortcuts(QKeySequence.keyBindings(Key.Preferences))
     menu.addAction(settings)
@@ -112,29 +113,29 @@ def add_edit_menu(window: MainWindow) -> QMenu:
 def _about_blocks(window: MainWindow, commands: Callable[[], Commands]) -> list[QAction]:
     add = window.actions_by_name.add
     return [
-        add("select_all", tr("Select all"), lambda: commands().select_all(), keys=Key.SelectAll),
+        add("select_all", "Select all", lambda: commands().select_all(), keys=Key.SelectAll),
         add(
             "disable",
-            tr("Switch off or on"),
+            "Switch off or on",
             lambda: commands().toggle("disabled"),
             icon_name="eye-off",
         ),
         add(
             "collapse",
-            tr("Fold or unfold"),
+            "Fold or unfold",
             lambda: commands().toggle("collapsed"),
             icon_name="fold-vertical",
         ),
         add(
             "tidy",
-            tr("Tidy up"),
+            "Tidy up",
             lambda: commands().tidy(),
             icon_name="brush",
-            tip=tr("Push stacks apart that overlap"),
+            tip="Push stacks apart that overlap",
         ),
         add(
             "add_page",
-            tr("Add a page"),
+            "Add a page",
             lambda: window.workbench.pages_bar.add_page(),
             icon_name="plus",
         ),
@@ -151,15 +152,15 @@ def _finding(window: MainWindow) -> list[QAction]:
         window.workbench.helpers.insert_bar.open()
 
     return [
-        add("find", tr("Find…"), lambda: find().open(), icon_name="search", keys=Key.Find),
-        add("find_next", tr("Find next"), lambda: find().find_next(), keys=Key.FindNext),
+        add("find", "Find…", lambda: find().open(), icon_name="search", keys=Key.Find),
+        add("find_next", "Find next", lambda: find().find_next(), keys=Key.FindNext),
         add(
             "find_previous",
-            tr("Find previous"),
+            "Find previous",
             lambda: find().find_previous(),
             keys=Key.FindPrevious,
         ),
-        add("insert", tr("Insert by typing…"), insert, icon_name="keyboard", keys="Ctrl+Space"),
+        add("insert", "Insert by typing…", insert, icon_name="keyboard", keys="Ctrl+Space"),
     ]
 
 
@@ -184,29 +185,27 @@ def update_edit_actions(window: MainWindow) -> None:
     actions.enable(bool(selected), *NEEDS_SELECTION)
     actions.enable(is_open and data is not None and bool(data.formats()), "paste")
     actions.enable(is_open, *NEEDS_PROJECT)
-    _label(
-        window,
-        "undo",
-        document.editor.history.undo_label if document else "",
-        tr("Undo"),
-        "Undo “{step}”",
-    )
-    _label(
-        window,
-        "redo",
-        document.editor.history.redo_label if document else "",
-        tr("Redo"),
-        "Redo “{step}”",
-    )
+    history = document.editor.history if document else None
+    _label(window, "undo", history.undo_label if history else "", "Undo", "Undo “{step}”")
+    _label(window, "redo", history.redo_label if history else "", "Redo", "Redo “{step}”")
 
 
 def _label(window: MainWindow, name: str, step: Words, plain: str, with_step: str) -> None:
     action = window.actions_by_name[name]
-    words = tr(with_step, step=tr(step)) if step else plain
+    words = tr(with_step, step=tr(step)) if step else tr(plain)
     action.setEnabled(bool(step))
     action.setText(words)
-    action.setIconText(plain)
+    action.setIconText(tr(plain))
     action.setToolTip(words)
+
+
+def add_menu(window: MainWindow, words: str) -> QMenu:
+    """Make a menu of the menu bar, with the letter that opens it."""
+    return labelled(window.menuBar().addMenu(""), title=words)
+
+
+def _submenu(menu: QMenu, window: MainWindow, icon_name: str, words: str) -> QMenu:
+    return labelled(menu.addMenu(icon(icon_name, window.look.theme), ""), title=words)
 
 
 # The File menu.
@@ -214,45 +213,39 @@ def _label(window: MainWindow, name: str, step: Words, plain: str, with_step: st
 
 def add_file_menu(window: MainWindow) -> QMenu:
     """Make the File menu."""
-    menu, actions, files = (
-        window.menuBar().addMenu(tr("&File")),
-        window.actions_by_name,
-        window.files,
-    )
-    menu.addAction(actions.add("new", tr("New"), files.new, icon_name="file-plus", keys=Key.New))
-    open_ = actions.add("open", tr("Open…"), files.choose, icon_name="folder-open", keys=Key.Open)
+    menu, actions, files = add_menu(window, "&File"), window.actions_by_name, window.files
+    menu.addAction(actions.add("new", "New", files.new, icon_name="file-plus", keys=Key.New))
+    open_ = actions.add("open", "Open…", files.choose, icon_name="folder-open", keys=Key.Open)
     menu.addAction(open_)
-    recent = menu.addMenu(icon("history", window.look.theme), tr("Open recent"))
+    recent = _submenu(menu, window, "history", "Open recent")
     recent.aboutToShow.connect(lambda: fill_recent(recent, window))
-    _add_examples(menu.addMenu(icon("graduation-cap", window.look.theme), tr("Examples")), window)
+    _add_examples(_submenu(menu, window, "graduation-cap", "Examples"), window)
     menu.addSeparator()
-    save = actions.add("save", tr("Save"), files.save, icon_name="save", keys=Key.Save)
+    save = actions.add("save", "Save", files.save, icon_name="save", keys=Key.Save)
     save_as = actions.add(
         "save_as",
-        tr("Save as…"),
+        "Save as…",
         files.save_as,
         icon_name="save-all",
         keys=(Key.SaveAs, "Ctrl+Shift+S"),
     )
     compare = actions.add(
         "compare",
-        tr("Compare with the saved version…"),
+        "Compare with the saved version…",
         lambda: _compare(window),
         icon_name="file-text",
     )
     menu.addActions([save, save_as, compare])
     picture = actions.add(
         "picture",
-        tr("Export picture…"),
+        "Export picture…",
         lambda: window.host.ask("exporting.picture"),
         icon_name="image",
     )
     menu.addAction(picture)
     menu.addSeparator()
-    menu.addAction(actions.add("close", tr("Close the project"), files.close, keys=Key.Close))
-    leave = actions.add(
-        "quit", tr("Quit"), window.close, icon_name="power", keys=(Key.Quit, "Ctrl+Q")
-    )
+    menu.addAction(actions.add("close", "Close the project", files.close, keys=Key.Close))
+    leave = actions.add("quit", "Quit", window.close, icon_name="power", keys=(Key.Quit, "Ctrl+Q"))
     menu.addAction(leave)
     return menu
 
@@ -280,7 +273,7 @@ def fill_recent(menu: QMenu, window: MainWindow) -> None:
 
 def _add_examples(menu: QMenu, window: MainWindow) -> None:
     for path in example_files():
-        action = menu.addAction(example_title(path))
+        action = labelled(menu.addAction(""), text=example_words(path))
         action.triggered.connect(lambda _=False, path=path: window.files.open_example(path))
 
 
@@ -309,11 +302,7 @@ WORDS_KEPT = (
 
 def add_view_menu(window: MainWindow) -> QMenu:
     """Make the View menu."""
-    menu, add, theme = (
-        window.menuBar().addMenu(tr("&View")),
-        window.actions_by_name.add,
-        window.look.theme,
-    )
+    menu, add = add_menu(window, "&View"), window.actions_by_name.add
 
     def zoom(factor: float) -> None:
         canvas = window.workbench.canvas
@@ -323,22 +312,22 @@ def add_view_menu(window: MainWindow) -> QMenu:
         [
             add(
                 "zoom_in",
-                tr("Zoom in"),
+                "Zoom in",
                 lambda: zoom(ZOOM_STEP),
                 icon_name="zoom-in",
                 keys=(Key.ZoomIn, "Ctrl+="),
             ),
             add(
                 "zoom_out",
-                tr("Zoom out"),
+                "Zoom out",
                 lambda: zoom(1 / ZOOM_STEP),
                 icon_name="zoom-out",
                 keys=Key.ZoomOut,
             ),
-            add("zoom_100", tr("Usual size"), lambda: window.workbench.zoom_usual(), keys="Ctrl+0"),
+            add("zoom_100", "Usual size", lambda: window.workbench.zoom_usual(), keys="Ctrl+0"),
             add(
                 "zoom_fit",
-                tr("Show all"),
+                "Show all",
                 lambda: window.workbench.canvas.sight.fit(),
                 icon_name="maximize",
                 keys="Ctrl+9",
@@ -346,36 +335,27 @@ def add_view_menu(window: MainWindow) -> QMenu:
         ]
     )
     menu.addSeparator()
-    panels = menu.addMenu(icon("panel-right", theme), tr("Panels"))
+    panels = _submenu(menu, window, "panel-right", "Panels")
     panels.aboutToShow.connect(lambda: _fill_panels(panels, window))
-    minimap = add("minimap", tr("Minimap"), lambda: None, icon_name="map")
+    minimap = add("minimap", "Minimap", lambda: None, icon_name="map")
     minimap.setCheckable(True)
     minimap.setChecked(window.settings.is_minimap_shown)
     minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
     menu.addAction(minimap)
-    check = add("check", tr("Check"), window.show_problems, icon_name="circle-check", keys="F8")
-    check.setToolTip(tr("Show what is not right yet"))
+    check = add("check", "Check", window.show_problems, icon_name="circle-check", keys="F8")
     menu.addAction(check)
     menu.addSeparator()
+    settings, studio = window.settings, window.studio
+    choices = _submenu(menu, window, "contrast", "Theme")
+    _add_choices(choices, _themes(), lambda: settings.theme, studio.choose_theme)
+    choices = _submenu(menu, window, "languages", "Language")
+    _add_choices(choices, _languages(), lambda: settings.language, studio.choose_language)
+    choices = _submenu(menu, window, "type", "Size of the text")
     _add_choices(
-        menu.addMenu(icon("contrast", theme), tr("Theme")),
-        _themes(),
-        window.settings.theme,
-        window.studio.choose_theme,
-    )
-    _add_choices(
-        menu.addMenu(icon("languages", theme), tr("Language")),
-        _languages(),
-        window.settings.language,
-        window.studio.choose_language,
-    )
-    scales = [(f"{scale:g}", f"{scale:.0%}") for scale in TEXT_SCALES]
-    chosen = f"{window.settings.text_scale:g}"
-    _add_choices(
-        menu.addMenu(icon("type", theme), tr("Size of the text")),
-        scales,
-        chosen,
-        lambda scale: window.studio.choose_text_scale(float(scale)),
+        choices,
+        [(f"{scale:g}", verbatim(f"{scale:.0%}")) for scale in TEXT_SCALES],
+        lambda: f"{settings.text_scale:g}",
+        lambda scale: studio.choose_text_scale(float(scale)),
     )
     menu.addSeparator()  # before what plugins add
     return menu
@@ -389,21 +369,27 @@ def _fill_panels(menu: QMenu, window: MainWindow) -> None:
 
 def add_help_menu(window: MainWindow) -> QMenu:
     """Make the Help menu."""
-    menu, add = window.menuBar().addMenu(tr("&Help")), window.actions_by_name.add
+    menu, add = add_menu(window, "&Help"), window.actions_by_name.add
     menu.addActions(_help_actions(window))
     menu.addSeparator()
     menu.addAction(
         add(
             "shortcuts",
-            tr("Keyboard shortcuts"),
+            "Keyboard shortcuts",
             lambda: show_shortcuts(window),
             icon_name="keyboard",
             keys="Ctrl+F1",
         )
     )
-    report = tr("Report for support…")
-    menu.addAction(add("report", report, lambda: show_report(window), icon_name="file-text"))
-    about = add("about", tr("About NEP Studio"), lambda: show_about(window), icon_name="info")
+    menu.addAction(
+        add(
+            "report",
+            "Report for support…",
+            lambda: show_report(window),
+            icon_name="file-text",
+        )
+    )
+    about = add("about", "About NEP Studio", lambda: show_about(window), icon_name="info")
     about.setMenuRole(about.MenuRole.AboutRole)
     menu.addAction(about)
     return menu
@@ -414,19 +400,24 @@ def _help_actions(window: MainWindow) -> list[QAction]:
     add, sign = window.actions_by_name.add, "circle-question-mark"
     ask = window.host.ask
 
-    contents, search = tr("Contents of the help"), tr("Search the help…")
-    pages = tr("Documentation in the browser")
     return [
-        add("help", tr("Help"), lambda: ask("help.answer"), icon_name=sign, keys="F1"),
-        add("help_contents", contents, lambda: ask("help.open"), icon_name="book-open"),
-        add("help_search", search, lambda: ask("help.search"), icon_name="search"),
-        add("documentation", pages, lambda: ask("help.documentation"), icon_name="external-link"),
+        add("help", "Help", lambda: ask("help.answer"), icon_name=sign, keys="F1"),
+        add(
+            "help_contents", "Contents of the help", lambda: ask("help.open"), icon_name="book-open"
+        ),
+        add("help_search", "Search the help…", lambda: ask("help.search"), icon_name="search"),
+        add(
+            "documentation",
+            "Documentation in the browser",
+            lambda: ask("help.documentation"),
+            icon_name="external-link",
+        ),
     ]
 
 
 def add_toolbar(window: MainWindow) -> QToolBar:
     """Make the toolbar: few big clear buttons."""
-    bar = QToolBar(tr("Tools"), window)
+    bar = labelled(QToolBar(window), window_title="Tools")
     bar.setObjectName("tools")
     bar.setMovable(False)
     bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
@@ -471,8 +462,7 @@ def _dress_rest(bar: QToolBar, side: int) -> None:
     if more is not None:
         more.setIcon(icon("chevron-down", bar.palette().color(QPalette.ColorRole.WindowText)))
         more.setIconSize(QSize(side, side))  # Qt makes it as narrow as it likes
-        more.setToolTip(tr("More"))
-        more.setAccessibleName(tr("More"))
+        labelled(more, tip="More", name="More")
 
 
 def _button(bar: QToolBar, name: str) -> QToolButton:
@@ -482,26 +472,35 @@ def _button(bar: QToolBar, name: str) -> QToolButton:
     return button
 
 
-def _themes() -> list[tuple[str, str]]:
-    named = [(name, tr(load_theme(name).title)) for name in themes()]
-    return [(SYSTEM, tr("Like the computer's")), *named]
+def _themes() -> list[tuple[str, Words]]:
+    return [(SYSTEM, "Like the computer's"), *((name, load_theme(name).title) for name in themes())]
 
 
-def _languages() -> list[tuple[str, str]]:
-    return [(SYSTEM, tr("Like the computer's")), *available_languages().items()]
+def _languages() -> list[tuple[str, Words]]:
+    named = available_languages().items()
+    return [(SYSTEM, "Like the computer's"), *((code, verbatim(name)) for code, name in named)]
 
 
 def _add_choices(
-    menu: QMenu, choices: Iterable[tuple[str, str]], chosen: str, choose: Callable[[str], object]
+    menu: QMenu,
+    choices: Iterable[tuple[str, Words]],
+    chosen: Callable[[], str],
+    choose: Callable[[str], object],
 ) -> None:
-    """One of several, with a mark before it."""
+    """One of several, with a mark before the one that is chosen, here or elsewhere."""
     group = QActionGroup(menu)
     for value, words in choices:
-        action = menu.addAction(words)
+        action = labelled(menu.addAction(""), text=words)
         action.setCheckable(True)
-        action.setChecked(value == chosen)
         action.setData(value)
         group.addAction(action)
+
+    def mark() -> None:
+        for action in group.actions():
+            action.setChecked(action.data() == chosen())
+
+    mark()
+    menu.aboutToShow.connect(mark)
     group.triggered.connect(lambda action: choose(action.data()))
 
 

@@ -27,7 +27,9 @@ class WindowHost:
     def __init__(self, window: MainWindow) -> None:
         self._window = window
         self._kept: dict[type, object] = {}
-        self._commands: dict[str, Callable[..., object]] = {}
+        self._commands: dict[str, Callable[..., object]] = {
+            "start_page.tour_taken": lambda: window.start_page.tour_offer.hide()
+        }
         self.with_a_project: list[str] = []
         """The actions of plugins that need an open project."""
 
@@ -79,11 +81,6 @@ class WindowHost:
         return cast("Kept", self._kept[kind])
 
     # What the window does with what plugins bring
-
-    def begin(self) -> None:
-        """Forget what was brought: it is brought anew, in other words."""
-        self.with_a_project.clear()
-        self._commands = {"start_page.tour_taken": self._window.start_page.tour_offer.hide}
 
     def take(self, plugin: Plugin, parts: Parts) -> None:
         """Put the parts of a plugin into the window."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import Words, text_of, verbatim
 from nep_studio import __version__
 from nep_studio.settings import (
     LARGEST_TEXT,
@@ -41,10 +42,11 @@ from nep_studio.settings import (
 )
 from nep_studio.support.updates import Newest, UpdateChoice, ask, is_usable
 from nep_studio.ui.background import Background
+from nep_studio.ui.labels import labelled, labelled_items
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
-from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of
 from nep_studio.ui.words import available_languages, tr
 
 if TYPE_CHECKING:
@@ -56,7 +58,12 @@ if TYPE_CHECKING:
 TEXT_STEP = 5
 """Percent between two sizes of the text."""
 
-FOLDERS: tuple[FolderName, ...] = ("projects", "recordings", "logs")
+FOLDERS: dict[FolderName, str] = {
+    "projects": "Projects",
+    "recordings": "Recordings",
+    "logs": "Logs of nodes",
+}
+FOLDER_BUTTONS = ("Open", "Change…", "Reset")
 
 
 class LookPage(QWidget):
@@ -66,18 +73,17 @@ class LookPage(QWidget):
 
     def __init__(self, settings: Settings) -> None:
         super().__init__()
-        system = {SYSTEM: tr("Like the computer's")}
-        self.language = _choice({**system, **available_languages()}, settings.language)
-        named = {name: tr(load_theme(name).title) for name in themes()}
-        self.theme = _choice({**system, **named}, settings.theme)
+        languages = {code: verbatim(name) for code, name in available_languages().items()}
+        self.language = _choice(languages, settings.language)
+        self.theme = _choice({name: load_theme(name).title for name in themes()}, settings.theme)
         self.text_size = QSlider(Qt.Orientation.Horizontal)
         self.text_percent = QLabel()
         self._set_up_slider(settings.text_scale)
         form = _form(self)
-        form.addRow(tr("Language"), self.language)
-        form.addRow(tr("Theme"), self.theme)
-        form.addRow(tr("Size of the text"), self._size_row())
-        form.addRow("", _hint(tr("The window makes no sounds, and nothing in it moves by itself.")))
+        form.addRow(label_of("Language", self.language), self.language)
+        form.addRow(label_of("Theme", self.theme), self.theme)
+        form.addRow(label_of("Size of the text", self.text_size), self._size_row())
+        form.addRow("", hint("The window makes no sounds, and nothing in it moves by itself."))
         self.text_size.valueChanged.connect(self._show_percent)
         self.text_size.sliderReleased.connect(self.size_chosen)
         self.text_size.actionTriggered.connect(self._on_size_stepped)
@@ -89,7 +95,6 @@ class LookPage(QWidget):
         )
         slider.setPageStep(5)
         slider.setValue(round(100 * scale / TEXT_STEP))
-        slider.setAccessibleName(tr("Size of the text"))
         self._show_percent(slider.value())
 
     def _size_row(self) -> QHBoxLayout:
@@ -117,22 +122,17 @@ class FoldersPage(QWidget):
         self._settings = settings
         self.paths = {name: ElidedLabel() for name in FOLDERS}
         self.reset_buttons: dict[FolderName, QPushButton] = {}
-        titles = {
-            "projects": tr("Projects"),
-            "recordings": tr("Recordings"),
-            "logs": tr("Logs of nodes"),
-        }
         grid = QGridLayout(self)
         line = self.fontMetrics().height()
         grid.setContentsMargins(line, line, line, line)
         grid.setVerticalSpacing(line // 2)
         grid.setColumnStretch(1, 1)
-        for row, name in enumerate(FOLDERS):
-            grid.addWidget(QLabel(titles[name]), row, 0)
+        for row, (name, title) in enumerate(FOLDERS.items()):
+            grid.addWidget(labelled(QLabel(), text=title), row, 0)
             grid.addWidget(self.paths[name], row, 1)
-            grid.addLayout(self._buttons(name, titles[name]), row, 2)
-        words = tr("Another folder for logs is used when the network is started the next time.")
-        grid.addWidget(_hint(words), len(FOLDERS), 0, 1, 3)
+            grid.addLayout(self._buttons(name, title), row, 2)
+        below = hint("Another folder for logs is used when the network is started the next time.")
+        grid.addWidget(below, len(FOLDERS), 0, 1, 3)
         grid.setRowStretch(len(FOLDERS) + 1, 1)
         self._refresh()
 
@@ -143,14 +143,11 @@ class FoldersPage(QWidget):
 
     def _buttons(self, name: FolderName, title: str) -> QHBoxLayout:
         row = QHBoxLayout()
-        for words, do in (
-            (tr("Open"), self._on_open),
-            (tr("Change…"), self._on_change),
-            (tr("Reset"), self._on_reset),
-        ):
-            button = QPushButton(words)
+        does = (self._on_open, self._on_change, self._on_reset)
+        for words, do in zip(FOLDER_BUTTONS, does, strict=True):
+            named = text_of("{name}: {kind}", name=text_of(title), kind=text_of(words))
+            button = labelled(QPushButton(), text=words, name=named)
             button.setAutoDefault(False)
-            button.setAccessibleName(f"{title}: {words}")
             button.clicked.connect(lambda _=False, do=do: do(name))
             row.addWidget(button)
         self.reset_buttons[name] = button
@@ -187,18 +184,17 @@ class ShowPage(QWidget):
         super().__init__()
         self._settings = settings
         chosen = settings.show_options
-        self.at_once = QCheckBox(tr("Run at once"))
+        self.at_once = labelled(QCheckBox(), text="Run at once")
         self.at_once.setChecked(chosen.runs_at_once)
-        self.again = QCheckBox(tr("Begin again when the program has ended"))
+        self.again = labelled(QCheckBox(), text="Begin again when the program has ended")
         self.again.setChecked(chosen.again)
-        self.cues = QCheckBox(tr("Show the cue buttons, for an operator"))
+        self.cues = labelled(QCheckBox(), text="Show the cue buttons, for an operator")
         self.cues.setChecked(chosen.has_cues)
         self.restarts = QSpinBox()
         self.restarts.setRange(0, MOST_RESTARTS)
         self.restarts.setValue(chosen.restarts)
         self.pin = QLineEdit()
         self.pin.setEchoMode(QLineEdit.EchoMode.Password)
-        self.pin.setPlaceholderText(tr("A new PIN"))
         self.pin_button = QPushButton()
         self.pin_button.setAutoDefault(False)
         pin = QHBoxLayout()
@@ -208,9 +204,10 @@ class ShowPage(QWidget):
         for box in (self.at_once, self.again, self.cues):
             form.addRow(box)
             box.toggled.connect(self._on_chosen)
-        form.addRow(tr("After errors in a row, begin again at most"), self.restarts)
-        form.addRow(tr("PIN to leave"), pin)
-        form.addRow(_hint(tr("To leave a show, hold Esc or its title for two seconds.")))
+        most = label_of("After errors in a row, begin again at most", self.restarts)
+        form.addRow(most, self.restarts)
+        form.addRow(label_of("PIN to leave", self.pin), pin)
+        form.addRow(hint("To leave a show, hold Esc or its title for two seconds."))
         self.restarts.valueChanged.connect(self._on_chosen)
         self.pin.textChanged.connect(self._show_pin)
         self.pin_button.clicked.connect(self._on_pin)
@@ -227,9 +224,10 @@ class ShowPage(QWidget):
 
     def _show_pin(self) -> None:
         has_pin, is_new = self._settings.has_pin, bool(self.pin.text())
-        self.pin_button.setText(tr("Set the PIN") if is_new or not has_pin else tr("Without PIN"))
+        is_set = is_new or not has_pin
+        labelled(self.pin_button, text="Set the PIN" if is_set else "Without PIN")
         self.pin_button.setEnabled(is_new or has_pin)
-        self.pin.setPlaceholderText(tr("There is a PIN") if has_pin else tr("A new PIN"))
+        labelled(self.pin, placeholder="There is a PIN" if has_pin else "A new PIN")
 
     def _on_pin(self) -> None:
         self._settings.set_pin(self.pin.text())
@@ -242,15 +240,15 @@ class NetworkPage(QWidget):
 
     def __init__(self, settings: Settings) -> None:
         super().__init__()
-        self.original = QCheckBox(tr("Programs of the original NEP may join"))
+        self.original = labelled(QCheckBox(), text="Programs of the original NEP may join")
         self.original.setChecked(settings.lets_original_join)
         form = _form(self)
         form.addRow(self.original)
-        words = tr(
+        below = hint(
             "Programs of this computer only, by its ports 7000 and 50000. It counts when the"
             " network is started the next time."
         )
-        form.addRow(_hint(words))
+        form.addRow(below)
         self.original.toggled.connect(lambda on: setattr(settings, "lets_original_join", on))
 
 
@@ -264,19 +262,13 @@ def _form(page: QWidget) -> QFormLayout:
     return form
 
 
-def _hint(words: str) -> QLabel:
-    label = QLabel(words)
-    label.setProperty("role", "hint")
-    label.setWordWrap(True)
-    return label
-
-
-def _choice(words: dict[str, str], chosen: str) -> QComboBox:
+def _choice(words: Mapping[str, Words], chosen: str) -> QComboBox:
+    """What the computer says, or one of these."""
     box = QComboBox()
-    for value, word in words.items():
-        box.addItem(word, value)
+    for value in (SYSTEM, *words):
+        box.addItem("", value)
     box.setCurrentIndex(max(0, box.findData(chosen)))
-    return box
+    return labelled_items(box, "Like the computer's", *words.values())
 
 
 # Asks for the newest version in a thread of its own; the window never waits for the answer.
@@ -352,22 +344,21 @@ class PrivacyPage(QWidget):
     def __init__(self, settings: Settings) -> None:
         super().__init__()
         self._choice = UpdateChoice(settings)
-        self.check = QCheckBox(tr("Ask once a day which version of NEP Studio is the newest"))
+        self.check = labelled(
+            QCheckBox(), text="Ask once a day which version of NEP Studio is the newest"
+        )
         self.address = QLineEdit(self._choice.address)
         self.address.setPlaceholderText("https://")
-        self.address.setAccessibleName(tr("Address"))
-        self.ask_button = QPushButton(tr("Ask now"))
+        self.ask_button = labelled(QPushButton(), text="Ask now")
         self.ask_button.setAutoDefault(False)
-        self.state = self._words("")
-        hint = tr(
+        self.state = QLabel(wordWrap=True)
+        self.hint = hint(
             "NEP Studio tells its own version there, and nothing else. It never changes itself."
         )
-        self.hint = self._words(hint, "hint")
-        self.unknown = self._words(
-            tr(
-                "New versions are where you got NEP Studio: it knows no address yet that tells of"
-                " them. If you were given one, write it here."
-            )
+        self.unknown = labelled(
+            QLabel(wordWrap=True),
+            text="New versions are where you got NEP Studio: it knows no address yet that tells of"
+            " them. If you were given one, write it here.",
         )
         self._asking = Asking(self)
         self._lay_out()
@@ -381,18 +372,23 @@ class PrivacyPage(QWidget):
         box = QVBoxLayout(self)
         line = self.fontMetrics().height()
         box.setContentsMargins(line, line, line, line)
-        for words in (
-            tr("NEP Studio sends nothing by itself: projects, recordings and logs stay here."),
-            tr("What it does on the network is talking to your robots, watches and nodes."),
-        ):
-            box.addWidget(self._words(words))
+        box.addWidget(
+            labelled(
+                QLabel(wordWrap=True),
+                text="NEP Studio sends nothing by itself: projects, recordings and logs stay here.",
+            )
+        )
+        box.addWidget(
+            labelled(
+                QLabel(wordWrap=True),
+                text="What it does on the network is talking to your robots, watches and nodes.",
+            )
+        )
         box.addSpacing(line // 2)
         box.addWidget(self.check)
         box.addWidget(self.unknown)
         row = QHBoxLayout()
-        label = QLabel(tr("Address"))
-        label.setBuddy(self.address)
-        row.addWidget(label)
+        row.addWidget(label_of("Address", self.address))
         row.addWidget(self.address, 1)
         row.addWidget(self.ask_button)
         box.addLayout(row)
@@ -410,7 +406,7 @@ class PrivacyPage(QWidget):
             part.setVisible(has_address)
         self.unknown.setVisible(not has_address)
         self.ask_button.setEnabled(has_address)
-        self.state.clear()
+        labelled(self.state, text="")
 
     def _on_address_edited(self, words: str) -> None:
         self._asking.cancel()
@@ -422,30 +418,26 @@ class PrivacyPage(QWidget):
 
     def _on_ask(self) -> None:
         self.ask_button.setEnabled(False)
-        self.state.setText(tr("Asking…"))
+        labelled(self.state, text="Asking…")
         self._choice.note_asked()
         self._asking.begin(self._choice.address)
 
     def _on_answered(self, newest: Newest | None) -> None:
         self.ask_button.setEnabled(True)
         if newest is None:
-            told = tr("No version is told there. Is the address right, and the internet there?")
+            labelled(
+                self.state,
+                text="No version is told there. Is the address right, and the internet there?",
+            )
         elif newest.is_newer:
-            told = tr("There is a new version of NEP Studio: {version}", version=newest.version)
+            labelled(
+                self.state,
+                text=text_of(
+                    "There is a new version of NEP Studio: {version}", version=newest.version
+                ),
+            )
         else:
-            told = tr("This is the newest version.")
-        self.state.setText(told)
-
-    @staticmethod
-    def _words(words: str, role: str = "") -> QLabel:
-        label = QLabel(words)
-        label.setProperty("role", role)
-        label.setWordWrap(True)
-        return label
-
-
-MorePage = Callable[[QWidget], tuple[str, QWidget]]
-"""Makes one more page of the dialog: its title and its widget."""
+            labelled(self.state, text="This is the newest version.")
 
 
 @dataclass(frozen=True)
@@ -481,22 +473,16 @@ class SettingsDialog(QDialog):
         super().__init__(parent)
         self._studio = studio
         self._before = _kept(studio.settings)
-        self._more: list[MorePage] = []
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.reset_button = QPushButton()
-        self.cancel_button = QPushButton()
-        self.close_button = QPushButton()
+        labelled(self, window_title="Settings")
+        self.reset_button = labelled(QPushButton(), text="Put the panels back")
+        self.cancel_button = labelled(QPushButton(), text="Cancel")
+        self.close_button = labelled(QPushButton(), text="Done")
         self.pages = QTabWidget()
         self._lay_out()
         self._fill()
         self.cancel_button.clicked.connect(self.reject)
         self.close_button.clicked.connect(self.accept)
-
-    def add_page(self, make: MorePage) -> None:
-        """Show one more page; it is made again when the language changes."""
-        self._more.append(make)
-        title, page = make(self)
-        self.pages.addTab(page, title)
 
     def reject(self) -> None:
         """Take back what was chosen since the dialog was opened."""
@@ -533,17 +519,7 @@ class SettingsDialog(QDialog):
         self.setMinimumWidth(line * 34)
 
     def _fill(self) -> None:
-        """Make all that has words in it."""
-        here = self.pages.currentIndex()
-        while self.pages.count():
-            old = self.pages.widget(0)
-            self.pages.removeTab(0)
-            if old is not None:
-                old.deleteLater()
-        self.setWindowTitle(tr("Settings"))
-        self.reset_button.setText(tr("Put the panels back"))
-        self.cancel_button.setText(tr("Cancel"))
-        self.close_button.setText(tr("Done"))
+        """Make the pages."""
         settings = self._studio.settings
         look = LookPage(settings)
         self.language, self.theme = look.language, look.theme
@@ -552,22 +528,13 @@ class SettingsDialog(QDialog):
         self.theme.activated.connect(self._on_theme_chosen)
         look.size_chosen.connect(self._on_size_chosen)
         self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
-        self.privacy = PrivacyPage(settings)
-        self.pages.addTab(look, tr("Look"))
-        self.pages.addTab(self.folders, tr("Folders"))
-        self.pages.addTab(self.show_page, tr("Show mode"))
-        self.network_page = NetworkPage(settings)
-        self.pages.addTab(self.network_page, tr("Network"))
-        self.pages.addTab(self.privacy, tr("Privacy"))
-        for make in self._more:
-            title, page = make(self)
-            self.pages.addTab(page, title)
-        self.pages.setCurrentIndex(max(0, here))
+        self.network_page, self.privacy = NetworkPage(settings), PrivacyPage(settings)
+        for page in (look, self.folders, self.show_page, self.network_page, self.privacy):
+            self.pages.addTab(page, "")
+        labelled_items(self.pages, "Look", "Folders", "Show mode", "Network", "Privacy")
 
     def _on_language_chosen(self) -> None:
         self._studio.choose_language(self.language.currentData())
-        self._fill()
-        self.language.setFocus()
 
     def _on_theme_chosen(self) -> None:
         self._studio.choose_theme(self.theme.currentData())

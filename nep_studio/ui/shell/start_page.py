@@ -16,11 +16,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of, verbatim
 from nep_studio.ui.document_files import Files
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
 from nep_studio.ui.widgets.layouts import Flow, begin_where_reading_begins
-from nep_studio.ui.words import tr
 
 from .gallery import Card, Gallery
 
@@ -46,7 +47,9 @@ class TourOffer(QFrame):
         )
         box.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
         words = QVBoxLayout()
-        self.words = QLabel(tr("New here? Five short steps show how a robot gets its behaviour."))
+        self.words = labelled(
+            QLabel(), text="New here? Five short steps show how a robot gets its behaviour."
+        )
         self.words.setWordWrap(True)
         begin_where_reading_begins(self.words)
         words.addWidget(self.words)
@@ -56,12 +59,13 @@ class TourOffer(QFrame):
 
     def _answers(self, line: int) -> Flow:
         row = Flow(spacing=line // 3)
-        self.take_button = QPushButton(tr("Take the tour"))
+        self.take_button = labelled(QPushButton(), text="Take the tour")
         self.take_button.setIcon(icon("footprints", self._studio.look.theme))
         self.take_button.clicked.connect(self._on_taken)
-        self.leave_button = QPushButton(tr("Not now"))
+        self.leave_button = labelled(
+            QPushButton(), text="Not now", tip="The tour stays in the Help menu"
+        )
         self.leave_button.setProperty("kind", "quiet")
-        self.leave_button.setToolTip(tr("The tour stays in the Help menu"))
         self.leave_button.clicked.connect(self._on_left)
         row.addWidget(self.take_button)
         row.addWidget(self.leave_button)
@@ -121,7 +125,7 @@ class StartPage(QScrollArea):
         self._recent = QVBoxLayout()
         self._recent.setSpacing(line // 6)
         box.addLayout(self._recent)
-        self._examples_heading = _heading(tr("Examples to try and change"), line)
+        self._examples_heading = _heading("Examples to try and change", line)
         box.addWidget(self._examples_heading)
         box.addWidget(self._make_gallery())
         box.addStretch(1)
@@ -153,7 +157,9 @@ class StartPage(QScrollArea):
         begin_where_reading_begins(title)
         words.addStretch(1)
         words.addWidget(title)
-        about = QLabel(tr("Give a social robot its behaviour with blocks, without programming."))
+        about = labelled(
+            QLabel(), text="Give a social robot its behaviour with blocks, without programming."
+        )
         about.setProperty("role", "hint")
         about.setWordWrap(True)
         begin_where_reading_begins(about)
@@ -166,14 +172,14 @@ class StartPage(QScrollArea):
     def _beginnings(self, line: int) -> Flow:
         theme = self._studio.look.theme
         row = Flow(spacing=line // 2)
-        self.example_button = QPushButton(tr("Try an example"))
+        self.example_button = labelled(QPushButton(), text="Try an example")
         self.example_button.setProperty("kind", "primary")
         self.example_button.setIcon(icon("graduation-cap", theme.colour("accent_text")))
         self.example_button.clicked.connect(self.show_examples)
-        self.new_button = QPushButton(tr("Start empty"))
+        self.new_button = labelled(QPushButton(), text="Start empty")
         self.new_button.setIcon(icon("file-plus", theme))
         self.new_button.clicked.connect(self._files.new)
-        self.open_button = QPushButton(tr("Open a project…"))
+        self.open_button = labelled(QPushButton(), text="Open a project…")
         self.open_button.setIcon(icon("folder-open", theme))
         self.open_button.clicked.connect(self._files.choose)
         for button in (self.example_button, self.new_button, self.open_button):
@@ -212,14 +218,19 @@ class StartPage(QScrollArea):
         self.recent_buttons = {}
         recent = self._studio.settings.recent_files[:MOST_RECENT]
         if recent:
-            self._recent.addWidget(_heading(tr("Go on with"), self.fontMetrics().height()))
+            self._recent.addWidget(_heading("Go on with", self.fontMetrics().height()))
         for path in recent:
             self._recent.addWidget(self._recent_button(path), 0, Qt.AlignmentFlag.AlignLeading)
 
     def _recent_button(self, path: Path) -> QPushButton:
         is_there = path.is_file()
         words = f"{path.stem}   —   {_short(path.parent)}"
-        button = QPushButton(words if is_there else tr("{name} (not there any more)", name=words))
+        button = labelled(
+            QPushButton(),
+            text=verbatim(words)
+            if is_there
+            else text_of("{name} (not there any more)", name=words),
+        )
         button.setProperty("kind", "quiet")
         button.setIcon(icon("file-text", self._studio.look.theme))
         button.setEnabled(is_there)
@@ -236,7 +247,7 @@ class StartPage(QScrollArea):
 
 
 def _heading(words: str, line: int) -> QLabel:
-    label = QLabel(words)
+    label = labelled(QLabel(), text=words)
     label.setProperty("role", "title")
     label.setContentsMargins(0, line // 2, 0, 0)
     begin_where_reading_begins(label)

@@ -327,8 +327,8 @@ class Look(QObject):
         self._apply()
 
     def refresh(self) -> None:
-        """Dress the windows again, as after a change of the direction of writing."""
-        self._apply()
+        """Dress the windows again after a change of the direction of writing; no colour changes."""
+        apply_theme(self._app, self._theme, self._scale)
 
     def _tell_the_system(self) -> None:
         """Let title bars and the system's own dialogs be as light or dark as we are."""

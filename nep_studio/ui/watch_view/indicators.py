@@ -17,6 +17,7 @@ from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
@@ -261,7 +262,7 @@ class LittleCurve(QWidget):
         super().__init__(parent)
         self._look = look
         self._points: deque[tuple[float, float]] = deque(maxlen=4000)
-        self.setAccessibleName(tr("How hard it is moved, over the last seconds"))
+        labelled(self, name="How hard it is moved, over the last seconds")
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def take(self, batch: Sequence[Imu]) -> None:

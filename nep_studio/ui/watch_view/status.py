@@ -10,6 +10,7 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH, PlannedNode
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -87,9 +88,12 @@ class WatchStatus(QWidget):
         self.state = WatchState("", "")
         self._look = look
         self.sign, self.words = QLabel(), ElidedLabel()
-        self.button = QPushButton(tr("Connect…"))
-        self.button.setToolTip(tr("Connect a watch or phone, and see how well it sends"))
-        self.button.setAccessibleName(tr("Connect a watch or phone…"))
+        self.button = labelled(
+            QPushButton(),
+            text="Connect…",
+            tip="Connect a watch or phone, and see how well it sends",
+            name="Connect a watch or phone…",
+        )
         self.button.setAutoDefault(False)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         row = QHBoxLayout(self)
@@ -101,7 +105,7 @@ class WatchStatus(QWidget):
         self.listener.changed.connect(self.refresh)
         self.button.clicked.connect(self.connect_asked)
         look.theme_changed.connect(self._on_theme_changed)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Show how the watch is now."""

@@ -17,10 +17,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import Words
+from nep_studio.ui import labels
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column
-from nep_studio.ui.words import tr
 
 UNKNOWN = "…"
 """Stands where an address is not known."""
@@ -35,20 +36,21 @@ class CopyLine(QWidget):
     """
 
     def __init__(
-        self, look: Look, words: str, is_long: bool = False, parent: QWidget | None = None
+        self, look: Look, words: Words, is_long: bool = False, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self.text = QLineEdit(readOnly=True, alignment=Qt.AlignmentFlag.AlignLeft)
-        self.text.setAccessibleName(words)
+        self.text = labels.labelled(QLineEdit(), name=words)
+        self.text.setReadOnly(True)
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self._words = words
+        self.text.setAlignment(Qt.AlignmentFlag.AlignLeft)
         self._look = look
-        self.button = QPushButton(words, autoDefault=False)
+        self.button = labels.labelled(QPushButton(), text=words)
         self.redraw()
+        self.button.setAutoDefault(False)
         line = self.fontMetrics().height()
         self.button.setIconSize(QSize(line, line))
         self._again = QTimer(self, singleShot=True, interval=COPIED_MS)
-        self._again.timeout.connect(lambda: self.button.setText(self._words))
+        self._again.timeout.connect(lambda: labels.labelled(self.button, text=words))
         row = QVBoxLayout(self) if is_long else QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.text, 1)
@@ -69,27 +71,27 @@ class CopyLine(QWidget):
 
     def _on_copy(self) -> None:
         QGuiApplication.clipboard().setText(self.text.text())
-        self.button.setText(tr("Copied"))
+        labels.labelled(self.button, text="Copied")
         self._again.start()
 
 
-def hint(words: str) -> QLabel:
-    """Words that explain, in a quiet colour."""
-    label = QLabel(words, wordWrap=True)
+def hint(words: Words) -> QLabel:
+    """Words that explain, in a quiet colour; in English, as all labels."""
+    label = labels.labelled(QLabel(), text=words)
+    label.setWordWrap(True)
     label.setProperty("role", "hint")
     return label
 
 
-def label_of(words: str, buddy: QWidget) -> QLabel:
-    """The words before a field; screen readers say them there."""
-    label = QLabel(words)
-    label.setBuddy(buddy)
-    buddy.setAccessibleName(words)
+def label_of(words: Words, buddy: QWidget) -> QLabel:
+    """The words before a field, in English; screen readers say them there."""
+    label = labels.labelled(QLabel(), text=words)
+    label.setBuddy(labels.labelled(buddy, name=words))
     return label
 
 
-def labelled(words: str, field: QWidget) -> QWidget:
-    """A field with its words."""
+def labelled(words: Words, field: QWidget) -> QWidget:
+    """A field with its words, in English."""
     both = QWidget()
     form = QFormLayout(both)
     form.setContentsMargins(0, 0, 0, 0)
@@ -97,9 +99,10 @@ def labelled(words: str, field: QWidget) -> QWidget:
     return both
 
 
-def quiet_button(words: str) -> QPushButton:
+def quiet_button(words: Words) -> QPushButton:
     """A button that does not call for attention, and never is what Enter presses."""
-    button = QPushButton(words, autoDefault=False)
+    button = labels.labelled(QPushButton(), text=words)
+    button.setAutoDefault(False)
     button.setProperty("kind", "quiet")
     return button
 

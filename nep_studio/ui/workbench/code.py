@@ -18,6 +18,7 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes
 from nep_studio.blocks.slices import Sliced, Steps
 from nep_studio.ui.edits import edits_of
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon
@@ -193,10 +194,10 @@ class CodePane(QWidget):
         self._lay_out()
         self._connect()
         self._on_theme_changed()
-        self._show_buttons()
+        follow_words(self, self._show_buttons)
 
     def _lay_out(self) -> None:
-        self.setAccessibleName(tr("Code"))
+        labelled(self, name="Code")
         self.apply_button.setProperty("kind", "primary")
         gap = self.fontMetrics().height() // 3
         self.buttons = QHBoxLayout()

@@ -24,9 +24,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QPlainTextEdit, QTextEdit, QWidget
 
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look, code_font
-from nep_studio.ui.words import tr
 
 # Keys of a text with Python: Enter keeps the indentation, Tab moves lines, Ctrl+/ comments.
 
@@ -221,7 +221,7 @@ class CodeText(QPlainTextEdit):
             Qt.TextInteractionFlag.TextSelectableByMouse
             | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
-        self.setAccessibleName(tr("Python code"))
+        labelled(self, name="Python code")
         self.blockCountChanged.connect(self._on_block_count_changed)
         self.updateRequest.connect(self._on_update_request)
         look.theme_changed.connect(self._on_theme_changed)

@@ -15,6 +15,7 @@ from nep_studio.blocks.procedures import parameters, words
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.painting.overlay import ring
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import count_words, tr
 
@@ -67,6 +68,11 @@ def subject_name(project: Project, subject: Subject) -> str:
     return subject.name
 
 
+def tool_button(words: str, parent: QWidget) -> QToolButton:
+    """A button with a sign, and words for who does not know it."""
+    return labelled(QToolButton(parent), tip=words, name=words)
+
+
 class FindBar(QFrame):
     """Finds by words, or shows the uses of a subject; hits are marked on the canvas.
 
@@ -85,13 +91,17 @@ class FindBar(QFrame):
         canvas.news.page_changed.connect(self._listen)
         canvas.news.uses_requested.connect(self.show_uses)
         self.title = QLabel(self)
-        self.line = QLineEdit(self)
+        self.line = labelled(
+            QLineEdit(self), placeholder="Find in the program", name="Find in the program"
+        )
         self.count = QLabel(self)
-        self.previous, self.next = QToolButton(self), QToolButton(self)
-        self.away = QToolButton(self)
+        self.previous = tool_button("Previous (Shift+Enter)", self)
+        self.next = tool_button("Next (Enter)", self)
+        self.away = tool_button("Close (Esc)", self)
+        labelled(self, name="Find")
         self._later = QTimer(self, singleShot=True, interval=0)
         self._arrange()
-        self.refresh()
+        follow_words(self, self.refresh)
         self.hide()
 
     # Opening
@@ -99,18 +109,13 @@ class FindBar(QFrame):
     def refresh(self) -> None:
         """Take the theme, the words and the project of the canvas."""
         theme, side = self.canvas.look.theme, self.fontMetrics().height()
-        self.setAccessibleName(tr("Find"))
-        self.line.setPlaceholderText(tr("Find in the program"))
-        self.line.setAccessibleName(tr("Find in the program"))
-        for button, name, told in (
-            (self.previous, "chevron-up", tr("Previous (Shift+Enter)")),
-            (self.next, "chevron-down", tr("Next (Enter)")),
-            (self.away, "x", tr("Close (Esc)")),
+        for button, name in (
+            (self.previous, "chevron-up"),
+            (self.next, "chevron-down"),
+            (self.away, "x"),
         ):
             button.setIcon(icon(name, theme))
             button.setIconSize(QSize(side, side))
-            button.setToolTip(told)
-            button.setAccessibleName(told)
         self._listen()
         if self.isVisible():
             self._search(is_new=False)

@@ -28,6 +28,7 @@ from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
 from nep_studio.ui.canvas.layout.page import boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.words import tr
 
 from .palette.accessible_list import make_list_accessible, tell_current
@@ -68,7 +69,7 @@ class SuggestionList(QWidget):
         self.current = 0
         self.accessible: object = None
         self.setMouseTracking(True)
-        self.setAccessibleName(tr("Suggestions"))
+        labelled(self, name="Suggestions")
         make_list_accessible(self, self)
 
     def show_clips(self, clips: Sequence[tuple[Clip, str]]) -> None:
@@ -191,7 +192,11 @@ class InsertBar(QFrame):
         self._settings = settings
         self._at: QPointF | None = None
         self._place: Place | None = None
-        self.line = QLineEdit(self)
+        self.line = labelled(
+            QLineEdit(self),
+            placeholder="What should happen? For example: say hello twice",
+            name="Insert a block by typing",
+        )
         self.line.textChanged.connect(self._on_typed)
         self.line.installEventFilter(self)
         self.list = SuggestionList(canvas, self)
@@ -212,23 +217,22 @@ class InsertBar(QFrame):
         canvas.viewport().installEventFilter(self)
         canvas.news.page_changed.connect(self.hide)
         self.refresh()
-        self.hide()
+        follow_words(self, self._suggest_again)
 
     def refresh(self) -> None:
-        """Take the theme and the words."""
-        theme, words = (
-            self.canvas.look.theme,
-            tr("What should happen? For example: say hello twice"),
-        )
+        """Take the theme."""
+        theme = self.canvas.look.theme
         self.setStyleSheet(
             f"#insert_bar {{ background: {theme.colour('menu').name()};"
             f" border: 2px solid {theme.colour('focus').name()}; border-radius: 8px; }}"
             f"#insert_bar QScrollArea, #insert_bar QScrollArea > QWidget > QWidget"
             f" {{ background: {theme.colour('menu').name()}; border: none; }}"
         )
-        self.line.setPlaceholderText(words)
-        self.line.setAccessibleName(tr("Insert a block by typing"))
         self.hide()
+
+    def _suggest_again(self) -> None:
+        if self.isVisible():
+            self._on_typed(self.line.text())
 
     def open(
         self, at: QPointF | None = None, text: str = "", *, place: Place | None = None

@@ -61,6 +61,11 @@ class LiveChecks(QObject):
         )
         self._on_next_slice()
 
+    def begin_again(self) -> None:
+        """Check in the words of another language: nothing is known in them yet."""
+        self._known = KnownProblems()
+        self.start()
+
     def take(self, problems: list[Problem]) -> None:
         """Take what somebody else has just found: it need not be looked for again."""
         self.cancel()

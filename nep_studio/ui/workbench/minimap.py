@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.words import tr
 
 WIDTH_LINES, HEIGHT_LINES = 12.0, 8.0
@@ -44,13 +45,11 @@ class Minimap(QWidget):
         canvas.news.resized.connect(self._take_place)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.refresh()
+        labelled(self, name="Minimap: a press looks there", tip="Minimap: a press looks there")
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
-        """Take the theme, the words and the page of the canvas."""
-        told = tr("Minimap: a press looks there")
-        self.setAccessibleName(told)
-        self.setToolTip(told)
+        """Take the theme, the direction and the page of the canvas."""
         self._is_stale = True
         self._take_place()
         self.update()
@@ -229,7 +228,7 @@ class EmptyHint(QLabel):
         canvas.news.layout_changed.connect(self._show_or_hide)
         canvas.news.page_changed.connect(self.refresh)
         canvas.news.resized.connect(self._take_place)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Take the words for the page that is shown."""

@@ -20,8 +20,8 @@ from nep_studio.blocks.program import Changes
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.canvas.accessibility import described
 from nep_studio.ui.canvas.host import CanvasHost
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import PLACEHOLDER, Theme
-from nep_studio.ui.words import tr
 
 # The blocks of a page as rows of a tree, read from the program each time they are asked for.
 
@@ -205,7 +205,7 @@ class Outline(QTreeView):
         self.setHeaderHidden(True)
         self.setUniformRowHeights(True)
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.setAccessibleName(tr("Outline"))
+        labelled(self, name="Outline")
         self.expanded.connect(lambda index: self._unfolded.add(index.data(BLOCK)))
         self.collapsed.connect(lambda index: self._unfolded.discard(index.data(BLOCK)))
         self.activated.connect(self._on_activated)
@@ -214,7 +214,7 @@ class Outline(QTreeView):
         self._on_page_changed(canvas.page_layout.page)
 
     def refresh(self) -> None:
-        """Follow another project, another theme or another language of the canvas."""
+        """Follow another project or another theme of the canvas."""
         self._rows.set_awake(False)
         self._rows.deleteLater()
         self._rows = OutlineModel(self._canvas.editor, self._canvas.look.theme, self)

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QMenu, QTabBar, QToolButto
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.project import AddPage, MovePage, RenamePage
 from nep_studio.blocks.program import PAGES, Changes, Project
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -34,9 +35,7 @@ class PagesBar(QWidget):
         self._editor = editor
         self._page = PAGES[0]
         self.tabs = PageTabs(self)
-        self.add_button = QToolButton()
-        self.add_button.setToolTip(tr("Add a page"))
-        self.add_button.setAccessibleName(tr("Add a page"))
+        self.add_button = labelled(QToolButton(), tip="Add a page", name="Add a page")
         self.add_button.clicked.connect(self.add_page)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -46,7 +45,7 @@ class PagesBar(QWidget):
         row.addStretch(1)
         self._connect()
         editor.history.listen(self._on_whole_changed, is_of_whole=True)
-        self._fill()
+        follow_words(self, self._fill)
 
     def _connect(self) -> None:
         self.tabs.currentChanged.connect(self._on_current_changed)
@@ -175,7 +174,7 @@ class PageTabs(QTabBar):
         self.setMovable(True)
         self.setExpanding(False)
         self.setUsesScrollButtons(True)
-        self.setAccessibleName(tr("Pages"))
+        labelled(self, name="Pages")
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self.title_edit: QLineEdit | None = None
         self._dragged: list[object] = []
@@ -234,7 +233,7 @@ class _TitleEdit(QLineEdit):
     def __init__(self, title: str, parent: QWidget) -> None:
         super().__init__(title, parent)
         self.setMaxLength(60)
-        self.setAccessibleName(tr("Title of the page"))
+        labelled(self, name="Title of the page")
         self.editingFinished.connect(lambda: self.ended.emit(self.text().strip()))
 
     def event(self, event: QEvent) -> bool:

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.checks.problem import Problem
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.message_cards import ChecklistStep, MessageText
 from nep_studio.ui.messages import KIND_ICONS, Message
 from nep_studio.ui.theme.icons import icon_pixmap
@@ -68,9 +69,10 @@ class ProblemsPanel(QScrollArea):
         self.rows: list[ProblemRow] = []
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setAccessibleName(tr("Problems"))
+        labelled(self, name="Problems")
         self._is_old = True
         look.theme_changed.connect(self._refresh)
+        follow_words(self, self._refresh)
 
     def show_problems(self, problems: Sequence[Problem]) -> None:
         """Show these; nothing is drawn again when they are the same."""
@@ -128,7 +130,7 @@ class ProblemRow(QFrame):
         words = QVBoxLayout()
         words.addWidget(_words(sentence))
         for step in problem.checklist:
-            words.addWidget(ChecklistStep(tr(step)))
+            words.addWidget(ChecklistStep(step))
         row.addLayout(words, 1)
         self.fix_button: QPushButton | None = fix_button(problem)
         if self.fix_button is not None:

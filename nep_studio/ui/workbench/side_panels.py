@@ -9,7 +9,9 @@ from PySide6.QtCore import QObject, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QVBoxLayout, QWidget
 
+from faults import Words
 from nep_studio.settings import Settings
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -22,10 +24,12 @@ class Panel:
     """A widget beside the canvas, and the action that shows and hides it."""
 
     widget: QWidget
-    title: str
+    title: Words
     icon_name: str
     area: Area
     action: QAction
+    is_usual: bool
+    """Whether it is shown as long as nobody has shown or hidden it."""
 
     @property
     def name(self) -> str:
@@ -42,26 +46,30 @@ class Area(QTabWidget):
         super().__init__()
         self._look = look
         self._is_wide = name == "bottom"
-        self._titles: dict[QWidget, str] = {}
+        self._titles: dict[QWidget, Words] = {}
         self.setDocumentMode(True)
         self.setUsesScrollButtons(True)
         self.setTabBarAutoHide(name == "left")
         self.close_button = QToolButton(self)  # without a parent it would keep this area for ever
         self.close_button.setVisible(name != "left")
-        self.close_button.setToolTip(tr("Hide this panel"))
-        self.close_button.setAccessibleName(tr("Hide this panel"))
+        labelled(self.close_button, tip="Hide this panel", name="Hide this panel")
         self.close_button.clicked.connect(lambda: self.close_asked.emit(self.currentWidget()))
         if name != "left":
             self.setCornerWidget(self.close_button, Qt.Corner.TopRightCorner)
         self.currentChanged.connect(self._on_current_changed)
+        follow_words(self, self._say_titles)
         self.hide()
 
-    def add_panel(self, widget: QWidget, title: str) -> None:
+    def add_panel(self, widget: QWidget, title: Words) -> None:
         """Add a tab."""
         self._titles[widget] = title
-        index = self.addTab(widget, title)
-        self.setTabToolTip(index, title)
-        self.tabBar().setAccessibleTabName(index, title)
+        self.addTab(widget, "")
+        self._say_titles()
+
+    def _say_titles(self) -> None:
+        for widget, title in self._titles.items():
+            self.setTabToolTip(self.indexOf(widget), tr(title))
+            self.tabBar().setAccessibleTabName(self.indexOf(widget), tr(title))
         self._fit_titles()
 
     def minimumSizeHint(self) -> QSize:
@@ -84,7 +92,7 @@ class Area(QTabWidget):
         is_narrow = room > self.width() - self.close_button.sizeHint().width()
         for widget, title in self._titles.items():
             is_short = is_narrow and widget is not self.currentWidget()
-            words = "" if is_short else title
+            words = "" if is_short else tr(title)
             if self.tabText(self.indexOf(widget)) != words:
                 self.setTabText(self.indexOf(widget), words)
 
@@ -93,7 +101,7 @@ class Area(QTabWidget):
         index, bar = self.indexOf(widget), self.tabBar()
         if not self.isTabVisible(index):
             return 0
-        metrics, title = self.fontMetrics(), self._titles[widget]
+        metrics, title = self.fontMetrics(), tr(self._titles[widget])
         more = metrics.horizontalAdvance(title) - metrics.horizontalAdvance(bar.tabText(index))
         return bar.tabRect(index).width() + more + (0 if bar.tabText(index) else metrics.height())
 
@@ -150,13 +158,19 @@ class Panels(QObject):
         look.theme_changed.connect(self._on_theme_changed)
 
     def add(
-        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
+        self,
+        widget: QWidget,
+        title: Words,
+        icon_name: str,
+        area: AreaName,
+        *,
+        is_shown: bool = True,
     ) -> Panel:
         """Add a panel; whether it is shown is as the person left it, else as it is said."""
         place = self.areas[area]
         place.add_panel(widget, title)
-        action = QAction(title, self, checkable=True)
-        panel = Panel(widget, title, icon_name, place, action)
+        action = labelled(QAction(self, checkable=True), text=title)
+        panel = Panel(widget, title, icon_name, place, action, is_shown)
         self.all.append(panel)
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
         place.show_panel(widget, action.isChecked())
@@ -187,9 +201,19 @@ class Panels(QObject):
         """Hide the panels of an area that the person has not shown or hidden yet."""
         for panel in self.all:
             if panel.area is self.areas[area] and not self._settings.is_chosen(panel.name):
-                with QSignalBlocker(panel.action):  # this is not the person's choice
-                    panel.action.setChecked(False)
-                panel.area.show_panel(panel.widget, False)
+                self._set_shown(panel, False)
+
+    def show_usual(self) -> None:
+        """Show the panels that are shown as long as nobody has chosen."""
+        for panel in self.all:
+            self._set_shown(panel, panel.is_usual)
+        for area in self.areas.values():
+            area.show_first()
+
+    def _set_shown(self, panel: Panel, is_shown: bool) -> None:
+        with QSignalBlocker(panel.action):  # this is not the person's choice
+            panel.action.setChecked(is_shown)
+        panel.area.show_panel(panel.widget, is_shown)
 
     def restore(self, line: int) -> None:
         """Give the areas the sizes that they had, or good ones; ``line`` is a line of text."""

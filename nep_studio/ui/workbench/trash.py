@@ -22,6 +22,7 @@ from nep_studio.blocks.operations.copying import Clip, paste
 from nep_studio.blocks.program import PAGES
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.words import count_words, tr
 
@@ -111,11 +112,12 @@ class TrashPanel(QFrame):
         super().__init__(parent or trash.canvas)
         self.trash = trash
         self.setObjectName("trash_panel")
-        self.title = QLabel(self)
+        self.title = labelled(QLabel(self), text="Deleted blocks")
         self.title.setProperty("role", "heading")
-        self.shelf = Shelf(trash.canvas, self)
-        self.restore = QPushButton(self)
-        self.empty = QPushButton(self)
+        self.shelf = labelled(Shelf(trash.canvas, self), name="Deleted blocks")
+        self.restore = labelled(QPushButton(self), text="Restore")
+        self.empty = labelled(QPushButton(self), text="Forget all")
+        labelled(self, name="Deleted blocks")
         self.restore.clicked.connect(self._on_restore)
         self.empty.clicked.connect(trash.empty)
         self.shelf.chosen.connect(self._on_chosen)
@@ -137,12 +139,7 @@ class TrashPanel(QFrame):
             f"#trash_panel {{ background: {theme.colour('panel').name()};"
             f" border: 1px solid {theme.colour('field_line').name()}; border-radius: 8px; }}"
         )
-        self.setAccessibleName(tr("Deleted blocks"))
-        self.title.setText(tr("Deleted blocks"))
-        self.restore.setText(tr("Restore"))
-        self.empty.setText(tr("Forget all"))
         self.shelf.refresh()
-        self.shelf.setAccessibleName(tr("Deleted blocks"))
         self._fill()
 
     def sizeHint(self) -> QSize:
@@ -206,7 +203,7 @@ class TrashButton(QAbstractButton):
         self.trash.changed.connect(self._on_changed)
         self.clicked.connect(self._on_clicked)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Take the theme, the words and the direction."""

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, QRect, QSignalBlocker, Signal
 from PySide6.QtGui import QFont, QFontInfo
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
+from faults import Words
 from nep_studio.blocks.checks.problem import Problem
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
@@ -22,7 +23,7 @@ from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Messages, announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.look import text_font
-from nep_studio.ui.words import is_right_to_left, tr
+from nep_studio.ui.words import is_right_to_left
 
 from .code import CodePane
 from .find_bar import FindBar
@@ -64,7 +65,7 @@ class CanvasHelpers(QObject):
         self.minimap.refresh()
 
     def refresh(self) -> None:
-        """Take the theme, the words and the project that the canvas has now."""
+        """Take the theme and the project that the canvas has now."""
         helpers = (self.palette, self.find_bar, self.insert_bar, self.trash, self.empty_hint)
         for helper in helpers:
             helper.refresh()
@@ -107,10 +108,10 @@ class Workbench(QWidget):
         self._run_problem: Problem | None = None
         self._usual_scale = usual_scale(studio)
         self.panels = Panels(self._middle(), studio.look, studio.settings, self)
-        self.add_side_panel(self.helpers.palette, tr("Blocks"), "blocks", "left")
-        self.add_side_panel(self.code, tr("Code"), "code", "right")
-        self.add_side_panel(self.outline, tr("Outline"), "list-tree", "right")
-        self.add_side_panel(self.problems, tr("Problems"), "circle-check", "bottom", is_shown=False)
+        self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left")
+        self.add_side_panel(self.code, "Code", "code", "right")
+        self.add_side_panel(self.outline, "Outline", "list-tree", "right")
+        self.add_side_panel(self.problems, "Problems", "circle-check", "bottom", is_shown=False)
         self._connect()
 
     def _middle(self) -> QWidget:
@@ -137,11 +138,18 @@ class Workbench(QWidget):
         self.checks.found.connect(self._on_problems_found)
         self.problems.opened.connect(self._on_problem_opened)
         self.problems.fix_asked.connect(self.fix)
-        self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
         self._studio.look.theme_changed.connect(self._on_theme_changed)
+        self._studio.words_changed.connect(self._on_words_changed)
+        self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
 
     def add_side_panel(
-        self, widget: QWidget, title: str, icon_name: str, area: AreaName, *, is_shown: bool = True
+        self,
+        widget: QWidget,
+        title: Words,
+        icon_name: str,
+        area: AreaName,
+        *,
+        is_shown: bool = True,
     ) -> Panel:
         """Add a panel beside the canvas: left, right or at the bottom."""
         return self.panels.add(widget, title, icon_name, area, is_shown=is_shown)
@@ -160,14 +168,20 @@ class Workbench(QWidget):
         A narrow window that nobody has arranged yet leaves the room to the page.
         """
         palette, is_small = self.helpers.palette, self.window().width() < LEAST_LINES * line
-        palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
+        with QSignalBlocker(palette):  # this is not the person's choice
+            palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
+        self._give_palette_room(palette.is_narrow)
         if is_small:
             self.panels.hide_at_first("right")
         self.panels.restore(line)
-        palette.narrowed.connect(self._on_palette_chosen)
+
+    def reset(self, line: int) -> None:
+        """Lay the panels out as at the first start, when the settings have forgotten them."""
+        self.panels.show_usual()
+        self.restore(line)
 
     def retire(self) -> None:
-        """Let go of the project, before this workbench is thrown away."""
+        """Let go of the project: the window is closed."""
         with QSignalBlocker(self.checks):  # what is not checked any more is not without problems
             self.show_document(None)
         self.checks.cancel()
@@ -272,12 +286,21 @@ class Workbench(QWidget):
         self.outline.refresh()
         self.helpers.refresh()
 
+    def _on_words_changed(self) -> None:
+        """Show the blocks in other words, before all that tells of them."""
+        self.canvas.editor.use_language(self._studio.language)
+        self.canvas.use_words(is_mirrored=is_right_to_left())
+        self.outline.scheduleDelayedItemsLayout()
+        self.code.live.use_language()
+        self.checks.begin_again()
+
     def _on_palette_narrowed(self, is_narrow: bool) -> None:
+        self._give_palette_room(is_narrow)
+        self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
+
+    def _give_palette_room(self, is_narrow: bool) -> None:
         width = self.helpers.palette.maximumWidth() if is_narrow else WIDEST
         self.panels.areas["left"].setMaximumWidth(width)
-
-    def _on_palette_chosen(self, is_narrow: bool) -> None:
-        self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
 
 
 def block_font(studio: Studio) -> QFont:

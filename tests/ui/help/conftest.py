@@ -84,7 +84,7 @@ def canvas(studio, qtbot) -> Canvas:
 
 @pytest.fixture
 def panel(canvas, studio, qtbot) -> HelpPanel:
-    made = HelpPanel(canvas, studio.look, LANGUAGE, lambda: [("Run", "F5")])
+    made = HelpPanel(canvas, studio.look, lambda: LANGUAGE, lambda: [("Run", "F5")])
     qtbot.addWidget(made)
     made.resize(380, 800)
     made.show()

@@ -219,7 +219,7 @@ def test_a_page_is_printed_dark_on_light(panel, tmp_path):
 
 
 def test_a_hidden_panel_reads_nothing(canvas, studio, qtbot):
-    hidden = HelpPanel(canvas, studio.look, LANGUAGE)
+    hidden = HelpPanel(canvas, studio.look, lambda: LANGUAGE)
     qtbot.addWidget(hidden)
 
     assert hidden._book is None

@@ -56,7 +56,7 @@ def look(qapp: QApplication) -> Iterator[Look]:
 
 @pytest.fixture
 def log(host: QMainWindow, runner: Runner, look: Look, qtbot: QtBot) -> LogPanel:
-    made = LogPanel(runner, Messages(host), studio_language(), look)
+    made = LogPanel(runner, Messages(host), studio_language, look)
     host.setCentralWidget(made)
     host.resize(900, 300)
     host.show()

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QFileDialog, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_studio.settings import Settings, ShowOptions, usual_folder
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.shell.settings_dialog import SettingsDialog
+from nep_studio.ui.words import tr
 
 
 @pytest.fixture
@@ -133,19 +134,17 @@ def test_it_says_that_the_program_sends_nothing_by_itself(dialog: SettingsDialog
     assert "sends nothing by itself" in words
 
 
-def test_others_can_add_a_page_which_follows_the_language(dialog: SettingsDialog) -> None:
-    made: list[QWidget] = []
-
-    def make(parent: QWidget) -> tuple[str, QWidget]:
-        made.append(QLabel("Study"))
-        return "Study", made[-1]
-
-    dialog.add_page(make)
+def test_it_stays_as_it_is_in_another_language(dialog: SettingsDialog) -> None:
+    dialog.pages.setCurrentWidget(dialog.show_page)
+    dialog.show_page.pin.setText("1234")
     choose(dialog.language, "de")
 
     titles = [dialog.pages.tabText(number) for number in range(dialog.pages.count())]
-    assert titles[-1] == "Study"
-    assert len(made) == 2
+    assert titles[:2] == ["Ansehen", "Ordner"]
+    assert dialog.language.itemText(0) == tr("Like the computer's") != "Like the computer's"
+    assert dialog.pages.currentWidget() is dialog.show_page
+    assert dialog.show_page.pin.text() == "1234"
+    assert dialog.show_page.pin_button.text() == tr("Set the PIN")
 
 
 @pytest.mark.parametrize("text", ["nonsense", "-3", "1e9", "99999999"])

@@ -13,6 +13,7 @@ from nep_studio.ui.canvas.fields.comments import NoteText
 from nep_studio.ui.canvas.fields.field_edit import editor_font
 from nep_studio.ui.canvas.fields.popup import give_back_focus
 from nep_studio.ui.canvas.painting.notes import SMALLEST_HEIGHT, SMALLEST_WIDTH
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.words import tr
 
 from .gesture import Gesture, Pointer
@@ -146,7 +147,7 @@ class NoteEditor(NoteText):
             f" color: {theme.colour('note_text').name()}; border-radius: 3px; padding: 2px;"
             f" border: 2px solid {theme.colour('focus').name()}; }}"
         )
-        self.setAccessibleName(tr("Note"))
+        labelled(self, name="Note")
         self.setPlainText(canvas.editor.project.notes[note_id].text)
         self.textChanged.connect(self._on_written)
         canvas.editor.history.seal()

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFrame, QPlainTextEdit, QVBoxLayout, QWidget
 
 from nep_studio.blocks.edits.content import SetComment, SetCommentSize
 from nep_studio.blocks.text import sentence
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.words import tr
 
 from .field_edit import editor_font, editor_scale
@@ -33,7 +34,7 @@ class NoteText(QPlainTextEdit):
         self._ended = ended
         self.setTabChangesFocus(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setPlaceholderText(tr("Write a note"))
+        labelled(self, placeholder="Write a note")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Esc ends the writing, and so does Ctrl+Enter."""
@@ -55,7 +56,7 @@ class Corner(QWidget):
         self._moved, self._ended = moved, ended
         self._from: QPointF | None = None
         self.setCursor(Qt.CursorShape.SizeFDiagCursor)
-        self.setAccessibleName(tr("Change the size of the note"))
+        labelled(self, name="Change the size of the note")
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the corner."""
@@ -101,12 +102,7 @@ class CommentBubble(QFrame):
             " border-radius: 6px; }"
             f"#note QPlainTextEdit {{ background: transparent; border: none; color: {ink}; }}"
         )
-        direction = Qt.LayoutDirection
-        is_mirrored = canvas.look.measures.is_mirrored
-        self.setLayoutDirection(direction.RightToLeft if is_mirrored else direction.LeftToRight)
         self.text = NoteText(self, ended)
-        said = sentence(canvas.editor.project, canvas.editor.language, block)
-        self.text.setAccessibleName(tr("Comment of the block “{block}”", block=said))
         self.text.setPlainText(canvas.editor.project.blocks[block].comment)
         self.text.textChanged.connect(self._on_written)
         self.corner = Corner(self, self._on_pulled, self._on_sized)
@@ -116,6 +112,14 @@ class CommentBubble(QFrame):
         there = canvas.editor.project.blocks[block]
         self._size = (there.comment_width or WIDTH, there.comment_height or HEIGHT)
         canvas.editor.history.seal()
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        canvas, direction = self._canvas, Qt.LayoutDirection
+        is_mirrored = canvas.look.measures.is_mirrored
+        self.setLayoutDirection(direction.RightToLeft if is_mirrored else direction.LeftToRight)
+        said = sentence(canvas.editor.project, canvas.editor.language, self.block)
+        self.text.setAccessibleName(tr("Comment of the block “{block}”", block=said))
 
     def show_bubble(self) -> None:
         """Show it, ready to write in."""

@@ -23,7 +23,7 @@ from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
 from .line_editor import LineEditor, LinesEditor
 from .naming import RobotPopup, VariablePopup
 from .number import DurationPopup, SliderPopup
-from .popup import FieldRing, give_back_focus
+from .popup import FieldPopup, FieldRing, give_back_focus
 from .settings import SettingsPopup
 
 if TYPE_CHECKING:
@@ -299,6 +299,18 @@ class FieldEditors(QObject):
         self.close()
         key = move_part_of(self.canvas, *place, down=down)
         self.open(place[0], key or place[1])
+
+    def use_words(self) -> None:
+        """Tell in other words what is edited; what is typed in a line stays as it is."""
+        if self._open is None:
+            return
+        edit, editor = self._open.edit, self.canvas.editor
+        if isinstance(self._open, FieldPopup):
+            self.open(edit.block, edit.key)
+            return
+        block = editor.project.blocks[edit.block]
+        slot = editor.language.definitions[block.type].slot(edit.key, block.groups)
+        cast(QWidget, self._open).setAccessibleName(title_of(slot or edit.slot))
 
     def take(self, event: QEvent) -> bool:
         """A press on the canvas keeps what was typed; resting over a field tells what it takes."""

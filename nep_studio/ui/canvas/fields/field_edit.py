@@ -19,9 +19,9 @@ from nep_studio.blocks.slots import FieldValue, why_not_name
 from nep_studio.ui.canvas.layout.boxes import Piece
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import Placed
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon_pixmap
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.ui.canvas.host import CanvasHost
@@ -167,9 +167,8 @@ class ReasonBubble(QFrame):
 
     def tell(self, words: Words | None) -> None:
         """Show a sentence; an empty one takes the bubble away."""
-        reason = tr(words or "")
-        self.words.setText(reason)
-        self.setAccessibleName(reason)
+        reason = labelled(self.words, text=words or "").text()
+        labelled(self, name=words or "")
         self.setVisible(bool(reason))
         if reason:
             widest = 16 * self._line

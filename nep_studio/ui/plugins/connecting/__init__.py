@@ -20,10 +20,10 @@ def make(host: Host) -> Parts:
     """The action, in the Robots menu; others open the dialog for one robot."""
     action = NewAction(
         "connect_robot",
-        tr("Connect a robot…"),
+        "Connect a robot…",
         lambda: open_connecting(host),
         "plug",
-        tip=tr("Find a real NAO in the network, test the way to it, and use it in this project."),
+        tip="Find a real NAO in the network, test the way to it, and use it in this project.",
         menu="robots",
     )
     commands = {"connecting.open": lambda robot="": open_connecting(host, robot)}

@@ -5,7 +5,6 @@ from __future__ import annotations
 from PySide6.QtWidgets import QWidget
 
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 
 def make(host: Host) -> Parts:
@@ -15,7 +14,7 @@ def make(host: Host) -> Parts:
     def make_large(parent: QWidget) -> CuePanel:
         return CuePanel(host, is_large=True, parent=parent)
 
-    panel = NewPanel(CuePanel(host), tr("Cues"), "flag", "right")
+    panel = NewPanel(CuePanel(host), "Cues", "flag", "right")
     return Parts(panel, commands={"cues.make_large": make_large})
 
 

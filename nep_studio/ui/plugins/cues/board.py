@@ -9,6 +9,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QKeyEvent, QPainter, QPai
 from PySide6.QtWidgets import QAbstractButton, QGridLayout, QSizePolicy, QWidget
 
 from nep_studio.project.triggers import SOURCE, Cue, CueKind
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -92,13 +93,16 @@ class CueButton(QAbstractButton):
         self.is_heard = True
         self._flash = QTimer(self, singleShot=True, interval=FLASH_MS)
         self._flash.timeout.connect(self.update)
-        self.setText(cue_words(cue))
         self.setToolTip(cue.state)
-        keys = tr("key {key}", key=cue.key) if cue.key else ""
-        self.setAccessibleName(", ".join(filter(None, (self.text(), keys))))
+        follow_words(self, self._say)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+
+    def _say(self) -> None:
+        self.setText(cue_words(self.cue))
+        keys = tr("key {key}", key=self.cue.key) if self.cue.key else ""
+        self.setAccessibleName(", ".join(filter(None, (self.text(), keys))))
 
     def flash(self) -> None:
         """Show that it was sent."""
@@ -180,7 +184,7 @@ class CueBoard(QWidget):
         self.buttons: list[CueButton] = []
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
-        self.setAccessibleName(tr("Cues"))
+        labelled(self, name="Cues")
         look.theme_changed.connect(self.update)
 
     def show_cues(self, cues: Iterable[Cue]) -> None:

@@ -28,6 +28,7 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import KEY, Cue, arranged, cues_of, kept_cues, own_cue, to_keep
 from nep_studio.run.plan import VIRTUAL_WATCH
 from nep_studio.ui.edits import OpenProject
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
@@ -160,27 +161,31 @@ class CuePanel(QWidget):
         self.cues = ProjectCues(host.services.files, self)
         self.sending = CueSender(self._runner, self)
         self.board = CueBoard(host.services.look, self)
-        self.empty = QLabel(tr("The rules of this program wait for nothing that could be sent."))
+        self.empty = labelled(
+            QLabel(), text="The rules of this program wait for nothing that could be sent."
+        )
         self.empty.setProperty("role", "hint")
         self.empty.setWordWrap(True)
         self.why_not = QLabel(wordWrap=True)
-        self.run_button = QPushButton(tr("Run"))
+        self.run_button = labelled(QPushButton(), text="Run")
         self.run_button.setProperty("kind", "run")
         self.words = QLineEdit()
-        self.words.setPlaceholderText(tr("Somebody says…"))
-        self.words.setAccessibleName(tr("Words that somebody says"))
-        self.say_button = QPushButton(tr("Send"))
-        self.arrange_button = QPushButton(tr("Arrange…"))
-        self.movements = QPushButton(tr("The watch moves"))
-        self.movements.setToolTip(tr("The movement, which has to be recognised like a real one"))
+        labelled(self.words, placeholder="Somebody says…", name="Words that somebody says")
+        self.say_button = labelled(QPushButton(), text="Send")
+        self.arrange_button = labelled(QPushButton(), text="Arrange…")
+        self.movements = labelled(
+            QPushButton(),
+            text="The watch moves",
+            tip="The movement, which has to be recognised like a real one",
+        )
         self.movements.setMenu(QMenu(self.movements))
         self.log = QListWidget()
-        self.log.setAccessibleName(tr("What was sent"))
+        labelled(self.log, name="What was sent")
         self._has_run_button = not is_large  # a show has its own
         self._lay_out(is_large)
         self._connect()
         self._dress()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Show the cues of the project as it is now, if somebody looks."""

@@ -99,7 +99,7 @@ def make(host: Host) -> Parts:
     actions = [
         NewAction(
             "save_python",
-            tr("Save the Python…"),
+            "Save the Python…",
             lambda: choose_python_file(host),
             "file-code",
             menu="file",
@@ -107,7 +107,7 @@ def make(host: Host) -> Parts:
         ),
         NewAction(
             "copy_python",
-            tr("Copy the Python"),
+            "Copy the Python",
             lambda: copy_python(host),
             "code",
             menu="file",
@@ -115,7 +115,7 @@ def make(host: Host) -> Parts:
         ),
         NewAction(
             "print",
-            tr("Print…"),
+            "Print…",
             lambda: open_print_dialog(host),
             "printer",
             QKeySequence.StandardKey.Print,

@@ -10,10 +10,8 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from .gesture_controller import GestureController
     from .page import TrainerPage
 
 LEAST_SHARE = 0.55
@@ -58,35 +56,21 @@ class TrainerPanel(QWidget):
 def make(host: Host) -> Parts:
     """The panel below the canvas; its page is made when it is opened."""
     panel = TrainerPanel(lambda: _page(host))
-    return Parts(NewPanel(panel, tr("Gestures"), "hand", "bottom", least_share=LEAST_SHARE))
-
-
-def controller_of(host: Host) -> GestureController:
-    """The one controller; what it heard stays when the panel is made anew."""
-    from .gesture_controller import GestureController
-
-    services = host.services
-
-    def make_controller() -> GestureController:
-        return GestureController(
-            services.files, services.runner, services.messages, services.look, services.running
-        )
-
-    return host.keep(GestureController, make_controller)
+    return Parts(NewPanel(panel, "Gestures", "hand", "bottom", least_share=LEAST_SHARE))
 
 
 def _page(host: Host) -> TrainerPage:
+    from .gesture_controller import GestureController
     from .page import TrainerPage
     from .results.training import Training
 
-    controller = controller_of(host)
-
-    def make_training() -> Training:
-        training = Training(controller, controller)
-        controller.runner.closing.connect(training.close)
-        return training
-
-    page = TrainerPage(controller, host.keep(Training, make_training), host.workbench.canvas)
+    services = host.services
+    controller = GestureController(
+        services.files, services.runner, services.messages, services.look, services.running
+    )
+    training = Training(controller, controller)
+    controller.runner.closing.connect(training.close)
+    page = TrainerPage(controller, training, host.workbench.canvas)
     page.connect_asked.connect(lambda: host.ask("watches.open"))
     return page
 

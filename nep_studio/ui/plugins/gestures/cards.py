@@ -28,10 +28,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of
 from nep_studio.blocks.operations.copying import Clip, clip_of
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.blocks.program import PAGES
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
 from nep_studio.ui.widgets.layouts import FlowLayout, in_row
 from nep_studio.ui.words import count_words, tr
@@ -66,8 +68,11 @@ class GestureChip(QAbstractButton):
         words = tr("when {gesture}", gesture=title)
         if words != self.text():
             self.setText(words)
-            self.setToolTip(tr("Drag it onto the page, or click to add it: {words}", words=words))
-            self.setAccessibleName(tr("Add the block “{words}”", words=words))
+            labelled(
+                self,
+                tip=text_of("Drag it onto the page, or click to add it: {words}", words=words),
+                name=text_of("Add the block “{words}”", words=words),
+            )
             self.updateGeometry()
 
     def clip(self) -> Clip:
@@ -179,7 +184,7 @@ class GestureCard(QFrame):
         self._is_current = self._is_target = self._is_recording = False
         self.title = QLineEdit()
         self.count = QLabel()
-        self.record = QPushButton(tr("Record"))
+        self.record = labelled(QPushButton(), text="Record")
         self.chip = GestureChip(canvas)
         self.menu = QToolButton()
         self.takes = TakesList(controller, pictures)
@@ -192,11 +197,10 @@ class GestureCard(QFrame):
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.title.setMaxLength(60)
-        self.title.setAccessibleName(tr("Name of the gesture"))
+        labelled(self.title, name="Name of the gesture")
         self.count.setProperty("role", "hint")
         self.record.setAutoDefault(False)
-        self.menu.setToolTip(tr("More"))
-        self.menu.setAccessibleName(tr("More"))
+        labelled(self.menu, tip="More", name="More")
         above = in_row((self.title, 1), self.count, self.menu)
         between = FlowLayout(gap=line // 3)
         for widget in (self.record, self.chip):
@@ -225,11 +229,9 @@ class GestureCard(QFrame):
             self._show_title(gesture.title)
         self.chip.show_gesture(self.name, gesture.title)
         self.count.setText(count_words(len(gesture.takes), "1 take", "{n} takes"))
-        words = tr("Record “{gesture}”", gesture=gesture.title)
-        self.record.setAccessibleName(words)
-        self.record.setToolTip(words)
+        explained(self.record, text_of("Record “{gesture}”", gesture=gesture.title))
         self.setAccessibleName(gesture.title)
-        self.takes.setAccessibleName(tr("Takes of {gesture}", gesture=gesture.title))
+        labelled(self.takes, name=text_of("Takes of {gesture}", gesture=gesture.title))
         self.takes.show_takes(gesture.takes, badges)
         self.takes.setVisible(bool(gesture.takes))
 
@@ -238,7 +240,7 @@ class GestureCard(QFrame):
         if (is_current, is_recording) == (self._is_current, self._is_recording):
             return
         if is_recording != self._is_recording:
-            self.record.setText(tr("Stop") if is_recording else tr("Record"))
+            labelled(self.record, text="Stop" if is_recording else "Record")
         self._is_current, self._is_recording = is_current, is_recording
         self.dress()
         self.update()
@@ -327,7 +329,7 @@ class Cards(QScrollArea):
         self.current = ""
         self.empty = QLabel()
         self.new_name = QLineEdit()
-        self.new_button = QPushButton(tr("New gesture"))
+        self.new_button = labelled(QPushButton(), text="New gesture")
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.refresh)
         self._lay_out()
@@ -337,16 +339,15 @@ class Cards(QScrollArea):
         self.new_button.clicked.connect(self.make_gesture)
         self.new_name.returnPressed.connect(self.make_gesture)
         self._dress()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setAccessibleName(tr("Gestures"))
-        self.new_name.setPlaceholderText(tr("Name of a new gesture"))
-        self.new_name.setAccessibleName(tr("Name of a new gesture"))
+        labelled(self, name="Gestures")
+        labelled(self.new_name, placeholder="Name of a new gesture", name="Name of a new gesture")
         self.new_name.setMaxLength(60)
         self.new_button.setAutoDefault(False)
         self.empty.setWordWrap(True)
@@ -393,12 +394,13 @@ class Cards(QScrollArea):
         self.new_name.setEnabled(self._controller.editor is not None)
         self.new_button.setEnabled(self._controller.editor is not None)
         self.empty.setVisible(not self._controller.gestures)
-        words = tr(
-            "A gesture is a movement that your program waits for, such as a wave. "
+        labelled(
+            self.empty,
+            text="A gesture is a movement that your program waits for, such as a wave. "
             "Give it a name here, then make it five times: the program learns it."
+            if self._controller.editor is not None
+            else "Gestures belong to a project. Open one, or make a new one.",
         )
-        no_project = tr("Gestures belong to a project. Open one, or make a new one.")
-        self.empty.setText(words if self._controller.editor is not None else no_project)
         if self.current not in gestures:
             self.choose(next(iter(gestures), ""))
         self._show_states()

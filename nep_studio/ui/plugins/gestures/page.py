@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
@@ -24,6 +25,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.labels import explained, follow_words
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.watch_view.status import WatchStatus
 from nep_studio.ui.widgets.layouts import in_column, in_row
@@ -170,7 +172,7 @@ class HintLine(QWidget):
         controller.sources_changed.connect(self.refresh)
         controller.look.theme_changed.connect(self._dress)
         self._dress()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Show the step that is next now."""
@@ -209,8 +211,7 @@ class Head(QWidget):
         self._controller = controller
         self.watch, self.more = WatchStatus(controller.runner, controller.look), QToolButton()
         self.hint = HintLine(controller)
-        self.more.setAccessibleName(tr("Import, export and more"))
-        self.more.setToolTip(tr("Import, export and more"))
+        explained(self.more, "Import, export and more")
         self.more.clicked.connect(self.more_asked)
         row = in_row((self.watch, 1), self.more)
         in_column(row, self.hint, of=self, margins=0, spacing=self.fontMetrics().height() // 3)
@@ -246,11 +247,12 @@ class TrainerPage(QWidget):
         self._lay_out()
         self._connect()
         self._on_current_changed(self.cards.current)
+        follow_words(self, self._name_tabs)
 
     def _lay_out(self) -> None:
         self.tabs = QTabWidget(documentMode=True)
-        self.tabs.addTab(self.trial, tr("Try it"))
-        self.tabs.addTab(self.results, tr("What was learned"))
+        self.tabs.addTab(self.trial, "")
+        self.tabs.addTab(self.results, "")
         self.inner, self.outer = QSplitter(), QSplitter()
         for splitter, parts in (
             (self.inner, (self._top(), self.cards)),
@@ -262,6 +264,14 @@ class TrainerPage(QWidget):
         self._shape: Shape | None = None
         in_column(self.outer, of=self, margins=0)
         fit_icons(self)
+
+    def _name_tabs(self) -> None:
+        for part, words in (
+            (self.inner, tr("Record")),
+            (self.trial, tr("Try it")),
+            (self.results, tr("What was learned")),
+        ):
+            self.tabs.setTabText(self.tabs.indexOf(part), words)
 
     def _top(self) -> QScrollArea:
         """The graph with what is above and below it; where there is little room, it scrolls."""
@@ -326,15 +336,16 @@ class TrainerPage(QWidget):
 
     def _begin(self, has_begun: bool) -> None:
         if not has_begun:
-            self.bar.tell(tr("Nothing is heard yet. Connect a watch or phone, and move it."))
+            self.bar.tell(
+                lambda: tr("Nothing is heard yet. Connect a watch or phone, and move it.")
+            )
             return
         self.controller.choose_take("")
         self.show_recording()
-        self.bar.tell(self._what_to_do())
+        self.bar.tell(partial(self._what_to_do, self.session.gesture))
         self.strip.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _what_to_do(self) -> str:
-        gesture = self.session.gesture
+    def _what_to_do(self, gesture: str) -> str:
         if not gesture:
             return tr("Move as you usually do, without your gestures.")
         if self.simulated.is_there:
@@ -344,13 +355,14 @@ class TrainerPage(QWidget):
 
     def _on_ended(self, session: RecordingSession) -> None:
         if session.takes and not keep_session(self.keeping, session):
-            self.bar.tell(tr("The takes could not be kept. Is the gesture still there?"))
+            self.bar.tell(lambda: tr("The takes could not be kept. Is the gesture still there?"))
             return
         self.cards.show_card(session.gesture)
-        self.bar.tell(session_words(session))
+        self.bar.tell(partial(session_words, session))
 
     def _on_everyday_ended(self, samples: Samples) -> None:
-        self.bar.tell(everyday_words(samples, self.keeping.keep_everyday(samples)))
+        is_kept = self.keeping.keep_everyday(samples)
+        self.bar.tell(partial(everyday_words, samples, is_kept))
 
     def _on_session_changed(self) -> None:
         is_on = self.session.is_on
@@ -362,7 +374,8 @@ class TrainerPage(QWidget):
             QApplication.beep()
 
     def _on_movement_found(self, _movement: object) -> None:
-        self.bar.tell(self.strip.big_words)
+        counted = self.strip.big_words
+        self.bar.tell(lambda: counted)
         if self.beeps:
             QApplication.beep()
 
@@ -446,7 +459,8 @@ class TrainerPage(QWidget):
             shown = self.tabs.currentWidget()
             is_first = self.tabs.indexOf(self.inner) >= 0
             if shape.is_tabbed and not is_first:
-                self.tabs.insertTab(0, self.inner, tr("Record"))
+                self.tabs.insertTab(0, self.inner, "")
+                self._name_tabs()
                 self.tabs.setCurrentIndex(0)
             elif not shape.is_tabbed and is_first:
                 self.outer.insertWidget(0, self.inner)

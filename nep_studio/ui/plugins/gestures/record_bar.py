@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QObject, QPoint, QSignalBlocker, QSize, Qt
 from PySide6.QtWidgets import (
     QComboBox,
@@ -17,8 +19,10 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_gestures import WRISTS
 from nep_studio.blocks.slots import why_not_name
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.layouts import FlowLayout, in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
@@ -31,7 +35,7 @@ from .sample_view import TakeView
 # Who wears the sensor, and where: chosen here before something is recorded.
 
 
-def wrist_words() -> dict[str, str]:
+def wrist_words() -> dict[object, str]:
     """Where a sensor can be, in words."""
     return {
         "left": tr("Left wrist"),
@@ -52,11 +56,10 @@ class WearerBox(QObject):
         self.asking: Asking | None = None
         self.who, self.where = QWidget(), QWidget()
         self.sign = QLabel()
-        self.person, self.wrist, self.source = QComboBox(), QComboBox(), QComboBox()
+        self.person, self.source = QComboBox(), QComboBox()
+        self.wrist = Choices(wrist_words)
         self.more = QToolButton()
         self._lay_out()
-        for key, words in wrist_words().items():
-            self.wrist.addItem(words, key)
         self.person.activated.connect(self._on_person_chosen)
         self.wrist.activated.connect(self._on_wrist_chosen)
         self.source.activated.connect(self._on_source_chosen)
@@ -65,16 +68,17 @@ class WearerBox(QObject):
             signal.connect(self.refresh)
         controller.look.theme_changed.connect(self._dress)
         self._dress()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
-        self.person.setAccessibleName(tr("Who records"))
-        self.person.setToolTip(tr("Who records: each take belongs to a person"))
-        self.wrist.setAccessibleName(tr("Where the watch or phone is"))
-        self.wrist.setToolTip(tr("Where the watch or phone is while it is recorded"))
-        self.source.setAccessibleName(tr("Which watch or phone"))
-        self.more.setAccessibleName(tr("Change people"))
-        self.more.setToolTip(tr("Change people"))
+        labelled(self.person, name="Who records", tip="Who records: each take belongs to a person")
+        labelled(
+            self.wrist,
+            name="Where the watch or phone is",
+            tip="Where the watch or phone is while it is recorded",
+        )
+        labelled(self.source, name="Which watch or phone")
+        labelled(self.more, name="Change people", tip="Change people")
         for box in (self.person, self.wrist, self.source):
             box.setSizeAdjustPolicy(
                 QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
@@ -178,9 +182,15 @@ class RecordBar(QWidget):
         super().__init__()
         self._controller, self._session, self._take = controller, session, take
         self.gesture = ""
-        self.button, self.cancel = QPushButton(), QPushButton(tr("Cancel"))
-        self.play, self.back = QToolButton(), QPushButton(tr("Back to the live graph"))
-        self.everyday = QPushButton(tr("Everyday movement"))
+        self._told: Callable[[], str] = str
+        self.button = labelled(QPushButton(), tip="Space")
+        self.cancel = labelled(QPushButton(), text="Cancel")
+        self.play, self.back = QToolButton(), labelled(QPushButton(), text="Back to the live graph")
+        self.everyday = labelled(
+            QPushButton(),
+            text="Everyday movement",
+            tip="Record how you usually move: the program learns what is no gesture",
+        )
         self.wearer = WearerBox(controller, keeping)
         self.wearer.setParent(self)
         self.words, self.progress = QLabel(), QProgressBar()
@@ -192,19 +202,17 @@ class RecordBar(QWidget):
             signal.connect(self.refresh)
         controller.look.theme_changed.connect(self._dress)
         self._dress()
-        self.refresh()
+        follow_words(self, self._say)
 
     def _lay_out(self) -> None:
         for button in (self.button, self.cancel, self.back, self.everyday):
             button.setAutoDefault(False)
-        tip = tr("Record how you usually move: the program learns what is no gesture")
-        self.everyday.setToolTip(tip)
         self.back.setProperty("kind", "quiet")
         self.words.setTextFormat(Qt.TextFormat.PlainText)
         self.words.setWordWrap(True)
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.progress.setRange(0, 100)
-        self.progress.setAccessibleName(tr("How much is recorded"))
+        labelled(self.progress, name="How much is recorded")
         row = FlowLayout(gap=self.fontMetrics().height() // 3)
         wearer = (self.wearer.who, self.wearer.where)
         for widget in (self.button, self.cancel, self.play, self.back, *wearer, self.everyday):
@@ -216,11 +224,15 @@ class RecordBar(QWidget):
         box.addWidget(self.progress)
         box.addLayout(row)
 
-    def tell(self, words: str) -> None:
-        """Say what came of it, on the screen and to screen readers."""
-        self.words.setText(words)
-        self.words.setVisible(bool(words))
-        announce(self, words)
+    def tell(self, told: Callable[[], str]) -> None:
+        """Say what came of it, on the screen and to screen readers; again in other words."""
+        self._told = told
+        self._say()
+        announce(self, self.words.text())
+
+    def _say(self) -> None:
+        self.words.setText(self._told())
+        self.refresh()
 
     def set_gesture(self, name: str) -> None:
         """Record this gesture when the button is pressed."""
@@ -256,7 +268,6 @@ class RecordBar(QWidget):
         if (words, kind) == (self.button.text(), self.button.property("kind")):
             return
         self.button.setText(words)
-        self.button.setToolTip(tr("Space"))
         if kind != self.button.property("kind"):
             self.button.setProperty("kind", kind)
             self.button.style().unpolish(self.button)
@@ -275,10 +286,7 @@ class RecordBar(QWidget):
 
     def _dress_play(self) -> None:
         is_playing = self._take.cursor_s is not None
-        words = tr("Stop playing") if is_playing else tr("Play the take")
-        if words != self.play.accessibleName():
-            self.play.setAccessibleName(words)
-            self.play.setToolTip(words)
+        explained(self.play, "Stop playing" if is_playing else "Play the take")
         self.play.setIcon(icon("square" if is_playing else "play", self._controller.look.theme))
 
 

@@ -26,6 +26,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QApplication, QSizePolicy, QToolTip, QWidget
 
 from nep_studio.blocks.own_gestures import OwnGesture, OwnTake
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.words import tr
@@ -171,8 +172,8 @@ class TakesList(QWidget):
         policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
-        self.setAccessibleDescription(
-            tr("Arrow keys choose a take, Enter looks at it, Delete deletes it.")
+        labelled(
+            self, description="Arrow keys choose a take, Enter looks at it, Delete deletes it."
         )
         make_list_accessible(self, self)
         controller.take_chosen.connect(self._on_take_chosen)

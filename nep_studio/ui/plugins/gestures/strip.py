@@ -16,6 +16,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.words import tr
 
@@ -199,11 +200,15 @@ class Strip(QWidget):
         self.update()
 
     def _name_it(self) -> None:
-        name = tr("A take, large") if self.take.is_open else tr("What is measured now")
-        if name != self.accessibleName():
-            self.setAccessibleName(name)
-        words = tr("Home and End choose an end, arrow keys move it, Space plays, Escape goes back.")
-        self.setAccessibleDescription(words if self.take.is_open else "")
+        is_open = self.take.is_open
+        labelled(
+            self,
+            name="A take, large" if is_open else "What is measured now",
+            description="Home and End choose an end, arrow keys move it, Space plays, "
+            "Escape goes back."
+            if is_open
+            else "",
+        )
 
     def showEvent(self, event: QShowEvent) -> None:
         """Draw on."""

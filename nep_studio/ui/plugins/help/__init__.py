@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from nep_studio.ui.actions import on_the_canvas, shortcuts_of
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from .panel import HelpPanel
@@ -28,7 +27,7 @@ def make(host: Host) -> Parts:
         return [*shortcuts_of(host.actions.by_name.values()), *on_the_canvas()]
 
     def new_panel() -> HelpPanel:
-        return HelpPanel(workbench.canvas, services.look, services.language, shortcuts)
+        return HelpPanel(workbench.canvas, services.look, lambda: services.language, shortcuts)
 
     panel = new_panel()
     controller = HelpController(panel, new_panel, workbench.panels, workbench.helpers.opening)
@@ -52,7 +51,7 @@ def make(host: Host) -> Parts:
         "help.documentation": lambda: open_documentation(services.messages),
         "help.follow": follow,
     }
-    return Parts(NewPanel(panel, tr("Help"), "circle-question-mark", "right"), commands=commands)
+    return Parts(NewPanel(panel, "Help", "circle-question-mark", "right"), commands=commands)
 
 
 plugin = Plugin("help", make, order=110, modules=("repository", "panel", "help_controller"))

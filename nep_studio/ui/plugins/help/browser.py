@@ -24,6 +24,7 @@ from nep_studio.blocks.text import sentence
 from nep_studio.help.texts import Example, examples
 from nep_studio.ui.canvas.block_pictures import PictureLook, arrange, help_picture_of
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme, load_theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, code_font
@@ -95,7 +96,7 @@ class HelpBrowser(QTextBrowser):
         self.setOpenLinks(False)
         self.setFrameShape(QTextBrowser.Shape.NoFrame)
         self.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
-        self.setAccessibleName(tr("Page of the help"))
+        labelled(self, name="Page of the help")
         self.anchorClicked.connect(self._on_link_clicked)
 
     # What is shown
@@ -270,11 +271,11 @@ class ExampleBar(QWidget):
         self._example: Example | None = None
         self._title = ""
         self.can_insert = True
-        self.insert = QPushButton(tr("Put it on the page"))
-        self.try_it = QPushButton(tr("Try it"))
+        self.insert = labelled(QPushButton(), text="Put it on the page")
+        self.try_it = labelled(QPushButton(), text="Try it")
         self.try_it.setProperty("kind", "primary")
-        self.insert.setToolTip(tr("Put the blocks of the example into your program"))
-        self.try_it.setToolTip(tr("Run the example as a project of its own"))
+        labelled(self.insert, tip="Put the blocks of the example into your program")
+        labelled(self.try_it, tip="Run the example as a project of its own")
         self.insert.clicked.connect(self.put_on_page)
         self.try_it.clicked.connect(self.ask_to_try)
         gap = self.fontMetrics().height() // 3

@@ -20,6 +20,7 @@ from nep_studio.help.texts import HOME, PROBLEMS, block_page, error_anchor, erro
 from nep_studio.paths import first_page
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.popup import FieldPopup
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import MessageCard
 from nep_studio.ui.messages import Message, Messages
 from nep_studio.ui.widgets.layouts import in_column
@@ -185,7 +186,7 @@ class HelpWindow(QWidget):
 
     def __init__(self, panel: HelpPanel) -> None:
         super().__init__(None, Qt.WindowType.Window)
-        self.setWindowTitle(tr("Help"))
+        labelled(self, window_title="Help")
         self.setAttribute(Qt.WidgetAttribute.WA_QuitOnClose, False)  # the main window decides
         self.panel = panel
         in_column(panel, of=self, margins=0)

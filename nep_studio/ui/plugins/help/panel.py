@@ -29,6 +29,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.help.index import Findable, Hit, Index
 from nep_studio.help.texts import BLOCK, CATEGORY, HOME, NODE, split
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import UnknownIcon, icon
@@ -55,9 +56,9 @@ class ContentsView(QStackedWidget):
         self.tree = QTreeWidget()
         self.tree.setHeaderHidden(True)
         self.tree.setUniformRowHeights(True)
-        self.tree.setAccessibleName(tr("Contents of the help"))
+        labelled(self.tree, name="Contents of the help")
         self.found = FoundList()
-        self.found.setAccessibleName(tr("Pages found"))
+        labelled(self.found, name="Pages found")
         self.found.setUniformItemSizes(True)
         for view in (self.tree, self.found):
             view.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -178,17 +179,16 @@ class ToolRow(QWidget):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self.back = _button(tr("Back"))
-        self.forward = _button(tr("Forward"))
-        self.home = _button(tr("First page of the help"))
-        self.contents = _button(tr("Contents"))
+        self.back = explained(_button(), "Back")
+        self.forward = explained(_button(), "Forward")
+        self.home = explained(_button(), "First page of the help")
+        self.contents = explained(_button(), "Contents")
         self.contents.setCheckable(True)
-        self.smaller = _button(tr("Smaller text"))
-        self.larger = _button(tr("Larger text"))
-        self.print = _button(tr("Print this page…"))
+        self.smaller = explained(_button(), "Smaller text")
+        self.larger = explained(_button(), "Larger text")
+        self.print = explained(_button(), "Print this page…")
         self.search = QLineEdit(clearButtonEnabled=True)
-        self.search.setPlaceholderText(tr("Search the help"))
-        self.search.setAccessibleName(tr("Search the help"))
+        labelled(self.search, placeholder="Search the help", name="Search the help")
         self._sign = QAction(self.search)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
         buttons = QHBoxLayout()
@@ -222,10 +222,8 @@ class ToolRow(QWidget):
         self._sign.setIcon(icon("search", theme))
 
 
-def _button(words: str) -> QToolButton:
+def _button() -> QToolButton:
     button = QToolButton(autoRaise=True)
-    button.setToolTip(words.removesuffix("…"))
-    button.setAccessibleName(words.removesuffix("…"))
     return button
 
 
@@ -323,6 +321,11 @@ class Searching(QObject):
         """Whether all pages have been read."""
         return self._index is not None and self._waiting is None
 
+    def forget(self) -> None:
+        """Forget what was read: the pages are in another language now."""
+        self._index = self._waiting = None
+        self._later.stop()
+
     def begin(self) -> None:
         """Begin to read the pages, if nobody has yet."""
         if self._index is None:
@@ -384,7 +387,7 @@ class HelpPanel(QWidget):
         self,
         canvas: Canvas,
         look: Look,
-        language: Language,
+        language: Callable[[], Language],
         shortcuts: Callable[[], Rows] = lambda: (),
         parent: QWidget | None = None,
     ) -> None:
@@ -407,15 +410,16 @@ class HelpPanel(QWidget):
         self.tools.dress(self._look.theme)
         self.example.dress(self._look.theme)
         self._connect()
-        self.setAccessibleName(tr("Help"))
+        labelled(self, name="Help")
         self.setProperty("help_page", "howto/window#help")
         self._show_tools()
+        follow_words(self, self._speak)
 
     @property
     def book(self) -> Book:
         """The pages; they are read when they are first needed."""
         if self._book is None:
-            self._book = Book(self._language, self._shortcuts)
+            self._book = Book(self._language(), self._shortcuts)
             self.contents.fill(self._book.contents(), self._look.theme)
         return self._book
 
@@ -455,7 +459,16 @@ class HelpPanel(QWidget):
             self.contents.fill(self._book.contents(), self._look.theme)
             self.browser.refresh()
             self.contents.mark(self.trail.current)
+        elif self.trail.current:
+            self._show(self.trail.current, self.browser.verticalScrollBar().value())
+            self._on_search_changed(self.search.text())
         self._fit()
+
+    def _speak(self) -> None:
+        """Read the pages in another language, from where they were read."""
+        self._book = None
+        self.searching.forget()
+        self.refresh()
 
     def print_page(self) -> None:
         """Ask for a printer, and print the page."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 
 def make(host: Host) -> Parts:
@@ -11,8 +10,8 @@ def make(host: Host) -> Parts:
     from .panel import LogPanel
 
     services = host.services
-    panel = LogPanel(services.runner, services.messages, services.language, services.look)
-    return Parts(NewPanel(panel, tr("Log"), "history", "bottom"))
+    panel = LogPanel(services.runner, services.messages, lambda: services.language, services.look)
+    return Parts(NewPanel(panel, "Log", "history", "bottom"))
 
 
 plugin = Plugin("log", make, order=80, modules=("panel",))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 import time
 from collections import deque
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,6 @@ from PySide6.QtCore import QSize, Qt, qVersion
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QComboBox,
     QHBoxLayout,
     QLabel,
     QLineEdit,
@@ -34,12 +34,14 @@ from nep_core.wire import messages as m
 from nep_studio import __version__
 from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import Timeline
+from nep_studio.ui.labels import explained, follow_words, labelled, labelled_items
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import KIND_ICONS, Kind, Messages, Told
 from nep_studio.ui.node_style import TYPE_ICONS
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import tr
 
@@ -61,11 +63,9 @@ class LogButtons(QWidget):
         self.copy, self.save, self.clear = QToolButton(), QToolButton(), QToolButton()
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        words = {self.copy: tr("Copy"), self.save: tr("Save as text…"), self.clear: tr("Clear")}
-        for button, tip in words.items():
-            button.setToolTip(tip)
-            button.setAccessibleName(tip)
-            row.addWidget(button)
+        row.addWidget(explained(self.copy, "Copy"))
+        row.addWidget(explained(self.save, "Save as text…"))
+        row.addWidget(explained(self.clear, "Clear"))
         look.theme_changed.connect(self._dress)
         self._dress()
 
@@ -86,15 +86,17 @@ MOST_WAITING = 1500
 class WhatHappens(QWidget):
     """The lines of the timeline; what comes while it is hidden is told when it is shown."""
 
-    def __init__(self, runner: Runner, messages: Messages, language: Language, look: Look) -> None:
+    def __init__(
+        self, runner: Runner, messages: Messages, language: Callable[[], Language], look: Look
+    ) -> None:
         super().__init__()
         self._messages, self._look = messages, look
-        self._timeline = Timeline(language, tr)
+        self._language, self._timeline = language, Timeline(language(), tr)
         self._waiting: deque[tuple[float, msgspec.Struct]] = deque(maxlen=MOST_WAITING)
         self._started_s = time.time()
         self.model = LinesModel(self)
         self.list = QListView()
-        self.part = QComboBox()
+        self.part = Choices(_parts)
         self.search = QLineEdit()
         self.hint = QLabel()
         self.buttons = LogButtons(look)
@@ -105,7 +107,7 @@ class WhatHappens(QWidget):
         runner.state_changed.connect(self._on_state_changed)
         look.theme_changed.connect(self._dress)
         self._dress()
-        self._show_hint()
+        follow_words(self, self._speak)
 
     def _set_up_list(self) -> None:
         self._painter = LinePainter(self._look)
@@ -114,25 +116,15 @@ class WhatHappens(QWidget):
         self.list.setUniformItemSizes(True)
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.list.setAccessibleName(tr("What happens"))
+        labelled(self.list, name="What happens")
         copy = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.list)
         copy.setContext(Qt.ShortcutContext.WidgetShortcut)
         copy.activated.connect(self.copy)
 
     def _set_up_filters(self) -> None:
-        parts = {
-            "": tr("Everything"),
-            "perceptual": tr("What people do"),
-            "cognitive": tr("The program"),
-            "action": tr("The robots"),
-            "sensory": tr("The sensors"),
-        }
-        for part, words in parts.items():
-            self.part.addItem(words, part)
-        self.part.setAccessibleName(tr("Whose lines are shown"))
+        labelled(self.part, name="Whose lines are shown")
         self.part.currentIndexChanged.connect(lambda: self.model.show_part(self.part.currentData()))
-        self.search.setPlaceholderText(tr("Find in these lines"))
-        self.search.setAccessibleName(tr("Find in these lines"))
+        labelled(self.search, placeholder="Find in these lines", name="Find in these lines")
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self.model.search)
         self.model.modelReset.connect(self._show_hint)
@@ -220,8 +212,12 @@ class WhatHappens(QWidget):
             self._stack.setCurrentWidget(self.list)
             return
         is_empty = self.model.total == 0
-        begin = tr("Press Run. Here you read who does what, while it happens.")
-        self.hint.setText(begin if is_empty else tr("No line has these words."))
+        labelled(
+            self.hint,
+            text="Press Run. Here you read who does what, while it happens."
+            if is_empty
+            else "No line has these words.",
+        )
         self._stack.setCurrentWidget(self.hint)
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -230,11 +226,27 @@ class WhatHappens(QWidget):
         self._take_waiting()
         self.list.scrollToBottom()
 
+    def _speak(self) -> None:
+        """Tell from now on in the words that are used; what was told stays as it was told."""
+        self._timeline.language = self._language()
+        self._show_hint()
+
     def _dress(self) -> None:
         theme = self._look.theme
         for index in range(1, self.part.count()):
             self.part.setItemIcon(index, icon(TYPE_ICONS[self.part.itemData(index)], theme))
         self.list.viewport().update()
+
+
+def _parts() -> dict[object, str]:
+    """Whose lines can be shown alone: the types of nodes, in words."""
+    return {
+        "": tr("Everything"),
+        "perceptual": tr("What people do"),
+        "cognitive": tr("The program"),
+        "action": tr("The robots"),
+        "sensory": tr("The sensors"),
+    }
 
 
 def _is_told(message: msgspec.Struct) -> bool:
@@ -258,20 +270,23 @@ class ToldMessages(QWidget):
         self._messages, self._look = messages, look
         self._shown = 0
         self.list = QListWidget()
-        self.list.setAccessibleName(tr("Messages"))
+        labelled(self.list, name="Messages")
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.detail = QScrollArea()
         self.detail.setWidgetResizable(True)
         self.detail.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.copy_button = QPushButton(tr("Copy all for support"))
-        self.hint = QLabel(tr("What the window tells you is kept here until you close it."))
+        self.copy_button = labelled(QPushButton(), text="Copy all for support")
+        self.hint = labelled(
+            QLabel(), text="What the window tells you is kept here until you close it."
+        )
         self._lay_out()
         self.list.currentItemChanged.connect(self._on_chosen)
         self.copy_button.clicked.connect(self._on_copy_clicked)
         messages.told.connect(self._on_told)
         look.theme_changed.connect(self._dress)
         self._dress()
+        follow_words(self, self._speak)
 
     def _lay_out(self) -> None:
         self.hint.setProperty("role", "hint")
@@ -323,6 +338,12 @@ class ToldMessages(QWidget):
         for told in self._messages.history:
             self._insert(told)
         self._show_list()
+
+    def _speak(self) -> None:
+        """Tell of the messages in other words; they themselves stay as they were told."""
+        chosen = self.list.currentRow()
+        self._fill()
+        self.list.setCurrentRow(max(chosen, 0))
 
     def _insert(self, told: Told) -> None:
         item = QListWidgetItem(f"{_clock(told)}  {told.message.title}")
@@ -396,13 +417,16 @@ def _as_text(told: Told) -> str:
 class LogPanel(QTabWidget):
     """Reads on while a program runs; it does no work while it is hidden."""
 
-    def __init__(self, runner: Runner, messages: Messages, language: Language, look: Look) -> None:
+    def __init__(
+        self, runner: Runner, messages: Messages, language: Callable[[], Language], look: Look
+    ) -> None:
         super().__init__()
         self.what_happens = WhatHappens(runner, messages, language, look)
         self.told = ToldMessages(messages, look)
         self.setDocumentMode(True)
-        self.addTab(self.what_happens, tr("What happens"))
-        self.addTab(self.told, tr("Messages"))
+        self.addTab(self.what_happens, "")
+        self.addTab(self.told, "")
+        labelled_items(self, "What happens", "Messages")
 
     def sizeHint(self) -> QSize:
         """Room for a few lines."""

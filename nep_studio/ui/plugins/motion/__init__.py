@@ -33,18 +33,18 @@ def make(host: Host) -> Parts:
     actions = [
         NewAction(
             "make_motion",
-            tr("Make a motion…"),
+            "Make a motion…",
             kit.make,
             "person-standing",
-            tip=tr("Pose the robot, put the poses on a timeline, and let blocks play the motion"),
+            tip="Pose the robot, put the poses on a timeline, and let blocks play the motion",
             menu="robots",
         ),
         NewAction(
             "teleoperate",
-            tr("Drive a robot…"),
+            "Drive a robot…",
             kit.drive,
             "crosshair",
-            tip=tr("Let a robot walk and look around with keys, a gamepad or a watch"),
+            tip="Let a robot walk and look around with keys, a gamepad or a watch",
             menu="robots",
         ),
     ]

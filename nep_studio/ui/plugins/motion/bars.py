@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
@@ -17,9 +19,11 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_animations import AnimationKind
 from nep_studio.ui.actions import Actions
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import count_words, tr
 from robots.body.body import Body, posture_name
@@ -34,25 +38,23 @@ class Header(QWidget):
     """Three fields over the robot."""
 
     def __init__(
-        self, controller: MotionController, language: Language, parent: QWidget | None = None
+        self,
+        controller: MotionController,
+        language: Callable[[], Language],
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.controller = controller
         self.title = QLineEdit(maxLength=100)
-        self.title.setPlaceholderText(tr("Name of the motion"))
-        self.title.setAccessibleName(tr("Name of the motion"))
-        self.start = QComboBox()
-        self.start.setAccessibleName(tr("Starts from"))
-        self.start.addItem(tr("any posture"), "")
-        for name, words in posture_words(language, controller.body).items():
-            self.start.addItem(words, name)
-        self.kind = QComboBox()
-        self.kind.setAccessibleName(tr("Used to"))
-        for kind, words in kind_words().items():
-            self.kind.addItem(words, kind)
+        labelled(self.title, placeholder="Name of the motion", name="Name of the motion")
+        self.start = Choices(
+            lambda: {"": tr("any posture"), **posture_words(language(), controller.body)}
+        )
+        labelled(self.start, name="Starts from")
+        self.kind = labelled(Choices(kind_words), name="Used to")
         row = in_row((self.title, 1), of=self, margins=0)
-        for words, field in ((tr("Starts from"), self.start), (tr("Used to"), self.kind)):
-            label = QLabel(words)
+        starts, used = labelled(QLabel(), text="Starts from"), labelled(QLabel(), text="Used to")
+        for label, field in ((starts, self.start), (used, self.kind)):
             label.setBuddy(field)
             row.addWidget(label)
             row.addWidget(field)
@@ -118,9 +120,9 @@ class NotesBar(QFrame):
         self.controller, self.look = controller, look
         self.faults: list[Fault] = []
         self.sign, self.words = QLabel(), QLabel(wordWrap=True)
-        self.give_time = QPushButton(tr("Give it the time it needs"))
-        self.show_place = QPushButton(tr("Show the place"))
-        self.open = QPushButton(tr("Open one as a start…"))
+        self.give_time = labelled(QPushButton(), text="Give it the time it needs")
+        self.show_place = labelled(QPushButton(), text="Show the place")
+        self.open = labelled(QPushButton(), text="Open one as a start…")
         for button in (self.give_time, self.show_place, self.open):
             button.setAutoDefault(False)
         line = self.fontMetrics().height()
@@ -136,7 +138,7 @@ class NotesBar(QFrame):
         self.show_place.clicked.connect(self._on_show_asked)
         controller.changed.connect(self.refresh)
         look.theme_changed.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def show_faults(self, faults: list[Fault]) -> None:
         """Tell of these."""
@@ -206,26 +208,23 @@ class Transport(QWidget):
         self.controller, self.player, self.timeline = controller, player, timeline
         self.time = QLabel()
         self.speed = QComboBox()
-        self.speed.setAccessibleName(tr("Speed"))
-        self.speed.setToolTip(tr("How fast it is shown here; the motion stays as it is"))
+        labelled(
+            self.speed, name="Speed", tip="How fast it is shown here; the motion stays as it is"
+        )
         for speed in SPEEDS:
             self.speed.addItem(
                 f"\N{MULTIPLICATION SIGN} {QLocale().toString(speed, 'g', 3)}", speed
             )
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
-        self.snap = QComboBox()
-        self.snap.setAccessibleName(tr("Grid"))
-        self.snap.setToolTip(tr("To which times key poses go when they are moved"))
-        for snap in SNAPS_S:
-            words = tr("no grid") if not snap else tr("grid {time} s", time=f"{snap:g}")
-            self.snap.addItem(words, snap)
+        self.snap = Choices(snap_words)
+        labelled(self.snap, name="Grid", tip="To which times key poses go when they are moved")
         self.snap.setCurrentIndex(SNAPS_S.index(timeline.snap_s))
         self._lay_out(actions)
         self.speed.currentIndexChanged.connect(self._on_speed_changed)
         self.snap.currentIndexChanged.connect(self._on_snap_changed)
         for signal in (controller.changed, controller.moved):
             signal.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Show the moment."""
@@ -253,6 +252,13 @@ class Transport(QWidget):
 
     def _on_snap_changed(self) -> None:
         self.timeline.snap_s = float(self.snap.currentData())
+
+
+def snap_words() -> dict[float, str]:
+    """To which times key poses can go, in words."""
+    return {
+        snap: tr("grid {time} s", time=f"{snap:g}") if snap else tr("no grid") for snap in SNAPS_S
+    }
 
 
 def _button(actions: Actions, name: str, *, has_words: bool = False) -> QToolButton:

@@ -17,6 +17,7 @@ from nep_studio.blocks.operations.animations import Use
 from nep_studio.blocks.own_animations import OwnAnimation, free_name
 from nep_studio.problems import problem_of
 from nep_studio.project.kept_files import to_toml
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.messages import Answer, Message, Messages, announce
 from nep_studio.ui.theme.icons import icon
@@ -42,6 +43,8 @@ PLAIN_KEYS = {
 }
 COPY_GAP_S = 0.5
 """So much later than the last pose copies come, where the moment shown says nothing else."""
+LOOKS = {"front": "the front", "side": "the side", "back": "behind", "top": "above"}
+"""From where the robot can be looked at."""
 LEAST_STRETCH, MOST_STRETCH = 10, 1000
 
 
@@ -52,18 +55,18 @@ class Commands:
         self.window, self.controller, self.player = window, window.controller, window.player
         add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
         controller = self.controller
-        add("undo_motion", tr("Undo"), controller.undo, icon_name="undo-2", keys=keys.Undo)
+        add("undo_motion", "Undo", controller.undo, icon_name="undo-2", keys=keys.Undo)
         add(
             "redo_motion",
-            tr("Redo"),
+            "Redo",
             controller.redo,
             icon_name="redo-2",
             keys=(keys.Redo, "Ctrl+Y"),
         )
-        self._add_plain("add_pose", tr("Add a pose"), self.add_pose, "plus")
-        self._add_plain("copy_pose", tr("Copy the poses to here"), self.copy, "copy-plus")
-        self._add_plain("delete_pose", tr("Delete the poses"), self.delete, "trash-2")
-        add("all_poses", tr("Choose all poses"), self.choose_all, keys=keys.SelectAll)
+        add("add_pose", "Add a pose", self.add_pose, icon_name="plus")
+        add("copy_pose", "Copy the poses to here", self.copy, icon_name="copy-plus")
+        add("delete_pose", "Delete the poses", self.delete, icon_name="trash-2")
+        add("all_poses", "Choose all poses", self.choose_all, keys=keys.SelectAll)
         self._add_play()
         self._add_changes()
 
@@ -81,6 +84,14 @@ class Commands:
             ("redo_motion", controller.redo_label, tr("Redo")),
         ):
             actions[name].setText(f"{words}: {label}" if label else words)
+        self._tell_keys()
+
+    def _tell_keys(self) -> None:
+        """Say in tool tips which keys are pressed without Ctrl: they are no shortcuts."""
+        for key, name in reversed(PLAIN_KEYS.items()):
+            action = self.window.actions_by_name[name]
+            keys = QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
+            action.setToolTip(f"{action.text()} ({keys})")
 
     def press(self, key: int) -> bool:
         """Do what a key without Ctrl means; False when it means nothing here.
@@ -94,47 +105,38 @@ class Commands:
         return True
 
     def _add_play(self) -> None:
-        begin = tr("To the beginning")
-        self._add_plain("first_pose", begin, lambda: self.controller.show(0.0), "rotate-ccw")
-        self._add_plain("play_motion", tr("Play"), self.player.toggle, "play")
-        self._add_plain("loop_motion", tr("Again and again"), lambda: None, "repeat")
-        loop = self.window.actions_by_name["loop_motion"]
+        add, begin = self.window.actions_by_name.add, lambda: self.controller.show(0.0)
+        add("first_pose", "To the beginning", begin, icon_name="rotate-ccw")
+        add("play_motion", "Play", self.player.toggle, icon_name="play")
+        loop = add("loop_motion", "Again and again", lambda: None, icon_name="repeat")
         loop.setCheckable(True)
         loop.toggled.connect(self._on_loop_toggled)
         self.player.changed.connect(self._on_playing_changed)
-        add = self.window.actions_by_name.add
-        words = tr("The curve of one joint")
-        curve = add("show_curve", words, lambda: None, icon_name="chart-line")
+        curve = add("show_curve", "The curve of one joint", lambda: None, icon_name="chart-line")
         curve.setCheckable(True)
         curve.toggled.connect(self.window.show_curve)
 
-    def _add_plain(self, name: str, words: str, do: Callable[[], object], icon_name: str) -> None:
-        """Add an action whose key is pressed without Ctrl."""
-        key = next(key for key, one in PLAIN_KEYS.items() if one == name)
-        keys = QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
-        tip = f"{words} ({keys})"
-        self.window.actions_by_name.add(name, words, do, icon_name=icon_name, tip=tip)
-
     def _add_changes(self) -> None:
         add = self.window.actions_by_name.add
-        mirror, backwards = tr("Mirror: left is right"), tr("Backwards")
-        add("mirror", mirror, lambda: self._do(mirror, editing.mirrored))
-        add("backwards", backwards, lambda: self._do(backwards, editing.backwards))
-        add("stretch", tr("Slower or faster…"), self.ask_stretch, icon_name="gauge")
-        look = add("look_from", tr("Look from"), lambda: None, icon_name="eye")
+        add("mirror", "Mirror: left is right", self.mirror)
+        add("backwards", "Backwards", self.turn_around)
+        add("stretch", "Slower or faster…", self.ask_stretch, icon_name="gauge")
+        look = add("look_from", "Look from", lambda: None, icon_name="eye")
         menu = QMenu(self.window)
-        for preset, words in (
-            ("front", tr("the front")),
-            ("side", tr("the side")),
-            ("back", tr("behind")),
-            ("top", tr("above")),
-        ):
-            menu.addAction(words, partial(self._look_from, preset))
+        for preset, words in LOOKS.items():
+            labelled(menu.addAction("", partial(self._look_from, preset)), text=words)
         look.setMenu(menu)
-        words = tr("Give it the time it needs")
-        add("give_time", words, self.give_time, icon_name="hourglass")
+        add("give_time", "Give it the time it needs", self.give_time, icon_name="hourglass")
 
     # What they do
+
+    def mirror(self) -> None:
+        """Let the left do what the right did."""
+        self._do(tr("Mirror: left is right"), editing.mirrored)
+
+    def turn_around(self) -> None:
+        """Let it go from its end to its beginning."""
+        self._do(tr("Backwards"), editing.backwards)
 
     def add_pose(self) -> None:
         """Keep the pose that is shown."""
@@ -208,10 +210,10 @@ class Commands:
         self.player.is_looping = is_on
 
     def _on_playing_changed(self, is_playing: bool) -> None:
-        action = self.window.actions_by_name["play_motion"]
-        action.setText(tr("Pause") if is_playing else tr("Play"))
-        theme = self.window.look.theme
-        action.setIcon(icon("pause" if is_playing else "play", theme))
+        actions, theme = self.window.actions_by_name, self.window.look.theme
+        actions.label("play_motion", "Pause" if is_playing else "Play")
+        self._tell_keys()
+        actions["play_motion"].setIcon(icon("pause" if is_playing else "play", theme))
 
 
 # Opens motions, keeps them in the project, deletes them there, reads and writes them as text.
@@ -224,18 +226,19 @@ class ProjectCommands:
         self.window, self.controller, self.kept = window, window.controller, window.kept
         self._use: Use | None = None
         add, keys = window.actions_by_name.add, QKeySequence.StandardKey
-        add("new_motion", tr("New"), self.new, icon_name="file-plus", keys=keys.New)
+        add("new_motion", "New", self.new, icon_name="file-plus", keys=keys.New)
+        add("open_motion", "Open…", self.show_open_menu, icon_name="folder-open", keys=keys.Open)
         add(
-            "open_motion", tr("Open…"), self.show_open_menu, icon_name="folder-open", keys=keys.Open
+            "save_motion",
+            "Keep in the project",
+            self.save,
+            icon_name="save",
+            keys=keys.Save,
+            tip="Keep the motion in the project: blocks can play it",
         )
-        words, tip = (
-            tr("Keep in the project"),
-            tr("Keep the motion in the project: blocks can play it"),
-        )
-        add("save_motion", words, self.save, icon_name="save", keys=keys.Save, tip=tip)
-        add("import_motion", tr("From Choregraphe…"), self.ask_text, icon_name="clipboard-paste")
-        add("export_motion", tr("Save as a file…"), self.export, icon_name="download")
-        add("delete_motion", tr("Delete from the project…"), self.ask_delete, icon_name="trash-2")
+        add("import_motion", "From Choregraphe…", self.ask_text, icon_name="clipboard-paste")
+        add("export_motion", "Save as a file…", self.export, icon_name="download")
+        add("delete_motion", "Delete from the project…", self.ask_delete, icon_name="trash-2")
         self._add_menus()
 
     def update(self) -> None:
@@ -249,15 +252,15 @@ class ProjectCommands:
 
     def _add_menus(self) -> None:
         actions, add = self.window.actions_by_name, self.window.actions_by_name.add
-        change = add("change_motion", tr("Change"), lambda: None, icon_name="sliders-horizontal")
+        change = add("change_motion", "Change", lambda: None, icon_name="sliders-horizontal")
         menu = QMenu(self.window)
         menu.addActions([actions[n] for n in ("mirror", "backwards", "stretch", "give_time")])
         change.setMenu(menu)
-        robot = add("robot_pose", tr("From a robot"), lambda: None, icon_name="bot")
+        robot = add("robot_pose", "From a robot", lambda: None, icon_name="bot")
         self.robot_menu = QMenu(self.window)
         self.robot_menu.aboutToShow.connect(self._fill_robot_menu)
         robot.setMenu(self.robot_menu)
-        more = add("more_motion", tr("More"), lambda: None, icon_name="ellipsis")
+        more = add("more_motion", "More", lambda: None, icon_name="ellipsis")
         menu = QMenu(self.window)
         menu.addActions([actions[n] for n in ("import_motion", "export_motion", "delete_motion")])
         more.setMenu(menu)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QWidget
 
 from nep_studio.blocks.language import Language
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
@@ -32,7 +34,7 @@ class CurveView(QWidget):
         self.key_s: float | None = None
         self._grip: QPointF | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(tr("Curve of the joint"))
+        labelled(self, name="Curve of the joint")
         for signal in (controller.changed, controller.moved):
             signal.connect(self.update)
 
@@ -251,17 +253,25 @@ class CurvePanel(QWidget):
     """A choice of the joints, those that move first, and the curve of the chosen one."""
 
     def __init__(
-        self, controller: MotionController, timeline: Timeline, language: Language, look: Look
+        self,
+        controller: MotionController,
+        timeline: Timeline,
+        language: Callable[[], Language],
+        look: Look,
     ) -> None:
         super().__init__()
         self.controller, self._language = controller, language
         self.curve = CurveView(controller, timeline, look)
         self.joint = QComboBox()
-        self.joint.setAccessibleName(tr("Joint"))
+        labelled(self.joint, name="Joint")
         self._moving: tuple[str, ...] | None = None
         in_column(self.joint, (self.curve, 1), of=self, margins=0)
         self.joint.currentIndexChanged.connect(self._on_chosen)
         controller.changed.connect(self.refresh)
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        self._moving = None
         self.refresh()
 
     def refresh(self) -> None:
@@ -277,7 +287,7 @@ class CurvePanel(QWidget):
             self.joint.clear()
             for name in dict.fromkeys(names):
                 limb = limb_of_joint_words(body, name)
-                self.joint.addItem(f"{limb}: {joint_words(self._language, body, name)}", name)
+                self.joint.addItem(f"{limb}: {joint_words(self._language(), body, name)}", name)
             self.joint.setCurrentIndex(max(0, self.joint.findData(shown)))
         self._on_chosen()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
@@ -17,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.language import Language
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 from robots.body.body import Joint
@@ -35,11 +37,11 @@ class JointRow(QWidget):
     turned = Signal(str, float)
     released = Signal()
 
-    def __init__(self, joint: Joint, words: str, parent: QWidget | None = None) -> None:
+    def __init__(self, joint: Joint, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.joint, self.words = joint, words
+        self.joint, self.words = joint, ""
         self.is_hand = joint.name.endswith("Hand")
-        self.label = QLabel(words, self)
+        self.label = QLabel(self)
         self.slider = QSlider(Qt.Orientation.Horizontal, self)
         self.box = QDoubleSpinBox(self, decimals=1)
         self._is_showing = False
@@ -48,15 +50,22 @@ class JointRow(QWidget):
         self.box.setRange(math.ceil(low * STEPS) / STEPS, math.floor(high * STEPS) / STEPS)
         self.box.setSuffix(" %" if self.is_hand else "°")
         self.box.setKeyboardTracking(False)
-        for widget in (self.slider, self.box):
-            widget.setAccessibleName(self.words)
-        unit = "%" if self.is_hand else "°"
-        limits = tr("from {low} to {high}", low=f"{low:.0f}{unit}", high=f"{high:.0f}{unit}")
-        self.setToolTip(f"{self.joint.name}: {limits}")
         self.slider.valueChanged.connect(lambda value: self._on_changed(value / STEPS))
         self.slider.sliderReleased.connect(self.released)
         self.box.valueChanged.connect(self._on_changed)
         self.box.editingFinished.connect(self.released)
+
+    def say(self, words: str) -> None:
+        """Call the joint so."""
+        self.words = words
+        self.label.setText(words)
+        for field in (self.slider, self.box):
+            field.setAccessibleName(words)
+        low, high = self._shown(self.joint.min_rad), self._shown(self.joint.max_rad)
+        unit = "%" if self.is_hand else "°"
+        limits = tr("from {low} to {high}", low=f"{low:.0f}{unit}", high=f"{high:.0f}{unit}")
+        for widget in (self.label, self.slider, self.box):
+            widget.setToolTip(f"{self.joint.name}: {limits}")
 
     def show_angle(self, angle: float, *, is_key: bool) -> None:
         """Show an angle; a joint with a key at this moment stands out."""
@@ -84,15 +93,21 @@ class JointPanel(QScrollArea):
     """The joints by limb."""
 
     def __init__(
-        self, controller: MotionController, language: Language, parent: QWidget | None = None
+        self,
+        controller: MotionController,
+        language: Callable[[], Language],
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self.controller = controller
-        self.both = QCheckBox(tr("Both sides alike"))
-        self.both.setToolTip(tr("What one arm or leg does, the other does too, as in a mirror"))
+        self.controller, self._language = controller, language
+        self.both = labelled(
+            QCheckBox(),
+            text="Both sides alike",
+            tip="What one arm or leg does, the other does too, as in a mirror",
+        )
         self.both.toggled.connect(self._on_both_toggled)
         self.rows = {
-            joint.name: JointRow(joint, joint_words(language, controller.body, joint.name))
+            joint.name: JointRow(joint)
             for joint in controller.body.joints
             if joint.name not in controller.body.same_motor
         }
@@ -102,6 +117,7 @@ class JointPanel(QScrollArea):
             row.released.connect(controller.seal)
         controller.changed.connect(self.refresh)
         controller.moved.connect(self.refresh)
+        follow_words(self, self._say)
         self.refresh()
 
     def refresh(self) -> None:
@@ -109,6 +125,13 @@ class JointPanel(QScrollArea):
         pose, keys = self.controller.rehearsal.pose(self.controller.cursor_s), self._keys()
         for name, row in self.rows.items():
             row.show_angle(float(pose[self.controller.body.index[name]]), is_key=name in keys)
+
+    def _say(self) -> None:
+        language, body = self._language(), self.controller.body
+        for name, row in self.rows.items():
+            row.say(joint_words(language, body, name))
+        for limb, heading in self._headings.items():
+            heading.setText(limb_words()[limb])
 
     def _keys(self) -> frozenset[str]:
         return frozenset(pose_at(self.controller.motion, self.controller.cursor_s))
@@ -118,10 +141,11 @@ class JointPanel(QScrollArea):
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
         body = self.controller.body
-        for limb, words in limb_words().items():
+        self._headings = {limb: self._heading() for limb in limb_words()}
+        for limb, heading in self._headings.items():
             names = [n for n in self.rows if body.joints[body.index[n]].limb is limb]
             if names:
-                grid.addWidget(self._heading(words), grid.rowCount(), 0, 1, 3)
+                grid.addWidget(heading, grid.rowCount(), 0, 1, 3)
                 self._add_rows(grid, names)
         in_column(self.both, grid, 1, of=inner)
         self.setWidget(inner)
@@ -135,8 +159,8 @@ class JointPanel(QScrollArea):
         width = inner.minimumSizeHint().width() if inner is not None else 0
         return QSize(width + line * 2, line * 8)
 
-    def _heading(self, words: str) -> QLabel:
-        heading = QLabel(words)
+    def _heading(self) -> QLabel:
+        heading = QLabel(self)
         font = heading.font()
         font.setBold(True)
         heading.setFont(font)
@@ -147,7 +171,6 @@ class JointPanel(QScrollArea):
             row, number = self.rows[name], grid.rowCount()
             row.slider.setMinimumWidth(self.fontMetrics().height() * 5)
             for column, widget in enumerate((row.label, row.slider, row.box)):
-                widget.setToolTip(row.toolTip())
                 grid.addWidget(widget, number, column)
             row.setParent(self)
             row.hide()

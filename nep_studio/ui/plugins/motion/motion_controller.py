@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -27,6 +27,7 @@ from nep_studio.blocks.own_animations import (
     OwnAnimation,
     own_animations,
 )
+from nep_studio.ui.labels import follow_words
 from nep_studio.ui.words import tr
 from robots.body.animations import Animation, load_animation
 from robots.body.body import Angles, Body, part_of
@@ -492,7 +493,7 @@ class Faults(QObject):
     found = Signal(list)
 
     def __init__(
-        self, controller: MotionController, skeleton: Skeleton, language: Language
+        self, controller: MotionController, skeleton: Skeleton, language: Callable[[], Language]
     ) -> None:
         super().__init__(controller)
         self.controller, self._skeleton, self._language = controller, skeleton, language
@@ -505,7 +506,7 @@ class Faults(QObject):
         self._next = QTimer(self, interval=1)
         self._next.timeout.connect(self._on_next)
         controller.changed.connect(self._on_changed)
-        self._on_changed()
+        follow_words(self, self._on_changed)
 
     @property
     def has_too_fast(self) -> bool:
@@ -556,4 +557,4 @@ class Faults(QObject):
 
     def _joint(self, name: str) -> str:
         limb = limb_of_joint_words(self.controller.body, name)
-        return f"{limb} ({joint_words(self._language, self.controller.body, name)})"
+        return f"{limb} ({joint_words(self._language(), self.controller.body, name)})"

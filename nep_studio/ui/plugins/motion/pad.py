@@ -7,15 +7,17 @@ from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
+    QHBoxLayout,
     QLabel,
     QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .drive import KEYS, sum_of
@@ -46,9 +48,10 @@ class DrivePad(QFrame):
         self.hint = QLabel()
         self.stop_button = QPushButton()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(tr("Drive with the keys"))
+        labelled(self, name="Drive with the keys")
         self._lay_out()
         self._say_how()
+        follow_words(self, self._say_keys)
         look.theme_changed.connect(self._dress)
         self._dress()
 
@@ -135,9 +138,12 @@ class DrivePad(QFrame):
             int(Qt.Key.Key_S): (1, 1),
             int(Qt.Key.Key_D): (1, 2),
         }
-        row = in_row(self._group(tr("Walk"), walk), 1, self._group(tr("Head"), head), 1)
-        self.stop_button.setText(tr("Stop"))
-        self.stop_button.setToolTip(tr("Stop everything the robot does (Space)"))
+        row = QHBoxLayout()
+        row.addLayout(self._group(labelled(QLabel(), text="Walk"), walk))
+        row.addStretch(1)
+        row.addLayout(self._group(labelled(QLabel(), text="Head"), head))
+        row.addStretch(1)
+        labelled(self.stop_button, text="Stop", tip="Stop everything the robot does (Space)")
         self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.stop_button.setAutoDefault(False)
         self.stop_button.setProperty("kind", "stop")
@@ -146,14 +152,14 @@ class DrivePad(QFrame):
         self.hint.setWordWrap(True)
         in_column(row, self.hint, of=self)
 
-    def _group(self, words: str, keys: dict[int, Place]) -> QVBoxLayout:
+    def _group(self, heading: QLabel, keys: dict[int, Place]) -> QVBoxLayout:
         group = QWidget()
         group.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every keyboard
         grid = QGridLayout(group)
         grid.setContentsMargins(0, 0, 0, 0)
         for key, (row, column) in keys.items():
             grid.addWidget(self._button(key), row, column)
-        heading = QLabel(words, alignment=Qt.AlignmentFlag.AlignCenter)
+        heading.setAlignment(Qt.AlignmentFlag.AlignCenter)
         box = in_column(heading, group)
         return box
 
@@ -163,12 +169,8 @@ class DrivePad(QFrame):
         button.setFixedSize(round(line * 2.4), round(line * 2.1))
         button.setAutoDefault(False)
         button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        words = key_words()[key]
-        name = QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
-        button.setAccessibleName(words)
-        button.setToolTip(f"{words} ({name})")
         if Qt.Key(key) not in ARROWS:
-            button.setText(name)
+            button.setText(_named(key))
         button.pressed.connect(lambda: self.hold(key))
         button.released.connect(lambda: self.release(key))
         return button
@@ -178,16 +180,26 @@ class DrivePad(QFrame):
             self.buttons[int(key)].setIcon(icon(name, self._look.theme))
         self.stop_button.setIcon(icon("square", self._look.theme, "stop_text"))
 
+    def _say_keys(self) -> None:
+        for key, words in key_words().items():
+            self.buttons[key].setAccessibleName(words)
+            self.buttons[key].setToolTip(f"{words} ({_named(key)})")
+
     def _say_how(self) -> None:
-        if self.hasFocus():
-            words = tr("Hold a key to move the robot. Let go, and it stops.")
-        else:
-            words = tr("Click here to drive with the keys.")
-        self.hint.setText(words)
+        labelled(
+            self.hint,
+            text="Hold a key to move the robot. Let go, and it stops."
+            if self.hasFocus()
+            else "Click here to drive with the keys.",
+        )
 
     def _on_stop_clicked(self) -> None:
         self.let_go()
         self.stop_asked.emit()
+
+
+def _named(key: int) -> str:
+    return QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
 
 
 def key_words() -> dict[int, str]:

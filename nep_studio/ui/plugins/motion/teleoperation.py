@@ -17,9 +17,12 @@ from PySide6.QtWidgets import (
     QSlider,
 )
 
+from faults import text_of
 from nep_core.wire import messages as m
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
@@ -37,12 +40,17 @@ LOOK_MS = 100
 WALK, ARM = "walk", "arm"
 
 
+def _uses() -> dict[str, str]:
+    """What the movements of a watch can be used for."""
+    return {WALK: tr("walks with its tilt"), ARM: tr("moves the right arm")}
+
+
 class TeleoperationWindow(QDialog):
     """Drives one running robot with keys, a gamepad or a watch."""
 
     def __init__(self, host: Host) -> None:
         super().__init__(host.widget)
-        self.setWindowTitle(tr("Drive a robot"))
+        labelled(self, window_title="Drive a robot")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._runner = host.services.runner
         self.states: dict[str, m.RobotState] = {}
@@ -53,17 +61,17 @@ class TeleoperationWindow(QDialog):
         self._drives: dict[str, Drive] = {}
         self.view = RobotView(host.services.look)
         self.robot = QComboBox()
-        self.robot.setAccessibleName(tr("Robot"))
+        labelled(self.robot, name="Robot")
         self.start_button = QPushButton(autoDefault=False)
         self.pad = DrivePad(host.services.look)
         self.speed = QSlider(Qt.Orientation.Horizontal)
-        self.with_gamepad = QCheckBox(tr("Gamepad"))
-        self.with_watch = QCheckBox(tr("Watch"))
-        self.watch_use = QComboBox()
+        self.with_gamepad = labelled(QCheckBox(), text="Gamepad")
+        self.with_watch = labelled(QCheckBox(), text="Watch")
+        self.watch_use = Choices(_uses)
         self.missing, self.told = QLabel(), QLabel()
         self._lay_out()
         self._connect()
-        self.refresh()
+        follow_words(self, self.refresh)
         (self.pad if self.states else self.start_button).setFocus()
 
     def refresh(self) -> None:
@@ -84,7 +92,7 @@ class TeleoperationWindow(QDialog):
         waiting = [one for one in waiting if one.name not in self.states]
         self.start_button.setVisible(bool(waiting))
         if waiting:
-            self.start_button.setText(tr("Start {robot}", robot=waiting[0].name))
+            labelled(self.start_button, text=text_of("Start {robot}", robot=waiting[0].name))
         for name in set(self.view.room.names) - {self.pilot.robot}:
             self.view.remove_robot(name)
         if self.pilot.robot:
@@ -119,12 +127,10 @@ class TeleoperationWindow(QDialog):
         top = in_row((self.robot, 1), self.start_button)
         self.speed.setRange(20, 100)
         self.speed.setValue(60)
-        self.speed.setAccessibleName(tr("How fast it walks"))
-        self.watch_use.addItem(tr("walks with its tilt"), WALK)
-        self.watch_use.addItem(tr("moves the right arm"), ARM)
-        self.watch_use.setAccessibleName(tr("What the watch does"))
+        labelled(self.speed, name="How fast it walks")
+        labelled(self.watch_use, name="What the watch does")
         self.watch_use.setEnabled(False)
-        speed = in_row(QLabel(tr("How fast it walks")), (self.speed, 1))
+        speed = in_row(labelled(QLabel(), text="How fast it walks"), (self.speed, 1))
         others = in_row(self.with_gamepad, 1, self.with_watch, self.watch_use)
         self.missing.setWordWrap(True)
         self.told.setWordWrap(True)
@@ -175,7 +181,7 @@ class TeleoperationWindow(QDialog):
     def _on_stop(self) -> None:
         self._drives.clear()
         self.pilot.stop()
-        self.told.setText(tr("Everything stops."))
+        labelled(self.told, text="Everything stops.")
 
     def _on_gamepad_toggled(self, is_on: bool) -> None:
         self._drives.pop("gamepad", None)
@@ -183,12 +189,12 @@ class TeleoperationWindow(QDialog):
             self.gamepad.close()
         elif not self.gamepad.open():
             self.with_gamepad.setChecked(False)
-            self.told.setText(tr("No gamepad is found. Plug one in, then try again."))
+            labelled(self.told, text="No gamepad is found. Plug one in, then try again.")
         self._steer()
 
     def _on_gamepad_lost(self) -> None:
         self.with_gamepad.setChecked(False)
-        self.told.setText(tr("The gamepad is gone. The robot stops."))
+        labelled(self.told, text="The gamepad is gone. The robot stops.")
 
     def _on_watch_toggled(self, is_on: bool) -> None:
         self.watch_use.setEnabled(is_on)
@@ -196,7 +202,7 @@ class TeleoperationWindow(QDialog):
         self.tilt = Tilt()
         self._tilt_heard_s = time.monotonic()
         if is_on:
-            self.told.setText(tr("Hold the watch still for a moment: that is its middle."))
+            labelled(self.told, text="Hold the watch still for a moment: that is its middle.")
         self._steer()
 
     def _on_imu(self, batch: list[Heard]) -> None:
@@ -217,7 +223,7 @@ class TeleoperationWindow(QDialog):
         is_silent = time.monotonic() - self._tilt_heard_s > SILENT_S
         if self._drives.get("watch", STILL) != STILL and is_silent:
             self._on_drive("watch", STILL)
-            self.told.setText(tr("The watch is not heard any more. The robot stops."))
+            labelled(self.told, text="The watch is not heard any more. The robot stops.")
 
     # What is heard
 

@@ -16,6 +16,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QToolTip, QWidget
 
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
 
@@ -67,9 +68,10 @@ class Timeline(QWidget):
         self._drag: _Drag | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
-        self.setAccessibleName(tr("Timeline"))
+        labelled(self, name="Timeline")
         for signal in (controller.changed, controller.moved, controller.chosen_changed):
             signal.connect(self._on_changed)
+        follow_words(self, self._on_changed)
 
     # What is shown
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_animations import OwnAnimation
 from nep_studio.ui.actions import Actions
+from nep_studio.ui.labels import follow_words
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons, icon_room
 from nep_studio.ui.widgets.forms import room_around
@@ -37,6 +38,7 @@ from .stage import PosingStage, RobotPoses
 from .timeline import Timeline
 
 if TYPE_CHECKING:
+    from nep_studio.blocks.language import Language
     from nep_studio.ui.host import Host
 
 
@@ -49,7 +51,10 @@ class MotionWindow(QDialog):
         self.setObjectName(MOTION_WINDOW)
         self.setWindowFlag(Qt.WindowType.WindowMaximizeButtonHint)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        language = host.services.language
+
+        def language() -> Language:
+            return host.services.language
+
         self.model, folder = model, model_folder(model or NAO)
         body = load_body(folder)
         self.controller = MotionController(body, self)
@@ -74,6 +79,7 @@ class MotionWindow(QDialog):
         self._lay_out()
         self._connect()
         self.controller.open(new_motion())
+        follow_words(self, self._on_changed)
         self.timeline.setFocus()
 
     def _connect(self) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.network_feed import feed_of
 from nep_studio.ui.widgets.questions import tell_not_saved
-from nep_studio.ui.words import tr
 
 LEAST_SHARE = 0.45
 """How much of the height beside the canvas a graph needs to be of use."""
@@ -24,7 +23,7 @@ def make(host: Host) -> Parts:
     panel.sharing_asked.connect(lambda: host.ask("sharing.open"))
     panel.node_chosen.connect(lambda name: host.ask("nodes.show_log", name))
     panel.plot_requested.connect(lambda topic, field: host.ask("sensors.plot", topic, field))
-    place = NewPanel(panel, tr("Network"), "share-2", "bottom", least_share=LEAST_SHARE)
+    place = NewPanel(panel, "Network", "share-2", "bottom", least_share=LEAST_SHARE)
     return Parts(place, commands={"network.show_sharing": panel.show_sharing})
 
 

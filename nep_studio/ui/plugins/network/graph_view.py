@@ -21,11 +21,12 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from nep_studio.run.node_board import NodeStatus
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.network_feed import Seen
 from nep_studio.ui.node_style import node_words, topic_words, type_words
 from nep_studio.ui.theme.look import Look as StudioLook
-from nep_studio.ui.words import is_right_to_left, tr
+from nep_studio.ui.words import is_right_to_left
 
 from .graph import MARGIN, Graph, Key, Shapes, shapes_of
 from .graph_painter import GraphPainter, Look
@@ -61,11 +62,13 @@ class GraphView(QWidget):
         self._has_moved = False
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
-        self.setAccessibleName(tr("Network"))
-        self.setAccessibleDescription(
-            tr("The arrow keys go from one node or topic to the next, Enter opens it.")
+        labelled(
+            self,
+            name="Network",
+            description="The arrow keys go from one node or topic to the next, Enter opens it.",
         )
         look.theme_changed.connect(self._on_theme_changed)
+        follow_words(self, self._on_theme_changed)  # it is read from the other side, too
 
     @property
     def selected(self) -> Key | None:

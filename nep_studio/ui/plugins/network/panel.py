@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.run.node_board import NodeStatus
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, type_words
 from nep_studio.ui.theme.icons import icon
@@ -66,19 +67,19 @@ class NetworkPanel(QWidget):
         self.empty = _Empty()
         self.summary = QLabel()
         self.summary.setProperty("role", "hint")
-        self.sharing_button = _tool("")
+        self.sharing_button = QToolButton()
         self.sharing_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.sharing_button.hide()
         self._sharing_icon = ""
-        self.list_button = _tool(tr("As a list"), is_checkable=True)
-        self.whole_button = _tool(tr("Show everything"), is_checkable=True)
-        self.whole_button.setToolTip(tr("Show the studio itself and /node_state too"))
-        self.larger_button, self.smaller_button = _tool(tr("Zoom in")), _tool(tr("Zoom out"))
-        self.fit_button = _tool(tr("Show all"))
+        self.list_button = _tool("As a list", is_checkable=True)
+        self.whole_button = _tool("Show everything", is_checkable=True)
+        labelled(self.whole_button, tip="Show the studio itself and /node_state too")
+        self.larger_button, self.smaller_button = _tool("Zoom in"), _tool("Zoom out")
+        self.fit_button = _tool("Show all")
         self._lay_out()
         self._connect()
         self._on_theme_changed()
-        self._on_changed(feed.seen)
+        follow_words(self, self._say)
 
     def _lay_out(self) -> None:
         tools = (self.whole_button, self.list_button, self.smaller_button, self.larger_button)
@@ -111,6 +112,9 @@ class NetworkPanel(QWidget):
         self.pane.plot_requested.connect(self.plot_requested)
         self.pane.saving_failed.connect(self.saving_failed)
         self._look.theme_changed.connect(self._on_theme_changed)
+
+    def _say(self) -> None:
+        self._on_changed(self._feed.seen)
 
     def set_folder(self, folder: Path) -> None:
         """Save messages there at first."""
@@ -196,28 +200,30 @@ class _Empty(QWidget):
         super().__init__()
         self.words = QLabel(wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
         self.words.setProperty("role", "hint")
-        self.run_button = QPushButton(tr("Run"))
+        self.run_button = labelled(QPushButton(), text="Run")
         self.run_button.setProperty("kind", "run")
         in_column(1, self.words, in_row(1, self.run_button, 1), 2, of=self)
         self.tell(is_up=False)
+        follow_words(self, self._say)
 
     def tell(self, *, is_up: bool) -> None:
         """Say what belongs here and how one begins."""
+        self._is_up = is_up
+        self.run_button.setVisible(not is_up)
+        self._say()
+
+    def _say(self) -> None:
         belongs = tr("Here you see which nodes run and what they tell each other.")
         step = (
             tr("No node has joined the network yet.")
-            if is_up
+            if self._is_up
             else tr("Press Run: the nodes of your project start.")
         )
         self.words.setText(f"{belongs}\n{step}")
-        self.run_button.setVisible(not is_up)
 
 
 def _tool(words: str, *, is_checkable: bool = False) -> QToolButton:
-    button = QToolButton()
-    button.setText(words)
-    button.setToolTip(words)
-    button.setAccessibleName(words)
+    button = labelled(explained(QToolButton(), words), text=words)
     button.setCheckable(is_checkable)
     return button
 
@@ -235,28 +241,23 @@ class NetworkList(QTreeWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setAccessibleName(tr("Network as a list"))
+        labelled(self, name="Network as a list")
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setHeaderLabels(
-            [
-                tr("Name"),
-                tr("Messages"),
-                tr("So far"),
-                tr("Lost"),
-                tr("Last one"),
-                tr("From"),
-                tr("To"),
-            ]
-        )
         self.header().setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
-        self.topics = self._head(tr("Topics"))
-        self.nodes = self._head(tr("Nodes"))
+        self.topics, self.nodes = self._head(), self._head()
+        follow_words(self, self._say)
         self._rows: dict[Key, QTreeWidgetItem] = {}
         self.itemActivated.connect(self._on_activated)
         self.itemClicked.connect(self._on_activated)
         line = self.fontMetrics().height()
         for column, lines in enumerate((14, 8, 6, 5, 7, 16, 16)):
             self.setColumnWidth(column, lines * line)
+
+    def _say(self) -> None:
+        counts = (tr("Messages"), tr("So far"), tr("Lost"), tr("Last one"))
+        self.setHeaderLabels((tr("Name"), *counts, tr("From"), tr("To")))
+        self.topics.setText(0, tr("Topics"))
+        self.nodes.setText(0, tr("Nodes"))
 
     def show_graph(self, graph: Graph, seen: Seen, statuses: Mapping[str, NodeStatus]) -> None:
         """Show this; rows that are still there stay where they are."""
@@ -287,8 +288,8 @@ class NetworkList(QTreeWidget):
             )
             self._fill(("node", name), self.nodes, words)
 
-    def _head(self, words: str) -> QTreeWidgetItem:
-        item = QTreeWidgetItem(self, [words])
+    def _head(self) -> QTreeWidgetItem:
+        item = QTreeWidgetItem(self)
         item.setExpanded(True)
         item.setFirstColumnSpanned(True)
         return item

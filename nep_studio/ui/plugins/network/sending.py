@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from faults import FaultError, Words, text_of
 from nep_core.wire import messages as m
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.node_style import one_line, pretty
 from nep_studio.ui.theme.icons import icon
@@ -108,6 +109,8 @@ def _not_json(text: str, reason: str) -> NotAMessage:
 
 
 MOST_SENT = 20
+SENT = "Sent."
+NO_NETWORK = "There is no network yet: press Run, or start a node, and send it again."
 
 Send = Callable[[str, msgspec.Struct | dict[str, Any]], bool]
 """Sends a message; False when there is no network."""
@@ -125,20 +128,20 @@ class SendBox(QWidget):
         self._sent: list[tuple[str, str]] = []
         self._drafts: dict[str, str] = {}
         self.text = QPlainTextEdit(tabChangesFocus=True)
-        self.text.setAccessibleName(tr("The message, as JSON"))
+        labelled(self.text, name="The message, as JSON")
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.note = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.history = QComboBox(
             sizeAdjustPolicy=QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
-        self.history.setAccessibleName(tr("Messages that you have sent"))
+        labelled(self.history, name="Messages that you have sent")
         self.history.setMinimumContentsLength(8)
-        self.send_button = QPushButton(tr("Send"))
+        self.send_button = labelled(QPushButton(), text="Send")
         self.send_button.setProperty("kind", "primary")
-        self.send_button.setToolTip(tr("Send this message now (Ctrl+Enter)"))
-        self.example_button = QPushButton(tr("Example"))
+        labelled(self.send_button, tip="Send this message now (Ctrl+Enter)")
+        self.example_button = labelled(QPushButton(), text="Example")
         self.example_button.setProperty("kind", "quiet")
-        self.example_button.setToolTip(tr("Write the example again"))
+        labelled(self.example_button, tip="Write the example again")
         self._lay_out()
         self.send_button.clicked.connect(self.send_now)
         self.example_button.clicked.connect(self._on_example_clicked)
@@ -148,7 +151,7 @@ class SendBox(QWidget):
             QShortcut(QKeySequence(keys), self, self.send_now, context=context)
         look.theme_changed.connect(self._on_theme_changed)
         self._on_theme_changed()
-        self._show_history()
+        follow_words(self, self._show_history)
 
     def _lay_out(self) -> None:
         row = in_row((self.history, 1), self.example_button, self.send_button)
@@ -170,25 +173,24 @@ class SendBox(QWidget):
         try:
             message = read_message(self._topic, text)
         except NotAMessage as error:
-            self._say(tr(error.sentence), is_wrong=True)
+            self._say(error.sentence, is_wrong=True)
             self._go_to(error.line)
             return
         if not self._send(self._topic, message):
-            words = tr("There is no network yet: press Run, or start a node, and send it again.")
-            self._say(words, is_wrong=True)
+            self._say(NO_NETWORK, is_wrong=True)
             return
         self._sent = [one for one in self._sent if one != (self._topic, text)]
         self._sent = [(self._topic, text), *self._sent][:MOST_SENT]
         self._show_history()
-        self._say(tr("Sent."))
+        self._say(SENT)
         self.sent.emit(self._topic)
 
-    def _say(self, words: str, *, is_wrong: bool = False) -> None:
-        self.note.setText(words)
+    def _say(self, words: Words, *, is_wrong: bool = False) -> None:
+        labelled(self.note, text=words)
         self.note.setVisible(bool(words))
         colour = self._look.theme.colour("error" if is_wrong else "success").name()
         self.note.setStyleSheet(f"color: {colour}")
-        announce(self, words)
+        announce(self, tr(words))
 
     def _go_to(self, line: int) -> None:
         if line:

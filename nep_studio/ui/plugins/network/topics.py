@@ -36,6 +36,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import BY_TOPIC
+from nep_studio.ui.labels import follow_words, labelled, labelled_items
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
 from nep_studio.ui.running.runner import Heard, Tap
@@ -59,20 +60,20 @@ class TopicBar(QWidget):
         self._look = look
         self.title = ElidedLabel()
         self.title.setProperty("role", "heading")
-        self.pause_button = _button(tr("Pause"), tr("Stop the list, to read it"))
+        self.pause_button = _tool("Pause", tip="Stop the list, to read it")
         self.pause_button.setCheckable(True)
-        self.copy_button = _button(tr("Copy"), tr("Copy the chosen message, or all of them"))
-        self.save_button = _button(tr("Save as…"), tr("Save the messages as a table or JSON lines"))
-        self.plot_button = _button(tr("Plot"), tr("Show a number of these messages as a curve"))
+        self.copy_button = _tool("Copy", tip="Copy the chosen message, or all of them")
+        self.save_button = _tool("Save as…", tip="Save the messages as a table or JSON lines")
+        self.plot_button = _tool("Plot", tip="Show a number of these messages as a curve")
         self.plot_menu = QMenu(self.plot_button)
         self.plot_button.setMenu(self.plot_menu)
         self.plot_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.close_button = QToolButton()
-        self.close_button.setToolTip(tr("Close"))
-        self.close_button.setAccessibleName(tr("Close these messages"))
+        labelled(self.close_button, tip="Close", name="Close these messages")
         self.filter = QLineEdit(clearButtonEnabled=True)
-        self.filter.setPlaceholderText(tr("Show only messages with…"))
-        self.filter.setAccessibleName(tr("Show only messages with…"))
+        labelled(
+            self.filter, placeholder="Show only messages with…", name="Show only messages with…"
+        )
         first, second = QHBoxLayout(), QHBoxLayout()
         first.addWidget(self.title, 1)
         first.addWidget(self.close_button)
@@ -100,11 +101,9 @@ class TopicBar(QWidget):
             button.setIcon(icon(name, theme))
 
 
-def _button(words: str, tip: str) -> QToolButton:
-    button = QToolButton(toolButtonStyle=Qt.ToolButtonStyle.ToolButtonIconOnly)
-    button.setText(words)
-    button.setToolTip(tip)
-    button.setAccessibleName(words)
+def _tool(words: str, *, tip: str) -> QToolButton:
+    button = labelled(QToolButton(), text=words, name=words, tip=tip)
+    button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
     return button
 
 
@@ -202,6 +201,7 @@ class TopicPane(QWidget):
         self._talks = talks
         self._tap: Tap | None = None
         self._is_paused = False
+        self._seen: TopicSeen | None = None
         self.topic = ""
         self.folder = Path.home()
         self.heard = HeardList(self)
@@ -211,24 +211,30 @@ class TopicPane(QWidget):
         self.list = QListView()
         self.list.setModel(self.heard)
         self.list.setUniformItemSizes(True)
-        self.list.setAccessibleName(tr("Messages, the newest first"))
+        labelled(self.list, name="Messages, the newest first")
         self.list.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.full = QPlainTextEdit(readOnly=True)
-        self.full.setAccessibleName(tr("The message in full"))
+        labelled(self.full, name="The message in full")
         self.full.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.send_box = SendBox(talks.send, look)
         self._later = QTimer(self, singleShot=True, interval=SHOW_MS)
         self._later.timeout.connect(self._on_later)
         self._lay_out()
         self._connect()
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        if self._seen is not None:
+            self.tell(self._seen)
 
     def _lay_out(self) -> None:
         split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         split.addWidget(self.list)
         split.addWidget(self.full)
         self.tabs = QTabWidget(documentMode=True)
-        self.tabs.addTab(split, tr("Messages"))
-        self.tabs.addTab(self.send_box, tr("Send by hand"))
+        self.tabs.addTab(split, "")
+        self.tabs.addTab(self.send_box, "")
+        labelled_items(self.tabs, "Messages", "Send by hand")
         in_column(self.bar, self.about, (self.tabs, 1), of=self)
 
     def _connect(self) -> None:
@@ -264,6 +270,7 @@ class TopicPane(QWidget):
 
     def tell(self, seen: TopicSeen) -> None:
         """Say how the topic is doing."""
+        self._seen = seen
         words = [
             rate_words(seen.rate_hz),
             count_words(seen.count, "1 message", "{n} messages"),

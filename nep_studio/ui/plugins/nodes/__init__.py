@@ -6,7 +6,6 @@ from nep_studio.run.session import PROGRAM
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.network_feed import feed_of
 from nep_studio.ui.widgets.questions import tell_not_saved
-from nep_studio.ui.words import tr
 
 
 def make(host: Host) -> Parts:
@@ -50,7 +49,7 @@ def make(host: Host) -> Parts:
         lambda path, reason: tell_not_saved(services.messages, path, reason)
     )
     services.running.plan_changed.connect(panel.refresh_plan)
-    place = NewPanel(panel, tr("Nodes"), "network", "bottom")
+    place = NewPanel(panel, "Nodes", "network", "bottom")
     return Parts(place, commands={"nodes.show_log": show_log})
 
 

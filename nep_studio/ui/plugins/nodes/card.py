@@ -22,6 +22,7 @@ from nep_core.wire.messages import NodeType
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.run.session import PROGRAM
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.network_feed import NodeSeen
 from nep_studio.ui.node_style import (
     icon_of,
@@ -154,10 +155,10 @@ class NodeCard(QFrame):
         self.figures, self.reason = ElidedLabel(), ElidedLabel()
         for label in (self.kind, self.figures, self.reason):
             label.setProperty("role", "hint")
-        self.start_button = self._button(tr("Start"), "play", self.start_asked)
-        self.stop_button = self._button(tr("Stop"), "square", self.stop_asked)
-        self.restart_button = self._button(tr("Restart"), "refresh-cw", self.restart_asked)
-        self.log_button = self._button(tr("Log"), "scroll-text", self.log_asked)
+        self.start_button = self._tool("Start", "play", self.start_asked)
+        self.stop_button = self._tool("Stop", "square", self.stop_asked)
+        self.restart_button = self._tool("Restart", "refresh-cw", self.restart_asked)
+        self.log_button = self._tool("Log", "scroll-text", self.log_asked)
         self.buttons = (
             self.start_button,
             self.stop_button,
@@ -166,6 +167,7 @@ class NodeCard(QFrame):
         )
         self._lay_out()
         self.show_entry(entry)
+        follow_words(self, self._say)
 
     @property
     def entry(self) -> Entry:
@@ -200,6 +202,16 @@ class NodeCard(QFrame):
             return
         self._entry = entry
         self._draw_signs()
+        self._say()
+        self.start_button.setEnabled(entry.can_start)
+        self.stop_button.setEnabled(entry.can_stop)
+        self.restart_button.setEnabled(entry.can_restart)
+        self.log_button.setEnabled(entry.has_log)
+        for button in self.buttons:
+            button.setVisible(not entry.is_foreign)
+
+    def _say(self) -> None:
+        entry = self.entry
         status, look = entry.status, state_look(entry.status)
         manifest = manifest_of(status.node)
         title = tr(manifest.title) if manifest else ""
@@ -210,12 +222,6 @@ class NodeCard(QFrame):
         self.state.set_words(f"{look.word}: {described}" if described else look.word)
         self.figures.set_words(" · ".join(figures_of(entry)))
         self.reason.set_words(why_words(entry))
-        self.start_button.setEnabled(entry.can_start)
-        self.stop_button.setEnabled(entry.can_stop)
-        self.restart_button.setEnabled(entry.can_restart)
-        self.log_button.setEnabled(entry.has_log)
-        for button in self.buttons:
-            button.setVisible(not entry.is_foreign)
         words = (entry.name, kind, self.state.words, self.figures.words, self.reason.words)
         self.setAccessibleName(". ".join(word for word in words if word))
 
@@ -269,11 +275,8 @@ class NodeCard(QFrame):
         self.state_sign.setPixmap(icon_pixmap(state.icon, colour, line, ratio))
         self.state.setStyleSheet(f"color: {colour.name()}")
 
-    def _button(self, words: str, icon_name: str, asked: object) -> QToolButton:
-        button = QToolButton()
-        button.setText(words)
-        button.setToolTip(words)
-        button.setAccessibleName(words)
+    def _tool(self, words: str, icon_name: str, asked: object) -> QToolButton:
+        button = labelled(explained(QToolButton(), words), text=words)
         button.setIcon(icon(icon_name, self._look.theme))
         button.clicked.connect(lambda: asked.emit(self.entry.name))  # type: ignore[attr-defined]
         return button

@@ -30,6 +30,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
@@ -156,20 +158,20 @@ class LogView(QWidget):
             | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
         self.search = QLineEdit()
-        self.search.setPlaceholderText(tr("Find in the log"))
-        self.search.setAccessibleName(tr("Find in the log"))
+        labelled(self.search, placeholder="Find in the log", name="Find in the log")
         self.search.setClearButtonEnabled(True)
         self.follow_button = QPushButton()
         self.follow_button.setProperty("kind", "quiet")
         self.follow_button.hide()
-        self.copy_button = _tool(tr("Copy"), tr("Copy what is selected, or all of it"))
-        self.save_button = _tool(tr("Save as…"), tr("Save the whole log"))
-        self.folder_button = _tool(tr("Open folder"), tr("Show the log's file in its folder"))
-        self.close_button = _tool(tr("Close the log"), tr("Close the log"))
+        self.copy_button = _tool("Copy", tip="Copy what is selected, or all of it")
+        self.save_button = _tool("Save as…", tip="Save the whole log")
+        self.folder_button = _tool("Open folder", tip="Show the log's file in its folder")
+        self.close_button = _tool("Close the log", tip="Close the log")
         self._timer = QTimer(self, interval=READ_MS)
         self._lay_out()
         self._connect()
         self._on_theme_changed()
+        follow_words(self, self._say)
 
     def _lay_out(self) -> None:
         bar = QHBoxLayout()
@@ -212,8 +214,8 @@ class LogView(QWidget):
             self._tail = LogTail(path, last_lines)
             self._waiting.clear()
             self.text.clear()
-            self.title.set_words(tr("Log of {node}", node=node))
-            self.text.setAccessibleName(tr("Log of {node}", node=node))
+            self._say()
+            labelled(self.text, name=text_of("Log of {node}", node=node))
         if self.isVisible():
             self._start()
 
@@ -271,9 +273,13 @@ class LogView(QWidget):
         if self._is_at_end():
             self._write_waiting()
         else:
-            words = count_words(len(self._waiting), "1 new line below", "{n} new lines below")
-            self.follow_button.setText(words)
+            self._say()
             self.follow_button.show()
+
+    def _say(self) -> None:
+        self.title.set_words(tr("Log of {node}", node=self.node) if self.node else "")
+        words = count_words(len(self._waiting), "1 new line below", "{n} new lines below")
+        self.follow_button.setText(words)
 
     def _write_waiting(self) -> None:
         """Show the lines that have come while the person was reading above."""
@@ -343,9 +349,6 @@ def _lines_of(piece: Piece) -> list[str]:
     return lines
 
 
-def _tool(words: str, tip: str) -> QToolButton:
-    button = QToolButton()
-    button.setText(words)
-    button.setAccessibleName(words)
-    button.setToolTip(tip)
+def _tool(words: str, *, tip: str) -> QToolButton:
+    button = labelled(QToolButton(), text=words, name=words, tip=tip)
     return button

@@ -23,9 +23,9 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.words import tr
 
 from .card import LINES_WIDE, Entry, NodeCard, entries_of
 from .log_view import LogView
@@ -48,7 +48,7 @@ class CardGrid(QScrollArea):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.setAccessibleName(tr("Nodes"))
+        labelled(self, name="Nodes")
         self._inner = QWidget()
         self._grid = QGridLayout(self._inner)
         self.setWidget(self._inner)
@@ -126,6 +126,7 @@ class NodesPanel(QWidget):
         self._soon.timeout.connect(self.refresh)
         self._lay_out()
         self._connect()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         self.views = QStackedWidget()
@@ -253,16 +254,15 @@ class _Empty(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        words = QLabel(
-            tr(
-                "Here you see the nodes of your project: what they do, how they are, "
-                "and what they write. Most come by themselves from your rules and robots."
-            )
+        words = labelled(
+            QLabel(),
+            text="Here you see the nodes of your project: what they do, how they are, "
+            "and what they write. Most come by themselves from your rules and robots.",
         )
         words.setWordWrap(True)
         words.setAlignment(Qt.AlignmentFlag.AlignCenter)
         words.setProperty("role", "hint")
-        self.page_button = QPushButton(tr("Go to the Robots page"))
+        self.page_button = labelled(QPushButton(), text="Go to the Robots page")
         row = QHBoxLayout()
         row.addStretch(1)
         row.addWidget(self.page_button)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from nep_studio.ui.floor import floor_of
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 LEAST_SHARE = 0.4
 
@@ -14,7 +13,7 @@ def make(host: Host) -> Parts:
     from .panel import HumanPanel
 
     panel = HumanPanel(host, floor_of(host))
-    return Parts(NewPanel(panel, tr("Person"), "user", "bottom", least_share=LEAST_SHARE))
+    return Parts(NewPanel(panel, "Person", "user", "bottom", least_share=LEAST_SHARE))
 
 
 plugin = Plugin("person", make, order=20, modules=("senses", "panel"))

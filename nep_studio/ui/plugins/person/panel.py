@@ -20,17 +20,19 @@ from PySide6.QtWidgets import (
 
 from nep_core.program.human import plain
 from nep_core.wire import messages as m
+from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.blocks.slots import why_not_line
 from nep_studio.project.triggers import Occurrence, occurrences_of
 from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.floor import Floor
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Columns, FlowLayout, in_column, in_row
-from nep_studio.ui.words import tr
+from nep_studio.ui.words import language_code, tr
 
 from .person_box import OccurrenceButton, PersonBox, Section, WordsButton
 from .senses import BodyBox, GestureBox, SensorBox, ThingsBox, TouchBox
@@ -51,11 +53,13 @@ class WaitingBoard(QWidget):
         look: Look,
         begin: Callable[[Occurrence], bool],
         end: Callable[[Occurrence], None],
-        nothing: str,
+        *,
+        tells_of_nothing: bool = False,
     ) -> None:
         super().__init__()
-        self._look, self._begin, self._end, self._nothing = look, begin, end, nothing
-        self._shown: list[Occurrence] | None = None
+        self._look, self._begin, self._end = look, begin, end
+        self._tells_of_nothing = tells_of_nothing
+        self._shown: tuple[str, list[Occurrence]] | None = None
         self.buttons: list[OccurrenceButton] = []
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
@@ -65,12 +69,13 @@ class WaitingBoard(QWidget):
 
     def show_occurrences(self, occurrences: list[Occurrence], here: dict[str, str]) -> None:
         """Show these; ``here`` are the visitors that are there now, with their names."""
-        if occurrences != self._shown:
-            self._shown = occurrences
+        if (shown := (language_code(), occurrences)) != self._shown:
+            self._shown = shown
             self._make_buttons([one for one in occurrences if one.kind != "idle"])
             idle = [words_of(one) for one in occurrences if one.kind == "idle"]
-            nothing = "" if occurrences else self._nothing
-            self.words.setText("\n".join([*idle, *filter(None, [nothing])]))
+            if self._tells_of_nothing and not occurrences:
+                idle = [tr("This program waits for nothing.")]
+            self.words.setText("\n".join(idle))
             self.words.setVisible(bool(self.words.text()))
         for button in self.buttons:
             if button.isCheckable():
@@ -106,7 +111,7 @@ class HumanPanel(QScrollArea):
     def __init__(self, host: Host, floor: Floor) -> None:
         super().__init__()
         self._host, self._look = host, host.services.look
-        self._runner, self._language = host.services.runner, host.services.language
+        self._runner = host.services.runner
         self._tap: Tap | None = None
         self._open_project = OpenProject(host.services.files, self)
         self.visitors = Visitors(floor, self)
@@ -114,55 +119,49 @@ class HumanPanel(QScrollArea):
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setAccessibleName(tr("Simulated human"))
+        labelled(self, name="Simulated human")
 
     def _make(self) -> None:
         self.robot = QComboBox()
-        self.state, self.run_button = QLabel(), QPushButton(tr("Run"))
+        self.state, self.run_button = QLabel(), labelled(QPushButton(), text="Run")
         self.told = QLabel()
-        self.words, self.say_button = QLineEdit(), QPushButton(tr("Say"))
-        self.reset_button = WordsButton(tr("Everything as at the start"), self._look, "rotate-ccw")
-        self._make_boxes()
-        self._lay_out()
-        self._connect()
-        self._dress()
+        self.words, self.say_button = QLineEdit(), labelled(QPushButton(), text="Say")
+        self.reset_button = WordsButton("Everything as at the start", self._look, "rotate-ccw")
+        look, stimuli = self._look, self.stimuli
 
-    def _make_boxes(self) -> None:
-        language, look, stimuli = self._language, self._look, self.stimuli
-        nothing = tr("This program waits for nothing.")
-        self.waiting = WaitingBoard(look, stimuli.begin, stimuli.end, nothing)
-        self.listening = WaitingBoard(look, stimuli.begin, stimuli.end, "")
+        def language() -> Language:
+            return self._host.services.language
+
+        self.waiting = WaitingBoard(look, stimuli.begin, stimuli.end, tells_of_nothing=True)
+        self.listening = WaitingBoard(look, stimuli.begin, stimuli.end)
         self.person = PersonBox(stimuli, language, look)
         self.touch = TouchBox(stimuli, language, look)
         self.gestures = GestureBox(stimuli, language, look)
         self.things = ThingsBox(stimuli, look)
         self.sensors = SensorBox(stimuli, language, look)
         self.body = BodyBox(stimuli, language, look)
-        titles: list[tuple[str, QWidget, bool]] = [
-            (tr("Your program waits for"), self.waiting, True),
-            (tr("Say words"), self._say_row(), True),
-            (tr("A person"), self.person, True),
-            (tr("Touch"), self.touch, True),
-            (tr("Make a gesture"), self.gestures, True),
-            (tr("Things and sounds"), self.things, False),
-            (tr("Sensors"), self.sensors, False),
-            (tr("The body"), self.body, False),
+        self.sections = [
+            Section("Your program waits for", self.waiting, look),
+            Section("Say words", self._say_row(), look),
+            Section("A person", self.person, look),
+            Section("Touch", self.touch, look),
+            Section("Make a gesture", self.gestures, look),
+            Section("Things and sounds", self.things, look, is_open=False),
+            Section("Sensors", self.sensors, look, is_open=False),
+            Section("The body", self.body, look, is_open=False),
         ]
-        self.sections = []
-        for title, box, is_open in titles:
-            section = Section(title, look, is_open=is_open)
-            section.box.addWidget(box)
-            self.sections.append(section)
+        self._lay_out()
+        self._connect()
+        self._dress()
 
     def _say_row(self) -> QWidget:
-        self.words.setPlaceholderText(tr("Somebody says…"))
-        self.words.setAccessibleName(tr("Words that somebody says"))
+        labelled(self.words, placeholder="Somebody says…", name="Words that somebody says")
         said = QWidget()
         in_column(in_row((self.words, 1), self.say_button), self.listening, of=said, margins=0)
         return said
 
     def _lay_out(self) -> None:
-        self.robot.setAccessibleName(tr("Which robot notices it"))
+        labelled(self.robot, name="Which robot notices it")
         self.robot.setMinimumContentsLength(8)
         self.run_button.setProperty("kind", "run")
         for label in (self.state, self.told):
@@ -172,7 +171,7 @@ class HumanPanel(QScrollArea):
         self.told.hide()
         top = in_row((self.state, 1), self.run_button)
         self._which = QWidget()
-        in_row(QLabel(tr("Before")), (self.robot, 1), of=self._which, margins=0)
+        in_row(labelled(QLabel(), text="Before"), (self.robot, 1), of=self._which, margins=0)
         inner, line = QWidget(self.viewport()), self.fontMetrics().height()
         box = QVBoxLayout(inner)
         box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
@@ -196,6 +195,7 @@ class HumanPanel(QScrollArea):
         self.words.returnPressed.connect(self._on_said)
         self.reset_button.clicked.connect(self.reset)
         self._look.theme_changed.connect(self._dress)
+        follow_words(self, self.refresh)
 
     # What is shown
 
@@ -227,7 +227,7 @@ class HumanPanel(QScrollArea):
         editor = self._open_project.editor
         own = {} if editor is None else own_gestures(editor.project)
         recorded = {name: one.title for name, one in own.items() if one.takes}
-        return {**recorded, **self._language.choices.get("gestures", {})}
+        return {**recorded, **self._host.services.language.choices.get("gestures", {})}
 
     def reset(self) -> None:
         """Let all visitors go, and all sensors measure what they usually do."""

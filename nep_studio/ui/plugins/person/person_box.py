@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 
-from PySide6.QtCore import QElapsedTimer, QSignalBlocker, QSize, Qt, QTimer
+from PySide6.QtCore import QElapsedTimer, QEvent, QSignalBlocker, QSize, Qt, QTimer
 from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -22,10 +23,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import Words, verbatim
 from nep_core.program.human import plain
 from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import FIRST_NAMES, LONGEST_NAME
 from nep_studio.project.triggers import Occurrence
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
@@ -40,32 +43,26 @@ CLOSE_M, MIDDLE_M = 1.0, 2.0
 class PersonBox(QWidget):
     """Somebody who is there or not; the person stands in the scene of the robots too."""
 
-    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Callable[[], Language], look: Look) -> None:
         super().__init__()
         self._stimuli, self._language = stimuli, language
-        self.is_there = QCheckBox(tr("Somebody is there"))
+        self.is_there = labelled(QCheckBox(), text="Somebody is there")
         self.name = QComboBox(editable=True, insertPolicy=QComboBox.InsertPolicy.NoInsert)
         line_edit = self.name.lineEdit() or QLineEdit()
-        line_edit.setPlaceholderText(tr("anybody"))
+        labelled(line_edit, placeholder="anybody")
         line_edit.setMaxLength(LONGEST_NAME)
         self.name.setMinimumContentsLength(6)
-        self.name.setAccessibleName(tr("Whose face it is"))
+        labelled(self.name, name="Whose face it is")
         self.way = QSlider(Qt.Orientation.Horizontal)
         self.way.setRange(NEAREST_CM, FARTHEST_CM)
         self.way.setPageStep(50)
         self.way.setSingleStep(10)
-        self.way.setAccessibleName(tr("How far the person is"))
+        labelled(self.way, name="How far the person is")
         self.way_words = QLabel()
-        self.before = WordsButton(tr("Step before its eyes"), look, "eye")
+        self.before = WordsButton("Step before its eyes", look, "eye")
         self.looks = [
-            OccurrenceButton(
-                Occurrence("emotion", value, label),
-                look,
-                stimuli.begin,
-                stimuli.end,
-                label.capitalize(),
-            )
-            for value, label in language.choices.get("emotions", {}).items()
+            OccurrenceButton(Occurrence("emotion", value), look, stimuli.begin, stimuli.end)
+            for value in language().choices.get("emotions", {})
         ]
         self._lay_out()
         self.set_names([])
@@ -74,11 +71,11 @@ class PersonBox(QWidget):
         self.way.valueChanged.connect(self._on_moved)
         self.before.clicked.connect(self._come)
         stimuli.visitors.changed.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self._say)
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        named = in_row(QLabel(tr("Face of")), (self.name, 1))
+        named = in_row(labelled(QLabel(), text="Face of"), (self.name, 1))
         far = in_row((self.way, 1), self.way_words)
         looks = QWidget()
         flow = FlowLayout(looks, line // 3)
@@ -90,7 +87,7 @@ class PersonBox(QWidget):
         box.addLayout(named)
         box.addLayout(far)
         box.addWidget(self.before, 0, Qt.AlignmentFlag.AlignLeading)
-        label = QLabel(tr("The person looks"))
+        label = labelled(QLabel(), text="The person looks")
         label.setProperty("role", "hint")
         box.addWidget(label)
         box.addWidget(looks)
@@ -106,6 +103,10 @@ class PersonBox(QWidget):
             self.name.addItem("")
             self.name.addItems(offered)
             self.name.setEditText(text)
+
+    def _say(self) -> None:
+        call(self.looks, self._language().choices.get("emotions", {}))
+        self.refresh()
 
     def refresh(self) -> None:
         """Show who is there, and how far away."""
@@ -123,7 +124,7 @@ class PersonBox(QWidget):
 
     def _way_words(self, way_m: float) -> str:
         which = "close" if way_m < CLOSE_M else "middle" if way_m < MIDDLE_M else "far"
-        label = self._language.choices.get("distances", dict.fromkeys(DISTANCES_M, ""))[which]
+        label = self._language().choices.get("distances", dict.fromkeys(DISTANCES_M, ""))[which]
         return tr("{m} m: {distance}", m=f"{way_m:.1f}", distance=label)
 
     def _come(self) -> None:
@@ -155,21 +156,25 @@ KEPT = ("face", "ball", "mark")
 class WordsButton(QPushButton):
     """A button whose words end in … where there is no room for all of them."""
 
-    def __init__(self, words: str, look: Look, icon_name: str = "") -> None:
+    def __init__(self, words: Words, look: Look, icon_name: str = "") -> None:
         super().__init__()
         self._look, self._icon_name = look, icon_name
-        self.words = ""
+        self._said, self.words = words, ""
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
-        self.set_words(words)
+        follow_words(self, self._say)
         look.theme_changed.connect(self._dress)
         self._dress()
 
-    def set_words(self, words: str) -> None:
+    def set_words(self, words: Words) -> None:
         """Show these words."""
-        self.words = words
-        self.setText(words.replace("&", "&&"))
-        self.setAccessibleName(words)
-        self.setToolTip(words)
+        self._said = words
+        self._say()
+
+    def _say(self) -> None:
+        self.words = tr(self._said)
+        self.setText(self.words.replace("&", "&&"))
+        self.setAccessibleName(self.words)
+        self.setToolTip(self.words)
 
     def minimumSizeHint(self) -> QSize:
         """A few letters at least."""
@@ -204,9 +209,8 @@ class OccurrenceButton(WordsButton):
         look: Look,
         begin: Callable[[Occurrence], bool],
         end: Callable[[Occurrence], None],
-        words: str = "",
     ) -> None:
-        super().__init__(words or words_of(occurrence), look, ICONS[occurrence.kind])
+        super().__init__(verbatim(words_of(occurrence)), look, ICONS[occurrence.kind])
         self.occurrence, self._begin, self._end = occurrence, begin, end
         self._letting_go = QTimer(self, singleShot=True, interval=LASTS_MS)
         self._letting_go.timeout.connect(self.let_go)
@@ -220,6 +224,11 @@ class OccurrenceButton(WordsButton):
             self.clicked.connect(self._on_switched)
         else:
             self.clicked.connect(lambda: self._begin(self.occurrence))
+
+    def call(self, words: str) -> None:
+        """Call what happens by its words in the language that is used now."""
+        self.occurrence = replace(self.occurrence, words=words)
+        self.set_words(verbatim(words[:1].upper() + words[1:]))
 
     def let_go(self) -> None:
         """End a touch."""
@@ -244,23 +253,29 @@ class OccurrenceButton(WordsButton):
             self.setChecked(False)
 
 
+def call(buttons: Iterable[OccurrenceButton], names: Mapping[str, str]) -> None:
+    """Call buttons as the choices that they stand for are called now."""
+    for button in buttons:
+        button.call(names.get(button.occurrence.value, button.occurrence.value))
+
+
 # A part of a panel with a heading, which can be folded away.
 
 
 class Section(QWidget):
     """A heading that folds, and a box below it."""
 
-    def __init__(self, title: str, look: Look, *, is_open: bool = True) -> None:
+    def __init__(self, title: Words, held: QWidget, look: Look, *, is_open: bool = True) -> None:
         super().__init__()
         self._look, self.is_open = look, is_open
-        self.heading = QToolButton(toolButtonStyle=Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.heading.setText(title)
+        self.heading = labelled(QToolButton(), text=title)
+        self.heading.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.body = QWidget()
-        self.box = QVBoxLayout(self.body)
         line = self.fontMetrics().height()
-        self.box.setContentsMargins(line // 2, 0, 0, line // 2)
-        self.box.setSpacing(line // 3)
+        self.box = in_column(
+            held, of=self.body, margins=(line // 2, 0, 0, line // 2), spacing=line // 3
+        )
         in_column(self.heading, self.body, of=self, margins=0, spacing=line // 6)
         self.heading.clicked.connect(lambda: self.open(not self.is_open))
         look.theme_changed.connect(self._dress)
@@ -270,8 +285,14 @@ class Section(QWidget):
         """Show or fold away what is in it."""
         self.is_open = is_open
         self.body.setVisible(is_open)
-        self.heading.setAccessibleDescription(tr("open") if is_open else tr("folded"))
+        labelled(self.heading, description="open" if is_open else "folded")
         self._dress()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """A heading that is folded points where one reads on."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.LayoutDirectionChange:
+            self._dress()
 
     def _dress(self) -> None:
         is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt
@@ -18,15 +18,18 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import Text, text_of
 from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import FIRST_MARK
 from nep_studio.project.triggers import Occurrence
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
-from .person_box import OccurrenceButton, WordsButton
+from .person_box import OccurrenceButton, WordsButton, call
 from .stimuli import Stimuli
 
 SLIDERS = {"sonar_left": (5, 255, 255), "sonar_right": (5, 255, 255), "battery": (1, 100, 100)}
@@ -36,34 +39,44 @@ SLIDERS = {"sonar_left": (5, 255, 255), "sonar_right": (5, 255, 255), "battery":
 class SensorBox(QWidget):
     """Sliders for the sensors that matter most, and a line for the others."""
 
-    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Callable[[], Language], look: Look) -> None:
         super().__init__()
-        self._stimuli = stimuli
-        names = language.choices.get("sensors", {})
+        self._stimuli, self._language = stimuli, language
         self.sliders: dict[str, QSlider] = {}
+        self._titles: dict[str, QLabel] = {}
         self._values: dict[str, QLabel] = {}
         self._grid = QGridLayout()
         self._grid.setColumnStretch(0, 1)
         for row, sensor in enumerate(SLIDERS):
-            self._add_slider(2 * row, sensor, names.get(sensor, sensor))
-        self.other = QComboBox(
-            sizeAdjustPolicy=QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+            self._add_slider(2 * row, sensor)
+        self.other = Choices(
+            lambda: {key: name for key, name in self._names().items() if key not in SLIDERS}
         )
-        for sensor, name in names.items():
-            if sensor not in SLIDERS:
-                self.other.addItem(name, sensor)
+        self.other.setSizeAdjustPolicy(
+            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        )
         self.other.setMinimumContentsLength(8)
-        self.other.setAccessibleName(tr("Another sensor"))
+        labelled(self.other, name="Another sensor")
         self.value = QDoubleSpinBox()
         self.value.setRange(-1000.0, 1000.0)
-        self.value.setAccessibleName(tr("What it measures"))
-        self.measure = WordsButton(tr("Measure this"), look, "gauge")
+        labelled(self.value, name="What it measures")
+        self.measure = WordsButton("Measure this", look, "gauge")
         self.measure.clicked.connect(self._on_measured)
         others = QWidget()
         flow = FlowLayout(others, self.fontMetrics().height() // 3)
         for widget in (self.other, self.value, self.measure):
             flow.addWidget(widget)
         in_column(self._grid, others, of=self, margins=0)
+        follow_words(self, self._say)
+
+    def _names(self) -> Mapping[str, str]:
+        return self._language().choices.get("sensors", {})
+
+    def _say(self) -> None:
+        for sensor, slider in self.sliders.items():
+            name = self._names().get(sensor, sensor)
+            slider.setAccessibleName(name)
+            self._titles[sensor].setText(_capital(name))
 
     def rest(self) -> None:
         """Let all measure by themselves again."""
@@ -73,14 +86,14 @@ class SensorBox(QWidget):
             self._values[sensor].setText(str(SLIDERS[sensor][2]))
         self._stimuli.let_measure()
 
-    def _add_slider(self, row: int, sensor: str, name: str) -> None:
+    def _add_slider(self, row: int, sensor: str) -> None:
         low, high, usual = SLIDERS[sensor]
         slider = self.sliders[sensor] = QSlider(Qt.Orientation.Horizontal)
         slider.setRange(low, high)
         slider.setValue(usual)
         slider.setPageStep(25)
-        slider.setAccessibleName(name)
-        title, value = QLabel(name[:1].upper() + name[1:], wordWrap=True), QLabel(str(usual))
+        title, value = QLabel(wordWrap=True), QLabel(str(usual))
+        self._titles[sensor] = title
         value.setMinimumWidth(self.fontMetrics().horizontalAdvance("000"))
         self._values[sensor] = value
         self._grid.addWidget(title, row, 0, 1, 2)
@@ -96,31 +109,37 @@ class SensorBox(QWidget):
         self._stimuli.measure(str(self.other.currentData()), self.value.value())
 
 
+PUSHES = {0: "forward", 180: "back", 90: "to the left", -90: "to the right"}
+"""Where a robot can be pushed, in degrees."""
+SOUNDS = {0: "ahead", 90: "the left", -90: "the right", 180: "behind"}
+"""From where a sound can come, in degrees."""
+
+
 class BodyBox(QWidget):
     """What a hand does to the body of a robot: push it, help it up, move it."""
 
-    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Callable[[], Language], look: Look) -> None:
         super().__init__()
         self._stimuli = stimuli
-        ways = {0: tr("forward"), 180: tr("back"), 90: tr("to the left"), -90: tr("to the right")}
         self.pushes = {
-            degrees: WordsButton(tr("Push it {way}", way=way), look, "move")
-            for degrees, way in ways.items()
+            degrees: WordsButton(text_of("Push it {way}", way=Text(way)), look, "move")
+            for degrees, way in PUSHES.items()
         }
-        self.posture = _choice(language.choices.get("postures", {}), tr("Posture"))
-        self.take = WordsButton(tr("Let it take this posture"), look, "person-standing")
-        self.joint = QComboBox()
-        for part, label in language.choices.get("body_parts", {}).items():
-            for joint, name in language.choices.get(f"joints.{part}", {}).items():
-                words = tr("{part}: {joint}", part=label, joint=name)
-                self.joint.addItem(words[:1].upper() + words[1:], joint)
-        _fit(self.joint)
-        self.joint.setAccessibleName(tr("Joint"))
+        self.posture = Choices(lambda: _postures(language()))
+        self.take = WordsButton("Let it take this posture", look, "person-standing")
+        self.joint = Choices(lambda: _joints(language()))
+        for box in (labelled(self.posture, name="Posture"), self.joint):
+            # Let a list of long words be as narrow as there is room
+            box.setSizeAdjustPolicy(
+                QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+            )
+            box.setMinimumContentsLength(10)
+        labelled(self.joint, name="Joint")
         self.angle = QDoubleSpinBox(decimals=0)
         self.angle.setRange(-180.0, 180.0)
         self.angle.setSuffix("°")
-        self.angle.setAccessibleName(tr("Angle"))
-        self.turn = WordsButton(tr("Turn it"), look, "rotate-ccw")
+        labelled(self.angle, name="Angle")
+        self.turn = WordsButton("Turn it", look, "rotate-ccw")
         self._lay_out()
         for degrees, button in self.pushes.items():
             button.clicked.connect(partial(self._on_pushed, degrees))
@@ -149,20 +168,17 @@ class BodyBox(QWidget):
         self._stimuli.turn_joint(str(self.joint.currentData()), self.angle.value())
 
 
-def _choice(entries: dict[str, str] | object, name: str) -> QComboBox:
-    box = QComboBox()
-    if isinstance(entries, dict):
-        for key, label in entries.items():
-            box.addItem(label[:1].upper() + label[1:], key)
-    _fit(box)
-    box.setAccessibleName(name)
-    return box
+def _postures(language: Language) -> dict[object, str]:
+    return {key: _capital(name) for key, name in language.choices.get("postures", {}).items()}
 
 
-def _fit(box: QComboBox) -> None:
-    """Let a list of long words be as narrow as there is room."""
-    box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-    box.setMinimumContentsLength(10)
+def _joints(language: Language) -> dict[object, str]:
+    """All joints, each with the part of the body that it moves."""
+    return {
+        joint: _capital(tr("{part}: {joint}", part=label, joint=name))
+        for part, label in language.choices.get("body_parts", {}).items()
+        for joint, name in language.choices.get(f"joints.{part}", {}).items()
+    }
 
 
 # A ball, a mark and sounds, which a robot notices.
@@ -174,16 +190,15 @@ class ThingsBox(QWidget):
     def __init__(self, stimuli: Stimuli, look: Look) -> None:
         super().__init__()
         self._stimuli = stimuli
-        self.ball = QCheckBox(tr("The red ball"))
-        self.mark = QCheckBox(tr("The mark"))
+        self.ball = labelled(QCheckBox(), text="The red ball")
+        self.mark = labelled(QCheckBox(), text="The mark")
         self.number = QSpinBox()
         self.number.setRange(0, 999)
         self.number.setValue(FIRST_MARK)
-        self.number.setAccessibleName(tr("The number of the mark"))
-        sides = {0: tr("ahead"), 90: tr("the left"), -90: tr("the right"), 180: tr("behind")}
+        labelled(self.number, name="The number of the mark")
         self.sounds = {
-            degrees: WordsButton(tr("Sound from {side}", side=side), look, "volume-2")
-            for degrees, side in sides.items()
+            degrees: WordsButton(text_of("Sound from {side}", side=Text(side)), look, "volume-2")
+            for degrees, side in SOUNDS.items()
         }
         self._lay_out()
         self.ball.toggled.connect(partial(self._on_toggled, "ball"))
@@ -199,7 +214,8 @@ class ThingsBox(QWidget):
         flow = FlowLayout(sounds, self.fontMetrics().height() // 3)
         for button in self.sounds.values():
             flow.addWidget(button)
-        hint = QLabel(tr("Other things are placed in the scene of the robots."), wordWrap=True)
+        hint = labelled(QLabel(), text="Other things are placed in the scene of the robots.")
+        hint.setWordWrap(True)
         hint.setProperty("role", "hint")
         in_column(self.ball, in_row(self.mark, self.number, 1), sounds, hint, of=self, margins=0)
 
@@ -233,28 +249,26 @@ class ThingsBox(QWidget):
 class TouchBox(QWidget):
     """A button for each place that feels; it is touched as long as the button is held."""
 
-    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Callable[[], Language], look: Look) -> None:
         super().__init__()
-        names = language.choices.get("touch_parts", {})
+        self._language = language
         self.buttons = [
-            OccurrenceButton(
-                Occurrence("touch", part, names.get(part, part)),
-                look,
-                stimuli.begin,
-                stimuli.end,
-                _capital(names.get(part, part)),
-            )
+            OccurrenceButton(Occurrence("touch", part), look, stimuli.begin, stimuli.end)
             for part in TOUCH_SENSORS
         ]
         flow = FlowLayout(self, self.fontMetrics().height() // 3)
         for button in self.buttons:
             flow.addWidget(button)
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        call(self.buttons, self._language().choices.get("touch_parts", {}))
 
 
 class GestureBox(QWidget):
     """A button for each gesture, and how it comes about."""
 
-    def __init__(self, stimuli: Stimuli, language: Language, look: Look) -> None:
+    def __init__(self, stimuli: Stimuli, language: Callable[[], Language], look: Look) -> None:
         super().__init__()
         self._stimuli, self._look = stimuli, look
         self.buttons: list[OccurrenceButton] = []
@@ -266,13 +280,16 @@ class GestureBox(QWidget):
         self.certainty = QSpinBox()
         self.certainty.setRange(1, 100)
         self.certainty.setValue(100)
-        self.certainty.setSuffix(tr(" %"))
-        self.certainty.setAccessibleName(tr("How certain the gesture is"))
+        labelled(self.certainty, name="How certain the gesture is")
         self.certainty.valueChanged.connect(self._on_certainty_changed)
         self._certain = QWidget()
-        in_row(QLabel(tr("Certainty")), self.certainty, 1, of=self._certain, margins=0)
+        in_row(labelled(QLabel(), text="Certainty"), self.certainty, 1, of=self._certain, margins=0)
         in_column(self._rows, self.how, self._certain, of=self, margins=0)
-        self.show_gestures([], language.choices.get("gestures", {}))
+        self.show_gestures([], language().choices.get("gestures", {}))
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        self.certainty.setSuffix(tr(" %"))
 
     def show_gestures(self, of_program: Iterable[Occurrence], known: Mapping[str, str]) -> None:
         """Offer the gestures of the program, and all that the watch on the screen knows."""
@@ -286,14 +303,11 @@ class GestureBox(QWidget):
                 button.deleteLater()
             self.buttons = [
                 OccurrenceButton(
-                    Occurrence("gesture", name, label),
-                    self._look,
-                    self._stimuli.begin,
-                    self._stimuli.end,
-                    _capital(label),
+                    Occurrence("gesture", name), self._look, self._stimuli.begin, self._stimuli.end
                 )
-                for name, label in offered.items()
+                for name in offered
             ]
+            call(self.buttons, offered)
             for button in self.buttons:
                 self._flow.addWidget(button)
                 button.show()
@@ -302,9 +316,12 @@ class GestureBox(QWidget):
     def refresh(self) -> None:
         """Say how a gesture comes about now."""
         is_moved = self._stimuli.has_watch
-        by_watch = tr("The watch on the screen makes the movement, which has to be recognised.")
-        by_hand = tr("No watch runs: the program is told by hand that the gesture was made.")
-        self.how.setText(by_watch if is_moved else by_hand)
+        labelled(
+            self.how,
+            text="The watch on the screen makes the movement, which has to be recognised."
+            if is_moved
+            else "No watch runs: the program is told by hand that the gesture was made.",
+        )
         self._certain.setVisible(not is_moved)
 
     def _on_certainty_changed(self, percent: int) -> None:

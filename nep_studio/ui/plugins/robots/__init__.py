@@ -5,7 +5,6 @@ from __future__ import annotations
 from nep_studio.ui.floor import floor_of
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.speech import sound_of
-from nep_studio.ui.words import tr
 
 
 def make(host: Host) -> Parts:
@@ -16,15 +15,15 @@ def make(host: Host) -> Parts:
     services, runner = host.services, host.services.runner
     panel = RobotsPanel(
         runner,
-        services.language,
+        lambda: services.language,
         services.look,
         floor_of(host),
         sound_of(host),
-        host.keep(Starts, lambda: Starts(runner, runner)),
+        Starts(runner, runner),
     )
     services.running.plan_changed.connect(panel.refresh)
     panel.stage.tools.connecting_asked.connect(lambda: host.ask("connecting.open"))
-    return Parts(NewPanel(panel, tr("Robots"), "bot", "right"))
+    return Parts(NewPanel(panel, "Robots", "bot", "right"))
 
 
 plugin = Plugin("robots", make, order=10, modules=("stage", "panel"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from PySide6.QtCore import Qt, QTimer, Signal
@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState
 from nep_studio.blocks.language import Language
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.node_style import StateLook
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap, icon_room
@@ -156,11 +157,10 @@ class FallenBar(QFrame):
         self._look = look
         self.setProperty("kind", "warning")
         self.sign = QLabel()
-        self.words = QLabel(tr("It has fallen."))
+        self.words = labelled(QLabel(), text="It has fallen.")
         self.words.setWordWrap(True)
         self.words.setSizePolicy(wrapped())
-        self.help_button = QPushButton(tr("Help it up"))
-        self.help_button.setToolTip(tr("Let it stand up again"))
+        self.help_button = labelled(QPushButton(), text="Help it up", tip="Let it stand up again")
         row = QHBoxLayout(self)
         line = self.fontMetrics().height()
         row.setContentsMargins(line // 3, line // 4, line // 3, line // 4)
@@ -195,7 +195,7 @@ class RobotCard(QFrame):
     help_asked = Signal()
     start_asked = Signal()
 
-    def __init__(self, plan: RobotPlan, language: Language, look: Look) -> None:
+    def __init__(self, plan: RobotPlan, language: Callable[[], Language], look: Look) -> None:
         super().__init__()
         self.plan = plan
         self._language, self._look = language, look
@@ -205,12 +205,12 @@ class RobotCard(QFrame):
         self.facts = Facts(look)
         self.fallen = FallenBar(look)
         self.touch, self.back = QToolButton(), QToolButton()
-        self._fill_touch_menu(language.choices.get("touch_parts", {}))
+        self._add_touch_menu()
         self._lay_out()
         self.fallen.help_button.clicked.connect(self.help_asked)
         self.back.clicked.connect(self.start_asked)
         look.theme_changed.connect(self._dress)
-        self.show_plan(plan)
+        follow_words(self, self._say)
         self._dress()
 
     def _lay_out(self) -> None:
@@ -242,26 +242,32 @@ class RobotCard(QFrame):
         box.addWidget(self.facts)
         box.addWidget(self._buttons)
 
-    def _fill_touch_menu(self, names: Mapping[str, str]) -> None:
+    def _add_touch_menu(self) -> None:
         menu = QMenu(self.touch)
         for sensor in TOUCH_SENSORS:
-            menu.addAction(names.get(sensor, sensor)).triggered.connect(
-                partial(self._touch_for_a_moment, sensor)
-            )
+            action = menu.addAction("")
+            action.setData(sensor)
+            action.triggered.connect(partial(self._touch_for_a_moment, sensor))
         self.touch.setMenu(menu)
         self.touch.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.touch.setText(tr("Touch"))
-        self.touch.setToolTip(tr("Touch it here, or click its head, hands, feet or chest"))
-        self.back.setText(tr("Back to start"))
-        self.back.setToolTip(tr("Put the robot back to where it began"))
+        labelled(
+            self.touch, text="Touch", tip="Touch it here, or click its head, hands, feet or chest"
+        )
+        labelled(self.back, text="Back to start", tip="Put the robot back to where it began")
 
     def show_plan(self, plan: RobotPlan) -> None:
         """Say which kind of robot it is."""
-        if plan != self.plan or not self.kind.words:
+        if plan != self.plan:
             self.plan = plan
-            self.name.set_words(plan.name)
-            self.kind.set_words(plan.words)
+            self._say()
             self._dress()
+
+    def _say(self) -> None:
+        self.name.set_words(self.plan.name)
+        self.kind.set_words(self.plan.words)
+        names, menu = touch_names(self._language()), self.touch.menu()
+        for action in menu.actions() if menu is not None else ():
+            action.setText(names.get(action.data(), action.data()))
 
     def show_health(self, look: StateLook, *, is_there: bool) -> None:
         """Show how its node is; of a robot that is not there nothing more is known."""
@@ -277,7 +283,7 @@ class RobotCard(QFrame):
 
     def show_state(self, state: RobotState) -> None:
         """Show the robot as it is now."""
-        show_state(self.facts, state, self._language)
+        show_state(self.facts, state, self._language())
         self.fallen.setVisible(state.fallen)
         self._describe()
 
@@ -312,6 +318,11 @@ class RobotCard(QFrame):
             colour = theme.colour(self._health.colour)
             self.sign.setPixmap(icon_pixmap(self._health.icon, colour, line, ratio))
             self.health.setText(self._health.word)
+
+
+def touch_names(language: Language) -> Mapping[str, str]:
+    """What the places are called that can be touched."""
+    return language.choices.get("touch_parts", {})
 
 
 # What a person asks robots on the screen for by hand.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,7 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import action_words
 from nep_studio.ui.floor import Floor
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.node_style import state_look
 from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.speech import Sound
@@ -30,7 +32,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
-from .card import Asking, RobotCard
+from .card import Asking, RobotCard, touch_names
 from .participants import ORIGIN, Base, RobotPlan, Starts, look_of, robots_of, start_places
 from .stage import RobotStage
 
@@ -50,7 +52,7 @@ class LargeWindow(QWidget):
 
     def __init__(self, held: QWidget, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Window)
-        self.setWindowTitle(tr("Robots"))
+        labelled(self, window_title="Robots")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         line = self.fontMetrics().height()
         box = QVBoxLayout(self)
@@ -85,7 +87,7 @@ MOST_REQUESTS = 200
 class Doings:
     """The actions that go on, by robot."""
 
-    def __init__(self, language: Language, tr: Tr) -> None:
+    def __init__(self, language: Callable[[], Language], tr: Tr) -> None:
         self._language = language
         self.tr = tr
         self._requests: dict[str, m.ActionRequest] = {}
@@ -108,7 +110,9 @@ class Doings:
     def words(self, robot: str) -> list[str]:
         """What it does, each as the predicate of a sentence."""
         requests = [self._requests.get(action) for action in self._going_on.get(robot, {})]
-        found = [action_words(one, self._language, self.tr) for one in requests if one is not None]
+        found = [
+            action_words(one, self._language(), self.tr) for one in requests if one is not None
+        ]
         return list(dict.fromkeys(found))
 
     def clear(self) -> None:
@@ -127,7 +131,7 @@ class RobotsPanel(QWidget):
     def __init__(
         self,
         runner: Runner,
-        language: Language,
+        language: Callable[[], Language],
         look: Look,
         floor: Floor,
         sound: Sound,
@@ -143,8 +147,8 @@ class RobotsPanel(QWidget):
         self._begin_at: dict[str, Base] = {}
         self.cards: dict[str, RobotCard] = {}
         self.large: LargeWindow | None = None
-        self.stage = RobotStage(look, floor, sound, language.choices.get("touch_parts", {}))
-        self.hint, self.elsewhere = QLabel(), QPushButton(tr("Back into the panel"))
+        self.stage = RobotStage(look, floor, sound, lambda: touch_names(language()))
+        self.hint, self.elsewhere = QLabel(), labelled(QPushButton(), text="Back into the panel")
         self._lay_out()
         self.stage.touched.connect(self._asking.touch)
         self.stage.chosen.connect(self._on_chosen)
@@ -154,11 +158,14 @@ class RobotsPanel(QWidget):
         runner.nodes_changed.connect(self._on_nodes_changed)
         runner.state_changed.connect(self._on_state_changed)
         runner.disconnected.connect(self._on_disconnected)
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
-        self.setAccessibleName(tr("Robots"))
-        self.hint.setText(
-            tr("No robot takes part yet. Add one on the Robots page: it may be one on this screen.")
+        labelled(self, name="Robots")
+        labelled(
+            self.hint,
+            text="No robot takes part yet. "
+            "Add one on the Robots page: it may be one on this screen.",
         )
         self.hint.setWordWrap(True)
         self.hint.setProperty("role", "hint")

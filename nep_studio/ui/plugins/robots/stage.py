@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QPushButton, QSizePolicy, QVBoxLayout, QWidget
 from nep_core.wire.messages import RobotState, Thing, ThingKind
 from nep_studio.project.surroundings import moved, named, new_thing, turned
 from nep_studio.ui.floor import Floor
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -164,7 +165,7 @@ class RobotStage(QWidget):
     large_switched = Signal(bool)
 
     def __init__(
-        self, look: Look, floor: Floor, sound: Sound, touch_names: Mapping[str, str]
+        self, look: Look, floor: Floor, sound: Sound, touch_names: Callable[[], Mapping[str, str]]
     ) -> None:
         super().__init__()
         self._look, self.floor, self._sound = look, floor, sound
@@ -177,10 +178,11 @@ class RobotStage(QWidget):
         self._shown: dict[str, tuple[RobotState | None, Base]] = {}
         self.tools = StageTools(look)
         self.thing_bar = ThingBar(look)
-        self.invitation = QPushButton(tr("Place a person before the robots"))
+        self.invitation = labelled(QPushButton(), text="Place a person before the robots")
         self._lay_out()
         self._connect()
         self._on_floor_changed()
+        follow_words(self, self._tell_names)
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
@@ -212,13 +214,18 @@ class RobotStage(QWidget):
         bar.closed.connect(lambda: self.choose(""))
         self.floor.changed.connect(self._on_floor_changed)
 
+    def _tell_names(self) -> None:
+        """Call the places that can be touched as they are called now."""
+        if self._view is not None:
+            self._view.touch_names = self._touch_names()
+
     @property
     def view(self) -> RobotView:
         """The view; numpy is loaded with it."""
         if self._view is None:
             from nep_studio.ui.robot_view.view import RobotView
 
-            view = self._view = RobotView(self._look, self._touch_names)
+            view = self._view = RobotView(self._look, self._touch_names())
             view.setMinimumHeight(self.fontMetrics().height() * 8)
             self._box.insertWidget(1, view, 1)
             self._sight, keys = Sight(view), StageKeys(view)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QMenu, QToolButton
 
 from nep_core.wire.messages import Thing, ThingKind
 from nep_studio.project.surroundings import LONGEST_NAME
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_pixmap, icon_room
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import FlowLayout
@@ -41,10 +42,10 @@ class ThingBar(QWidget):
         self.name = QLineEdit()
         self.name.setMaxLength(LONGEST_NAME)
         self.name.setMinimumWidth(self.fontMetrics().averageCharWidth() * 8)
-        self.left = _button(tr("Turn it to the left"), "rotate-ccw")
-        self.right = _button(tr("Turn it to the right"), "rotate-cw")
-        self.remove = _button(tr("Take it away"), "trash-2")
-        self.close_button = _button(tr("Done"), "check")
+        self.left = explained(_button("rotate-ccw"), "Turn it to the left")
+        self.right = explained(_button("rotate-cw"), "Turn it to the right")
+        self.remove = explained(_button("trash-2"), "Take it away")
+        self.close_button = explained(_button("check"), "Done")
         rows = FlowLayout(self, self.fontMetrics().height() // 5)  # it must not widen the panel
         self._what = _beside(self.sign, self.kind, self.name)
         self._hands = _beside(self.left, self.right, self.remove, self.close_button)
@@ -67,12 +68,13 @@ class ThingBar(QWidget):
         self.setVisible(thing is not None)
         if thing is None:
             return
-        self.kind.setText(kind_words(thing.kind))
-        has_name = thing.kind in ("person", "mark")
-        self.name.setVisible(has_name)
-        what = tr("Number of the landmark") if thing.kind == "mark" else tr("Name of the person")
-        self.name.setAccessibleName(what)
-        self.name.setPlaceholderText(tr("anybody") if thing.kind == "person" else tr("number"))
+        labelled(self.kind, text=KIND_WORDS[thing.kind])
+        self.name.setVisible(thing.kind in ("person", "mark"))
+        labelled(
+            self.name,
+            name="Number of the landmark" if thing.kind == "mark" else "Name of the person",
+            placeholder="anybody" if thing.kind == "person" else "number",
+        )
         for button in (self.left, self.right):
             button.setVisible(thing.kind != "ball")
         if is_other or not self.name.hasFocus():
@@ -95,19 +97,18 @@ class ThingBar(QWidget):
             self.sign.setPixmap(icon_pixmap(name, theme.colour("muted"), line, ratio))
 
 
-def kind_words(kind: ThingKind) -> str:
-    """What a kind of thing is called."""
-    return {
-        "person": tr("Person"),
-        "ball": tr("Red ball"),
-        "wall": tr("Wall"),
-        "mark": tr("Landmark"),
-    }[kind]
+KIND_WORDS: dict[ThingKind, str] = {
+    "person": "Person",
+    "ball": "Red ball",
+    "wall": "Wall",
+    "mark": "Landmark",
+}
+"""What a kind of thing is called."""
 
 
 def thing_words(thing: Thing) -> str:
     """A thing in a list: "Person Anna"."""
-    return f"{kind_words(thing.kind)} {thing.name}".strip()
+    return f"{tr(KIND_WORDS[thing.kind])} {thing.name}".strip()
 
 
 def _beside(*widgets: QWidget) -> QWidget:
@@ -120,16 +121,21 @@ def _beside(*widgets: QWidget) -> QWidget:
     return group
 
 
-def _button(words: str, icon_name: str) -> QToolButton:
+def _button(icon_name: str) -> QToolButton:
     button = QToolButton()
-    button.setToolTip(words)
-    button.setAccessibleName(words)
     button.setProperty("icon_name", icon_name)
     button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     return button
 
 
-KINDS: tuple[ThingKind, ...] = ("person", "ball", "wall", "mark")
+VIEWS = {
+    "front": "From the front",
+    "side": "From the side",
+    "back": "From behind",
+    "top": "From above",
+    "face": "Into the face",
+}
+"""From where the robots can be looked at, in words."""
 
 
 class StageTools(QWidget):
@@ -154,16 +160,19 @@ class StageTools(QWidget):
         self._look = look
         self.view, self.place = QToolButton(), QToolButton()
         self.sound, self.large = QToolButton(), QToolButton()
-        self.fit = QAction(tr("See all"), self)
-        self.clear = QAction(tr("Clear the walked paths"), self)
-        self.real = QAction(tr("Connect a robot…"), self)
-        self.follow = QAction(tr("Follow the robot"), self, checkable=True, checked=True)
-        self._things_menu = QMenu(tr("Choose"), self)
+        self.fit = labelled(QAction(self), text="See all")
+        self.clear = labelled(QAction(self), text="Clear the walked paths")
+        self.real = labelled(QAction(self), text="Connect a robot…")
+        self.follow = QAction(self, checkable=True, checked=True)
+        labelled(self.follow, text="Follow the robot")
+        self._things: list[Thing] = []
+        self._things_menu = labelled(QMenu(self), title="Choose")
         self._lay_out()
         self._fill_view_menu()
         self._fill_place_menu()
         self._connect()
         self.show_things([])
+        follow_words(self, self._fill_things_menu)
         self.show_sound(True)
         self.show_large(False)
         look.theme_changed.connect(self._dress)
@@ -171,16 +180,11 @@ class StageTools(QWidget):
 
     def _lay_out(self) -> None:
         flow = FlowLayout(self, self.fontMetrics().height() // 5)
-        named = (
-            (self.view, tr("View"), tr("From where the robots are looked at")),
-            (self.place, tr("Place"), tr("Put something before the robots")),
-            (self.sound, tr("Sound"), ""),
-            (self.large, tr("Large"), ""),
-        )
-        for button, words, tip in named:
-            button.setText(words)
-            button.setToolTip(tip)
-            button.setAccessibleName(words)
+        labelled(self.view, text="View", name="View", tip="From where the robots are looked at")
+        labelled(self.place, text="Place", name="Place", tip="Put something before the robots")
+        labelled(self.sound, text="Sound", name="Sound")
+        labelled(self.large, text="Large", name="Large")
+        for button in (self.view, self.place, self.sound, self.large):
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             flow.addWidget(button)
         for button in (self.view, self.place):
@@ -191,15 +195,9 @@ class StageTools(QWidget):
 
     def _fill_view_menu(self) -> None:
         menu = QMenu(self.view)
-        presets = {
-            "front": tr("From the front"),
-            "side": tr("From the side"),
-            "back": tr("From behind"),
-            "top": tr("From above"),
-            "face": tr("Into the face"),
-        }
-        for preset, words in presets.items():
-            menu.addAction(words).triggered.connect(partial(self._ask_view, preset))
+        for preset, words in VIEWS.items():
+            action = labelled(menu.addAction(""), text=words)
+            action.triggered.connect(partial(self._ask_view, preset))
         menu.addSeparator()
         menu.addActions([self.fit, self.follow, self.clear])
         self.view.setMenu(menu)
@@ -210,8 +208,8 @@ class StageTools(QWidget):
     def _fill_place_menu(self) -> None:
         menu = QMenu(self.place)
         self._placing = QActionGroup(self)
-        for kind in KINDS:
-            action = self._placing.addAction(kind_words(kind))
+        for kind, words in KIND_WORDS.items():
+            action = labelled(self._placing.addAction(""), text=words)
             action.setData(kind)
             menu.addAction(action)
         menu.addSeparator()
@@ -234,12 +232,16 @@ class StageTools(QWidget):
 
     def show_things(self, things: list[Thing]) -> None:
         """Offer the things that are there, to be chosen without a mouse."""
+        self._things = things
+        self._fill_things_menu()
+        self._things_menu.setEnabled(bool(things))
+
+    def _fill_things_menu(self) -> None:
         self._things_menu.clear()
-        for thing in things:
+        for thing in self._things:
             action = self._things_menu.addAction(icon(ICONS[thing.kind], self._look.theme), "")
             action.setText(thing_words(thing).replace("&", "&&"))
             action.triggered.connect(partial(self._ask_thing, thing.id))
-        self._things_menu.setEnabled(bool(things))
 
     def _ask_thing(self, thing_id: str) -> None:
         self.thing_asked.emit(thing_id)
@@ -248,15 +250,16 @@ class StageTools(QWidget):
         """Show whether robots are heard."""
         with QSignalBlocker(self.sound):
             self.sound.setChecked(is_on)
-        self.sound.setToolTip(tr("Robots are heard") if is_on else tr("Robots are not heard"))
+        labelled(self.sound, tip="Robots are heard" if is_on else "Robots are not heard")
         self._dress()
 
     def show_large(self, is_large: bool) -> None:
         """Show whether the scene is in a window of its own."""
         with QSignalBlocker(self.large):
             self.large.setChecked(is_large)
-        words = tr("Back into the panel") if is_large else tr("Large, in a window of its own")
-        self.large.setToolTip(words)
+        labelled(
+            self.large, tip="Back into the panel" if is_large else "Large, in a window of its own"
+        )
 
     def show_follow(self, is_on: bool) -> None:
         """Show whether a robot is followed."""

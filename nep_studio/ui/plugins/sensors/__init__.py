@@ -11,7 +11,6 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from .workspace import Workspace
@@ -67,12 +66,12 @@ def make(host: Host) -> Parts:
         host.show_panel(panel)
         panel.opened().show_field(topic, field)
 
-    place = NewPanel(panel, tr("Sensors"), "activity", "bottom", least_share=LEAST_SHARE)
+    place = NewPanel(panel, "Sensors", "activity", "bottom", least_share=LEAST_SHARE)
     return Parts(place, commands={"sensors.plot": plot})
 
 
 def _workspace(host: Host) -> Workspace:
-    """The contents of the panel; what was heard stays when it is made anew."""
+    """The contents of the panel; what is recorded is kept when the program ends."""
     from nep_studio.ui.network_feed import feed_of
 
     from .feed import SensorFeed
@@ -81,20 +80,16 @@ def _workspace(host: Host) -> Workspace:
 
     services = host.services
     runner, settings = services.runner, services.settings
-    feed = host.keep(SensorFeed, lambda: SensorFeed(runner, services.running))
+    feed = SensorFeed(runner, services.running)
 
-    def make_recorder() -> Recorder:
-        """One that ends its files when the program ends."""
-        recorder = Recorder(feed)
-        app = QApplication.instance()
-        if app is not None:
-            app.aboutToQuit.connect(recorder.finish)
-        return recorder
+    recorder, network = Recorder(feed), feed_of(host)
+    app = QApplication.instance()
+    if app is not None:
+        app.aboutToQuit.connect(recorder.finish)
 
     def folder() -> Path:
         return settings.last_folder / RECORDINGS
 
-    recorder, network = host.keep(Recorder, make_recorder), feed_of(host)
     return Workspace(feed, recorder, network, runner, services.messages, services.look, folder)
 
 

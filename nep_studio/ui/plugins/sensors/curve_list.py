@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QLabel,
     QLineEdit,
+    QPushButton,
     QTreeView,
     QTreeWidget,
     QTreeWidgetItem,
@@ -20,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import IMU
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column
@@ -52,7 +54,7 @@ class CurveList(QTreeWidget):
         self.setRootIsDecorated(False)
         self.setIndentation(0)
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.setAccessibleName(tr("Curves"))
+        labelled(self, name="Curves")
         self.header().setStretchLastSection(False)
         self.itemChanged.connect(self._on_item_changed)
         self._timer = QTimer(self, interval=_REFRESH_MS)
@@ -61,7 +63,7 @@ class CurveList(QTreeWidget):
         plots.cursors_changed.connect(self.refresh)
         plots.view_changed.connect(self.refresh)
         look.theme_changed.connect(self.fill)
-        self.fill()
+        follow_words(self, self.fill)
 
     def fill(self) -> None:
         """List the curves that there are."""
@@ -212,15 +214,17 @@ class FieldChooser(QDialog):
         self._feed, self._network = feed, network
         self._items: dict[Field, QStandardItem] = {}
         self._topics: dict[str, QStandardItem] = {}
-        self.setWindowTitle(tr("Choose what is plotted"))
+        labelled(self, window_title="Choose what is plotted")
         self.search = QLineEdit(clearButtonEnabled=True)
-        self.search.setPlaceholderText(tr("Find a number"))
-        self.hint = QLabel(tr("Numbers appear here as soon as a node sends some."), wordWrap=True)
+        labelled(self.search, placeholder="Find a number")
+        self.hint = labelled(QLabel(), text="Numbers appear here as soon as a node sends some.")
         self.hint.setProperty("role", "hint")
+        self.hint.setWordWrap(True)
         self._make_tree()
         buttons = QDialogButtonBox()
-        close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.AcceptRole)
+        close = labelled(QPushButton(), text="Close")
         close.clicked.connect(self.accept)
+        buttons.addButton(close, QDialogButtonBox.ButtonRole.AcceptRole)
         in_column(self.search, self.hint, self.tree, buttons, of=self)
         line = self.fontMetrics().height()
         self.resize(line * _WIDTH_LINES, line * _HEIGHT_LINES)
@@ -228,7 +232,7 @@ class FieldChooser(QDialog):
 
     def _make_tree(self) -> None:
         self.model = QStandardItemModel(0, 2, self)
-        self.model.setHorizontalHeaderLabels([tr("Number"), tr("Last value")])
+        follow_words(self, self._name_columns)
         self.model.itemChanged.connect(self._on_item_changed)
         self._found = QSortFilterProxyModel(self)
         self._found.setSourceModel(self.model)
@@ -239,7 +243,10 @@ class FieldChooser(QDialog):
         self.tree = QTreeView(uniformRowHeights=True)
         self.tree.setModel(self._found)
         self.tree.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.tree.setAccessibleName(tr("Numbers that nodes send"))
+        labelled(self.tree, name="Numbers that nodes send")
+
+    def _name_columns(self) -> None:
+        self.model.setHorizontalHeaderLabels([tr("Number"), tr("Last value")])
 
     def show_topic(self, topic: str) -> None:
         """Show the numbers of one topic."""

@@ -13,6 +13,7 @@ from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHideEvent, QPen, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QScrollArea, QWidget
 
+from nep_studio.ui.labels import follow_words
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column
@@ -76,6 +77,7 @@ class Plots(QWidget):
         feed.streams_changed.connect(self._on_streams_changed)
         look.theme_changed.connect(self._on_theme_changed)
         self._fit_rows()
+        follow_words(self, self._say)
 
     # What is shown
 
@@ -295,6 +297,13 @@ class Plots(QWidget):
         self._set_pace()
 
     def _on_theme_changed(self) -> None:
+        self._dress()
+
+    def _say(self) -> None:
+        """Take the titles of the rows, which stay, in other words."""
+        self._fit_rows()
+        for row, named in zip(self.rows, rows_of(self.feed.streams), strict=True):
+            row.row = named
         self._dress()
 
 

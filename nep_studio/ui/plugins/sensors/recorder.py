@@ -27,6 +27,7 @@ from nep_core.errors import RecordingError
 from nep_core.wire.messages import Imu
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import REPLAY, PlannedNode
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
@@ -351,7 +352,7 @@ class RecordBar(QWidget):
         self._recorder, self._look = recorder, look
         self._sign = QLabel()
         self.words = ElidedLabel()
-        self.stop_button = QPushButton(tr("Stop recording"))
+        self.stop_button = labelled(QPushButton(), text="Stop recording")
         self.stop_button.setProperty("kind", "stop")
         row = QHBoxLayout(self)
         row.setContentsMargins(*[self.fontMetrics().height() // 4] * 4)
@@ -365,6 +366,7 @@ class RecordBar(QWidget):
         look.theme_changed.connect(self._dress)
         self._dress()
         self._on_changed()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Say how long, how much, how fast, and what was lost."""
@@ -425,16 +427,14 @@ class ReplayBar(QWidget):
         self.is_playing = self._has_begun = False
         self.words = ElidedLabel()
         self.speed = QComboBox()
-        self.speed.setAccessibleName(tr("Speed"))
-        self.speed.setToolTip(tr("Speed"))
+        labelled(self.speed, name="Speed", tip="Speed")
         for speed in _SPEEDS:
             self.speed.addItem(f"{speed:g} {_TIMES}", speed)
         self.speed.setCurrentIndex(_SPEEDS.index(1.0))
-        self.again = QCheckBox(tr("Again and again"))
+        self.again = labelled(QCheckBox(), text="Again and again")
         self.button = QPushButton()
         self.close_button = QToolButton()
-        self.close_button.setToolTip(tr("Close"))
-        self.close_button.setAccessibleName(tr("Close"))
+        labelled(self.close_button, tip="Close", name="Close")
         row = QHBoxLayout(self)
         row.setContentsMargins(*[self.fontMetrics().height() // 4] * 4)
         row.addWidget(self.words, 1)
@@ -445,7 +445,7 @@ class ReplayBar(QWidget):
         self.speed.currentIndexChanged.connect(self._on_speed_changed)
         look.theme_changed.connect(self._dress)
         self._dress()
-        self._show_state()
+        follow_words(self, self._show_state)
         self.hide()
 
     def choose(self, path: Path) -> None:
@@ -501,7 +501,7 @@ class ReplayBar(QWidget):
         name = self.path.name if self.path is not None else ""
         words = tr("Plays “{name}”", name=name) if self.is_playing else f"“{name}”"
         self.words.set_words(words)
-        self.button.setText(tr("Stop") if self.is_playing else tr("Play"))
+        labelled(self.button, text="Stop" if self.is_playing else "Play")
 
     def _dress(self) -> None:
         self.close_button.setIcon(icon("x", self._look.theme))

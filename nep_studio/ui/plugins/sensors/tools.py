@@ -8,9 +8,10 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolBar, QToolButton, QWidget
 
+from faults import Words, text_of
+from nep_studio.ui.labels import explained, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.words import tr
 
 from .measuring import LENGTHS_S, ZOOM_STEP
 from .plots import Plots
@@ -39,19 +40,23 @@ class Tools(QToolBar):
         self.lengths: dict[float, QAction] = {}
         self.setMovable(False)
         self._add_time()
-        self._add_views(hand)
+        zoom = self._plots.zoom
         self.addSeparator()
-        self._add("choose", tr("Choose…"), "chart-line", lambda: None, has_words=True)
-        self._add("record", tr("Record"), "circle-dot", lambda: None, has_words=True)
-        self._add("replay", tr("Replay…"), "circle-play", lambda: None, has_words=True)
-        menu = QMenu(self)
-        for name, words in (("csv", tr("Numbers (CSV)…")), ("png", tr("Picture (PNG)…"))):
-            self.by_name[name] = menu.addAction(words)
-        export = self._add("export", tr("Export"), "download", lambda: None, has_words=True)
-        export.setMenu(menu)
-        button = self.widgetForAction(export)
-        if isinstance(button, QToolButton):
-            button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._add("earlier", "chevron-left", lambda: self._go(-_PAGE), words="Earlier (Left)")
+        self._add("later", "chevron-right", lambda: self._go(_PAGE), words="Later (Right)")
+        self._add("zoom_in", "zoom-in", lambda: zoom(1 / ZOOM_STEP), words="Less time (+)")
+        self._add("zoom_out", "zoom-out", lambda: zoom(ZOOM_STEP), words="More time (−)")  # noqa: RUF001 - what is on the key
+        measure = self._add(
+            "measure",
+            "ruler",
+            lambda: None,
+            words="Measure",
+            tip="Measure between two cursors (Alt or Shift with Left and Right)",
+            is_checkable=True,
+            has_words=True,
+        )
+        measure.triggered.connect(hand.measure)
+        self._add_keeping()
         for changed in (plots.view_changed, plots.cursors_changed, plots.rows_changed):
             changed.connect(self.refresh)
         recorder.started.connect(self.refresh)
@@ -63,9 +68,10 @@ class Tools(QToolBar):
         """Say what the plots do now, and what can be done."""
         plots, pause = self._plots, self.by_name["pause"]
         is_live = plots.view.is_live
-        pause.setText(tr("Pause") if is_live else tr("Live"))
-        pause.setToolTip(
-            tr("Let the picture stand still (Space)") if is_live else tr("Show what comes (Space)")
+        labelled(
+            pause,
+            text="Pause" if is_live else "Live",
+            tip="Let the picture stand still (Space)" if is_live else "Show what comes (Space)",
         )
         self._icons[pause] = "pause" if is_live else "play"
         for length_s, action in self.lengths.items():
@@ -80,48 +86,60 @@ class Tools(QToolBar):
 
     def _add_time(self) -> None:
         plots = self._plots
-        self._add("pause", tr("Pause"), "pause", self._on_pause, has_words=True)
+        self._add("pause", "pause", self._on_pause, words="Pause", has_words=True)
         group = QActionGroup(self)
         group.setExclusionPolicy(QActionGroup.ExclusionPolicy.ExclusiveOptional)
         for length_s in LENGTHS_S:
-            words = tr("{seconds} s", seconds=f"{length_s:g}")
-            show = self._show_length(length_s)
-            action = self._add(f"length_{length_s:g}", words, "", show, is_checkable=True)
-            action.setToolTip(tr("Show {seconds} seconds", seconds=f"{length_s:g}"))
+            show, seconds = self._show_length(length_s), f"{length_s:g}"
+            action = self._add(
+                f"length_{seconds}",
+                "",
+                show,
+                words=text_of("{seconds} s", seconds=seconds),
+                tip=text_of("Show {seconds} seconds", seconds=seconds),
+                is_checkable=True,
+            )
             self.lengths[length_s] = group.addAction(action)
-        fit = self._add("fit", tr("All"), "", plots.fit, is_checkable=True)
-        fit.setToolTip(tr("Show all that is kept, and all values (Home)"))
+        fit = self._add(
+            "fit",
+            "",
+            plots.fit,
+            words="All",
+            tip="Show all that is kept, and all values (Home)",
+            is_checkable=True,
+        )
         group.addAction(fit)
 
     def _show_length(self, length_s: float) -> Callable[[], None]:
         plots = self._plots
         return lambda: plots.set_view(plots.view.with_length(length_s))
 
-    def _add_views(self, hand: Hand) -> None:
-        plots = self._plots
+    def _add_keeping(self) -> None:
         self.addSeparator()
-        self._add("earlier", tr("Earlier (Left)"), "chevron-left", lambda: self._go(-_PAGE))
-        self._add("later", tr("Later (Right)"), "chevron-right", lambda: self._go(_PAGE))
-        self._add("zoom_in", tr("Less time (+)"), "zoom-in", lambda: plots.zoom(1 / ZOOM_STEP))
-        self._add("zoom_out", tr("More time (−)"), "zoom-out", lambda: plots.zoom(ZOOM_STEP))  # noqa: RUF001 - what is on the key
-        measure = self._add(
-            "measure", tr("Measure"), "ruler", lambda: None, is_checkable=True, has_words=True
-        )
-        measure.setToolTip(tr("Measure between two cursors (Alt or Shift with Left and Right)"))
-        measure.triggered.connect(hand.measure)
+        self._add("choose", "chart-line", lambda: None, words="Choose…", has_words=True)
+        self._add("record", "circle-dot", lambda: None, words="Record", has_words=True)
+        self._add("replay", "circle-play", lambda: None, words="Replay…", has_words=True)
+        menu = QMenu(self)
+        self.by_name["csv"] = labelled(menu.addAction(""), text="Numbers (CSV)…")
+        self.by_name["png"] = labelled(menu.addAction(""), text="Picture (PNG)…")
+        export = self._add("export", "download", lambda: None, words="Export", has_words=True)
+        export.setMenu(menu)
+        button = self.widgetForAction(export)
+        if isinstance(button, QToolButton):
+            button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
 
     def _add(
         self,
         name: str,
-        words: str,
         icon_name: str,
         do: Callable[[], object],
         *,
+        words: Words,
+        tip: Words = "",
         is_checkable: bool = False,
         has_words: bool = False,
     ) -> QAction:
-        action = self.by_name[name] = QAction(words, self)
-        action.setToolTip(words.removesuffix("…"))
+        action = self.by_name[name] = labelled(QAction(self), text=words, tip=tip or words)
         action.setCheckable(is_checkable)
         action.triggered.connect(lambda: do())
         if icon_name:
@@ -135,7 +153,7 @@ class Tools(QToolBar):
                 style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
             button.setToolButtonStyle(style)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-            button.setAccessibleName(words.removesuffix("…"))
+            labelled(button, name=words)
         return action
 
     def _go(self, share: float) -> None:
@@ -154,7 +172,6 @@ class Tools(QToolBar):
         if isinstance(more, QToolButton):  # Qt's own arrow is too small, and lost in the dark
             more.setIcon(icon("ellipsis", self._look.theme))
             more.setMinimumWidth(line)
-            more.setToolTip(tr("More"))
-            more.setAccessibleName(tr("More"))
+            explained(more, "More")
         for action, name in self._icons.items():
             action.setIcon(icon(name, self._look.theme))

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from nep_core.errors import NepError, RecordingError
 from nep_core.wire.messages import IMU
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import Answer, Messages
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.running.runner import Runner
@@ -54,23 +55,22 @@ class EmptyPage(QScrollArea):
         self.setWidgetResizable(True)
         inside = QWidget()
         box = in_column(1, of=inside)
-        title = QLabel(tr("What sensors measure is drawn here as curves."))
+        title = labelled(QLabel(), text="What sensors measure is drawn here as curves.")
         title.setProperty("role", "heading")
-        hint = QLabel(
-            tr(
-                "Start a simulated watch, play a recording, or connect a watch or phone: "
-                "its curves appear by themselves. You can also choose any number that a node sends."
-            )
+        hint = labelled(
+            QLabel(),
+            text="Start a simulated watch, play a recording, or connect a watch or phone: "
+            "its curves appear by themselves. You can also choose any number that a node sends.",
         )
         hint.setProperty("role", "hint")
         for label in (title, hint):
             label.setWordWrap(True)
             label.setAlignment(Qt.AlignmentFlag.AlignCenter)
             box.addWidget(label)
-        self.watch_button = QPushButton(tr("Start the virtual watch"))
+        self.watch_button = labelled(QPushButton(), text="Start the virtual watch")
         self.watch_button.setProperty("kind", "primary")
-        self.replay_button = QPushButton(tr("Replay a recording…"))
-        self.choose_button = QPushButton(tr("Choose numbers…"))
+        self.replay_button = labelled(QPushButton(), text="Replay a recording…")
+        self.choose_button = labelled(QPushButton(), text="Choose numbers…")
         box.addLayout(self._buttons())
         box.addStretch(1)
         self.setWidget(inside)
@@ -80,8 +80,10 @@ class EmptyPage(QScrollArea):
 
     def show_starting(self, is_starting: bool) -> None:
         """Say that the watch is on its way."""
-        words = tr("The virtual watch starts…") if is_starting else tr("Start the virtual watch")
-        self.watch_button.setText(words)
+        labelled(
+            self.watch_button,
+            text="The virtual watch starts…" if is_starting else "Start the virtual watch",
+        )
         self.watch_button.setEnabled(not is_starting)
 
     def _buttons(self) -> QHBoxLayout:

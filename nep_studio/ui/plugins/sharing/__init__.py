@@ -12,6 +12,7 @@ from nep_core.errors import NepError
 from nep_core.networks.security.keys import Keys
 from nep_studio.sharing import Refusal, Sharing
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
+from nep_studio.ui.labels import follow_words
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import count_words, tr
 
@@ -65,10 +66,10 @@ def make(host: Host) -> Parts:
     kit.tell()
     action = NewAction(
         "open_network",
-        tr("Open to other computers…"),
+        "Open to other computers…",
         kit.open,
         "monitor",
-        tip=tr("Let other computers take part: their nodes and robots talk with yours."),
+        tip="Let other computers take part: their nodes and robots talk with yours.",
         menu="robots",
     )
     return Parts(actions=[action], commands={"sharing.open": kit.open})
@@ -90,12 +91,13 @@ class SharingKit(QObject):
         self._is_to_offer_run = False
         self._refused: Message | None = None
         self.dialog: SharingDialog | None = None
-        self.sharing = sharing_of(host)
+        self.sharing = new_sharing(host)
         self.sharing.changed.connect(self.tell)
         self.sharing.settled.connect(self._on_settled)
         self.sharing.refused.connect(self._on_refused)
         self.sharing.failed.connect(self._on_failed)
         self._runner.state_changed.connect(self._on_run_changed)
+        follow_words(self, self.tell)
 
     def tell(self) -> None:
         """Tell how it is now."""
@@ -121,7 +123,7 @@ class SharingKit(QObject):
         dialog.close_asked.connect(lambda: self._after_the_run(sharing.close))
         dialog.begin_anew_asked.connect(lambda: self._after_the_run(sharing.begin_anew))
         dialog.finished.connect(self._on_finished)
-        self.destroyed.connect(dialog.reject)  # the window is made anew, in another language
+        host.services.studio.words_changed.connect(dialog.reject)  # it speaks the one before
         dialog.begin()
 
     def _after_the_run(self, do: Callable[[], None]) -> None:
@@ -174,24 +176,21 @@ class SharingKit(QObject):
         self.dialog = None
 
 
-def sharing_of(host: Host) -> Sharing:
-    """The one that there is; it stays when the window speaks another language."""
+def new_sharing(host: Host) -> Sharing:
+    """What opens and joins networks, as it was when the program ended."""
     running, runner, settings = (
         host.services.running,
         host.services.runner,
         host.services.settings,
     )
 
-    def make_sharing() -> Sharing:
-        sharing = Sharing(runner.local, running)
-        sharing.went_down.connect(runner.disconnected)
-        runner.closing.connect(sharing.end)
-        runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
-        if address := settings.kept_open_at:
-            QTimer.singleShot(0, sharing, lambda: sharing.open(address))
-        return sharing
-
-    return host.keep(Sharing, make_sharing)
+    sharing = Sharing(runner.local, running)
+    sharing.went_down.connect(runner.disconnected)
+    runner.closing.connect(sharing.end)
+    runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
+    if address := settings.kept_open_at:
+        QTimer.singleShot(0, sharing, lambda: sharing.open(address))
+    return sharing
 
 
 plugin = Plugin("sharing", make, order=160)

@@ -10,7 +10,6 @@ from PySide6.QtCore import QObject, QTimer
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.messages import Message, Place
-from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from .window import ShowWindow
@@ -75,12 +74,12 @@ class ShowMode(QObject):
 
 def make(host: Host) -> Parts:
     """The actions of the View menu; ``nep-studio show`` begins a show at once."""
-    mode = host.keep(ShowMode, lambda: ShowMode(host))
+    mode = ShowMode(host)
     actions = [
-        NewAction("show_mode", tr("Show mode"), mode.begin, "monitor", "F11", menu="view"),
+        NewAction("show_mode", "Show mode", mode.begin, "monitor", "F11", menu="view"),
         NewAction(
             "show_at_start",
-            tr("Start with the computer…"),
+            "Start with the computer…",
             lambda: _open_startup(host),
             "power",
             menu="view",

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QWidget
 
 from nep_studio.study.records import Reply, Sitting, write_events, write_replies
 from nep_studio.ui.host import Host, Parts, Plugin
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
@@ -36,12 +37,12 @@ class StudySign(QFrame):
         self._recorder, self._look = recorder, look
         self.setProperty("kind", "warning")
         self.dot, self.words = QLabel(), ElidedLabel()
-        self.form_button = QPushButton(tr("Fill in the questionnaire"))
-        self.stop_button = QPushButton(tr("Stop the study"))
+        self.form_button = labelled(QPushButton(), text="Fill in the questionnaire")
+        self.stop_button = labelled(QPushButton(), text="Stop the study")
         in_row(self.dot, (self.words, 1), self.form_button, self.stop_button, of=self)
         recorder.changed.connect(self.refresh)
         look.theme_changed.connect(self.refresh)
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def refresh(self) -> None:
         """Be there, or not."""
@@ -66,11 +67,8 @@ HELP_PAGES = "help"
 
 
 def make(host: Host) -> Parts:
-    """Help > Study, when the rest of the Help menu is made, and the sign of a study that is on.
-
-    The recorder stays when the window speaks another language.
-    """
-    kit = StudyKit(host, host.keep(StudyRecorder, lambda: StudyRecorder(host)))
+    """Help > Study, when the rest of the Help menu is made, and the sign of a study that is on."""
+    kit = StudyKit(host, StudyRecorder(host))
     kit.add_menu()
     kit.add_sign()
     return Parts()
@@ -95,25 +93,20 @@ class StudyKit(QObject):
         for action in help_menu.actions():
             if action.iconText() and not action.objectName().startswith(HELP_PAGES):
                 action.triggered.connect(self._note_help(action.iconText()))
-        menu = help_menu.addMenu(icon("graduation-cap", theme), tr("Study"))
-        form, results = tr("Fill in the questionnaire…"), tr("Results…")
-        menu.addAction(add("study_start", tr("Start a study…"), self.start, icon_name="play"))
-        stop = tr("Stop the study")
-        menu.addAction(add("study_stop", stop, self._recorder.stop, icon_name="square"))
-        recorded = tr("What is recorded")
-        menu.addAction(add("study_recorded", recorded, self.tell_what, icon_name="eye"))
+        menu = labelled(help_menu.addMenu(icon("graduation-cap", theme), ""), title="Study")
+        stop, recorded = self._recorder.stop, self.tell_what
+        menu.addAction(add("study_start", "Start a study…", self.start, icon_name="play"))
+        menu.addAction(add("study_stop", "Stop the study", stop, icon_name="square"))
+        menu.addAction(add("study_recorded", "What is recorded", recorded, icon_name="eye"))
         menu.addSeparator()
-        menu.addAction(add("study_form", form, self.fill_in, icon_name="list"))
-        menu.addAction(add("study_results", results, self.show_results, icon_name="table"))
+        form = add("study_form", "Fill in the questionnaire…", self.fill_in, icon_name="list")
+        menu.addAction(form)
+        menu.addAction(add("study_results", "Results…", self.show_results, icon_name="table"))
         self._update_actions()
 
     def add_sign(self) -> None:
         """Put the sign at the lower edge of the window."""
         bar = self._host.status_bar
-        for old in bar.findChildren(StudySign):
-            bar.removeWidget(old)
-            old.setParent(None)  # at once: there is one sign only
-            old.deleteLater()
         bar.setSizeGripEnabled(False)
         sign = StudySign(self._recorder, self._host.services.look)
         sign.form_button.clicked.connect(self.fill_in)

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
-from nep_studio.ui.words import tr
 
 
 def make(host: Host) -> Parts:
-    """The action, first in the Help menu. A tour goes on when the words are other ones."""
+    """The action, first in the Help menu."""
     from .tour import Tour
 
-    tour = host.keep(Tour, lambda: Tour(host))
+    tour = Tour(host)
     action = NewAction(
-        "tour", tr("Take the tour"), tour.start, "footprints", menu="help", before="help"
+        "tour", "Take the tour", tour.start, "footprints", menu="help", before="help"
     )
     return Parts(actions=[action])
 

@@ -17,10 +17,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import begin_where_reading_begins, in_row
-from nep_studio.ui.words import tr
 
 from .steps import FIRST_STEPS, PROJECT, Step, steps
 
@@ -46,7 +47,7 @@ class Dots(QWidget):
     def show_place(self, number: int, count: int) -> None:
         """Say which step of how many this is, from 0."""
         self._number, self._count = number, count
-        self.setAccessibleName(tr("Step {number} of {count}", number=number + 1, count=count))
+        labelled(self, name=text_of("Step {number} of {count}", number=number + 1, count=count))
         self.updateGeometry()
         self.update()
 
@@ -113,10 +114,10 @@ class Bubble(QFrame):
         for label in (self._title, self._text):
             begin_where_reading_begins(label)
         self._dots.show_place(number, count)
-        self.leave_button.setText(tr("End the tour"))
-        self.back_button.setText(tr("Back"))
+        labelled(self.leave_button, text="End the tour")
+        labelled(self.back_button, text="Back")
         self.back_button.setEnabled(number > 0)
-        self.next_button.setText(tr("Done") if number == count - 1 else tr("Next"))
+        labelled(self.next_button, text="Done" if number == count - 1 else "Next")
         self.leave_button.setVisible(number < count - 1)
         self.setAccessibleName(f"{self._dots.accessibleName()}. {step.title}. {step.text}")
 
@@ -229,10 +230,8 @@ class Tour(QObject):
         self.bubble.back.connect(self.go_back)
         self.bubble.left.connect(self.end)
         host.services.files.document_changed.connect(self._on_document_changed)
-        host.services.studio.words_changed.connect(
-            self._on_looks_changed, Qt.ConnectionType.QueuedConnection
-        )
         look.theme_changed.connect(self._on_looks_changed)
+        follow_words(self, self._on_looks_changed)
 
     @property
     def is_running(self) -> bool:

@@ -38,10 +38,10 @@ def make(host: Host) -> Parts:
     kit = WatchKit(host)
     action = NewAction(
         "connect_watch",
-        tr("Connect a watch or phone…"),
+        "Connect a watch or phone…",
         lambda: kit.open(),
         "watch",
-        tip=tr("Let the movements of a real watch or phone into this project."),
+        tip="Let the movements of a real watch or phone into this project.",
         menu="robots",
     )
     return Parts(actions=[action], commands={"watches.open": lambda: kit.open(stays=True)})
@@ -100,7 +100,7 @@ class WatchKit(QObject):
         dialog = self.dialog = WatchDialog(runner, plan, self._token, look, host.widget)
         dialog.used.connect(lambda: self._use(dialog))
         dialog.finished.connect(self._on_finished)
-        self.destroyed.connect(dialog.reject)  # the window is made anew, in another language
+        host.services.studio.words_changed.connect(dialog.reject)  # it speaks the one before
         dialog.begin()
 
     def _plan(self, *, is_another: bool = False) -> Plan:

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QButtonGroup, QScrollArea, QToolButton, QVBoxLayou
 
 from nep_studio.ui.canvas.editing.drag_blocks import DragBlocks
 from nep_studio.ui.canvas.host import CanvasHost
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
-from nep_studio.ui.words import tr
 
 from .entries import RECENT, Drawer, recent_drawer
 from .shelf_layout import paint_badge
@@ -40,19 +40,29 @@ class CategoryColumn(QScrollArea):
         self.setFrameShape(QScrollArea.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        labelled(self, name="Categories of blocks")
 
     def show_drawers(self, drawers: Sequence[Drawer], theme: Theme) -> None:
         """Show a button for each of these."""
         self.ensurePolished()  # before that letters have another size
         size = self.fontMetrics().height(), self.devicePixelRatioF()
-        shown = (drawers, theme, self.font(), size)
+        ids = [drawer.id for drawer in drawers]
+        shown = (ids, theme, self.font(), size)
         if shown != self._shown:
             self._shown = shown
             self._make(drawers, theme)
+        for drawer in (*drawers, recent_drawer()):
+            self._say(drawer)
         self._fit()
 
+    def _say(self, drawer: Drawer) -> None:
+        button = self.buttons.get(drawer.id, self._to_come)
+        if button is not None:
+            button.setText(drawer.title)
+            button.setToolTip(drawer.title)
+            button.setAccessibleName(drawer.title)
+
     def _make(self, drawers: Sequence[Drawer], theme: Theme) -> None:
-        self.setAccessibleName(tr("Categories of blocks"))
         inner = QWidget()
         column = QVBoxLayout(inner)
         column.setContentsMargins(2, 2, 2, 2)
@@ -86,9 +96,6 @@ class CategoryColumn(QScrollArea):
 
     def _button(self, drawer: Drawer, theme: Theme, parent: QWidget) -> QToolButton:
         button = QToolButton(parent)
-        button.setText(drawer.title)
-        button.setToolTip(drawer.title)
-        button.setAccessibleName(drawer.title)
         button.setCheckable(True)
         button.setAutoRaise(True)
         font = button.font()

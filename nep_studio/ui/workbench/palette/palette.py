@@ -30,6 +30,7 @@ from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.canvas.host import CanvasHost
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
@@ -242,11 +243,11 @@ class Palette(QWidget):
         self.canvas = canvas
         self.settings = settings
         self.snippets = snippets or Snippets(settings.folder / "snippets")
-        self.search = QLineEdit(self)
+        self.search = labelled(QLineEdit(self), placeholder="Search blocks", name="Search blocks")
         self._sign = QAction(self.search)
         self.fold = QToolButton(self)
         self.categories = CategoryColumn(self)
-        self.shelf = Shelf(canvas, self)
+        self.shelf = labelled(Shelf(canvas, self), name="Blocks to use")
         self.making = Making(self)
         self.snippet_menu = SnippetMenu(self)
         self.is_narrow = False
@@ -257,15 +258,13 @@ class Palette(QWidget):
         self._arrange()
         self._connect()
         add_delete_area(canvas, self)
-        self.refresh()
+        labelled(self, name="Palette")
+        follow_words(self, self.refresh)
 
     # What is shown
 
     def refresh(self) -> None:
         """Take the theme, the words, the direction and the project of the canvas."""
-        self.setAccessibleName(tr("Palette"))
-        self.search.setPlaceholderText(tr("Search blocks"))
-        self.search.setAccessibleName(tr("Search blocks"))
         self._sign.setIcon(icon("search", self.canvas.look.theme))
         self._show_fold()
         self._listen()
@@ -404,9 +403,8 @@ class Palette(QWidget):
         side = self.fontMetrics().height()
         self.fold.setIcon(icon("panel-left", self.canvas.look.theme))
         self.fold.setIconSize(QSize(side, side))
-        words = tr("Make the palette narrow") if is_wide else tr("Show the blocks")
-        self.fold.setToolTip(words)
-        self.fold.setAccessibleName(words)
+        labelled(self.fold, tip="Make the palette narrow" if is_wide else "Show the blocks")
+        self.fold.setAccessibleName(self.fold.toolTip())
 
     def _listen(self) -> None:
         """Hear of the changes of the project that the canvas shows now."""

@@ -84,7 +84,6 @@ class ShelfView(QAbstractScrollArea):
 
     def refresh(self) -> None:
         """Take the theme, the words and the direction of the canvas."""
-        self.setAccessibleName(tr("Blocks to use"))
         self._lay_out(self._way_from_spot())
 
     @property

@@ -94,7 +94,7 @@ def panel(
     host: QMainWindow, runner: Runner, floor: Floor, look: Look, qtbot: QtBot, tmp_path: Path
 ) -> RobotsPanel:
     sound = Sound(runner, Settings(tmp_path / "home"), runner, lambda parent: None)
-    made = RobotsPanel(runner, studio_language(), look, floor, sound, Starts(runner, runner))
+    made = RobotsPanel(runner, studio_language, look, floor, sound, Starts(runner, runner))
     host.setCentralWidget(made)
     host.show()
     qtbot.waitExposed(host)

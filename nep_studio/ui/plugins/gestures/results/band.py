@@ -11,6 +11,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
 
 from nep_core.errors import RecordingError
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
@@ -189,7 +190,7 @@ class BandView(QWidget):
         self.kind = "body"
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(tr("Expected curve"))
+        labelled(self, name="Expected curve")
         look.theme_changed.connect(self.update)
 
     def show_band(self, band: Band | None, kind: str, words: str) -> None:
@@ -307,9 +308,9 @@ class BandPanel(QWidget):
         self._shown: Detection | None = None
         self.band: Band | None = None
         self.gesture = QComboBox()
-        self.gesture.setAccessibleName(tr("Gesture of the curve"))
+        labelled(self.gesture, name="Gesture of the curve")
         self.kind = QComboBox()
-        self.kind.setAccessibleName(tr("What is drawn"))
+        labelled(self.kind, name="What is drawn")
         self.view = BandView(controller.look)
         self.sentence = Words()
         row = QHBoxLayout()
@@ -320,6 +321,13 @@ class BandPanel(QWidget):
         self.gesture.currentIndexChanged.connect(self._on_chosen)
         self.kind.currentIndexChanged.connect(self._show)
         self.use_model(None)
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        self.gesture.setItemText(0, tr("Best fit"))
+        for at in range(self.kind.count()):
+            self.kind.setItemText(at, kind_words(self.kind.itemData(at)))
+        self._show()
 
     def use_model(self, model: Model | None) -> None:
         """Show the curves of this model."""

@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
@@ -166,7 +167,7 @@ class ConfusionView(QTableView):
         self.headings = SlantedHeader(self)
         self.setHorizontalHeader(self.headings)
         self.setItemDelegate(_Cell(look, self))
-        self.setAccessibleName(tr("What was taken for what: rows are made, columns recognised"))
+        labelled(self, name="What was taken for what: rows are made, columns recognised")
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
@@ -178,7 +179,7 @@ class ConfusionView(QTableView):
         self.clicked.connect(self._on_chosen)
         self.activated.connect(self._on_chosen)
         look.theme_changed.connect(self._fit)
-        self._fit()
+        follow_words(self, self._fit)
 
     def show_findings(self, findings: Findings | None) -> None:
         """Show the pairs of these findings."""

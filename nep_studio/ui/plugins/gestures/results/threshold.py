@@ -15,7 +15,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import text_of
 from nep_studio.blocks.own_gestures import TRIGGER
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column, in_row
@@ -233,16 +235,18 @@ class PointPanel(QWidget):
         super().__init__(parent)
         self.tuning = tuning
         self.gesture = QComboBox()
-        self.gesture.setAccessibleName(tr("Gesture"))
+        labelled(self.gesture, name="Gesture")
         self.gesture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.curve = PointCurve(look)
         self.slider = PointSlider(tuning)
         self.sentence = QLabel(wordWrap=True)
-        self.reset = QPushButton(tr("Usual"))
-        self.reset.setToolTip(tr("Set the recognition point to {percent} %", percent=75))
+        self.reset = labelled(
+            QPushButton(),
+            text="Usual",
+            tip=text_of("Set the recognition point to {percent} %", percent=75),
+        )
         self.reset.setProperty("kind", "quiet")
-        row = in_row((self.gesture, 1), self.reset)
-        in_column(row, self.curve, self.slider, self.sentence, of=self, margins=0)
+        self._lay_out()
         self.gesture.currentIndexChanged.connect(self.refresh)
         self.curve.dragged.connect(lambda certainty: tuning.preview(self.name, certainty))
         self.curve.let_go.connect(lambda: tuning.keep(self.name))
@@ -250,6 +254,11 @@ class PointPanel(QWidget):
         tuning.point_changed.connect(self._on_point_changed)
         tuning.method_changed.connect(self.refresh)
         self.fill()
+        follow_words(self, self.refresh)
+
+    def _lay_out(self) -> None:
+        row = in_row((self.gesture, 1), self.reset)
+        in_column(row, self.curve, self.slider, self.sentence, of=self, margins=0)
 
     @property
     def name(self) -> str:
@@ -312,7 +321,7 @@ class PointSlider(QSlider):
             self.name = name
             gesture = self.tuning.controller.gestures.get(name)
             title = gesture.title if gesture is not None else ""
-            self.setAccessibleName(tr("Recognition point of “{gesture}”", gesture=title))
+            labelled(self, name=text_of("Recognition point of “{gesture}”", gesture=title))
         with QSignalBlocker(self):
             self.setValue(round(self.tuning.point(name) * 100))
         self.setEnabled(bool(name))

@@ -8,6 +8,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
@@ -34,18 +35,24 @@ class TriggerTimeline(QWidget):
         self._triggers: Sequence[Detection] = ()
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as the live curves are
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(tr("The last 30 seconds"))
+        labelled(self, name="The last 30 seconds")
         look.theme_changed.connect(self.update)
+        follow_words(self, self._say)
 
     def show_looks(self, looks: Looks, triggers: Sequence[Detection]) -> None:
         """Show these."""
-        if len(triggers) != len(self._triggers):
-            words = count_words(
-                len(triggers), "1 gesture would count as made", "{n} gestures would count as made"
-            )
-            self.setAccessibleDescription(words)
+        is_new = len(triggers) != len(self._triggers)
         self._looks, self._triggers = looks, triggers
+        if is_new:
+            self._say()
         self.update()
+
+    def _say(self) -> None:
+        count = len(self._triggers)
+        words = count_words(
+            count, "1 gesture would count as made", "{n} gestures would count as made"
+        )
+        self.setAccessibleDescription(words if count else "")
 
     def sizeHint(self) -> QSize:
         """Some lines high."""
@@ -158,7 +165,7 @@ class GestureBar(PointSlider):
         self.certainty = 0.0
         self.is_flashing = False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setToolTip(tr("Drag the mark: the bar must reach it for the gesture to count"))
+        labelled(self, tip="Drag the mark: the bar must reach it for the gesture to count")
         self.show_gesture(name)
         look.theme_changed.connect(self.update)
 

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -30,18 +31,22 @@ class TrainBar(QWidget):
     def __init__(self, training: Training, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.training, self._look = training, look
-        self.button = QPushButton(tr("Train"))
+        self.button = labelled(QPushButton(), text="Train")
         self.button.setProperty("kind", "primary")
-        self.cancel = QPushButton(tr("Cancel"))
-        self.cancel.setToolTip(tr("Stop the training; what was learned before stays"))
+        self.cancel = labelled(
+            QPushButton(), text="Cancel", tip="Stop the training; what was learned before stays"
+        )
         self.progress = QProgressBar(textVisible=False)
         self.progress.setRange(0, 100)
-        self.progress.setAccessibleName(tr("Progress of the training"))
+        labelled(self.progress, name="Progress of the training")
         self.progress.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.sign = Sign(look)
         self.status = Words()
-        self.by_itself = QCheckBox(tr("Train after each change"))
-        self.by_itself.setToolTip(tr("Learn again by itself, as long as it takes only a moment"))
+        self.by_itself = labelled(
+            QCheckBox(),
+            text="Train after each change",
+            tip="Learn again by itself, as long as it takes only a moment",
+        )
         self._lay_out()
         self.button.clicked.connect(training.train)
         self.cancel.clicked.connect(training.cancel)
@@ -50,7 +55,7 @@ class TrainBar(QWidget):
         training.trained.connect(lambda: announce(self, self.status.text()))
         look.theme_changed.connect(self._dress)
         self._dress()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         buttons = in_row(self.button, self.cancel, (self.progress, 1), 0)
@@ -69,7 +74,7 @@ class TrainBar(QWidget):
         self.button.setVisible(not is_busy)
         self.button.setEnabled(not why_not)
         has_learned = training.controller.recogniser is not None
-        self.button.setText(tr("Train again") if has_learned else tr("Train"))
+        labelled(self.button, text="Train again" if has_learned else "Train")
         self.cancel.setVisible(is_busy)
         self.progress.setVisible(is_busy)
         self.progress.setValue(round(training.progress * 100))

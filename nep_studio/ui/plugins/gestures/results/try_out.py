@@ -10,6 +10,7 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QMenu, QPushButton, QVBoxLayout, QWidget
 
 from nep_core.errors import RecordingError
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
@@ -81,10 +82,14 @@ class CorrectionBar(QWidget):
     ) -> None:
         super().__init__(parent)
         self._controller, self._looks = controller, looks
-        self.missed = QPushButton(tr("It missed it"))
-        self.missed.setToolTip(tr("Keep the last seconds as a take more of a gesture"))
-        self.false_alarm = QPushButton(tr("False alarm"))
-        self.false_alarm.setToolTip(tr("Keep the last seconds as everyday movement"))
+        self.missed = labelled(
+            QPushButton(),
+            text="It missed it",
+            tip="Keep the last seconds as a take more of a gesture",
+        )
+        self.false_alarm = labelled(
+            QPushButton(), text="False alarm", tip="Keep the last seconds as everyday movement"
+        )
         self.menu = QMenu(self.missed)
         self.menu.aboutToShow.connect(self.fill_menu)
         self.missed.setMenu(self.menu)
@@ -164,6 +169,7 @@ class TryOut(QWidget):
         self._connect()
         self._fill_bars()
         self.meaning.hide()
+        follow_words(self, self._show_state)
 
     def _make(self) -> None:
         look = self.controller.look
@@ -187,7 +193,7 @@ class TryOut(QWidget):
         self.live = Halves(WIDE_LINES)
         self.live.first.addLayout(self._bars_box)
         self.live.add(self.meaning, self.timeline, self.corrections)
-        self.live.add_beside(Words(tr("Expected curve"), "heading"), self.band)
+        self.live.add_beside(labelled(Words(role="heading"), text="Expected curve"), self.band)
         in_column(head, self.steps, self.live, 1, of=inner)
         self.area = scrolled(inner)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QComboBox, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
-from nep_studio.problems import Problem
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Message
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.layouts import Halves, in_column, scrolled
-from nep_studio.ui.words import tr
+from nep_studio.ui.words import language_code, tr
 
 from .advice import Advice, AdviceList, Known, advice_on, false_triggers, headline, takes_of_pair
 from .confusion import ConfusionView
@@ -51,36 +52,38 @@ class ResultsView(QWidget):
         self.headline = Words(role="heading")
         self.everyday = Words(role="hint")
         self.advice = AdviceList(controller.look)
-        self.method = QComboBox()
+        self.method = Choices(_methods)
         self.table = ConfusionView(self._title, controller.look)
         self.points = PointPanel(self.tuning, controller.look)
         self.failure = card()
-        self._told_problem: Problem | None = None
+        self._told_problem: object = None
         self._shown: object = None
         self._lay_out()
         self._connect()
-        self.refresh()
+        follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
         inner = QWidget()
-        self.method.setAccessibleName(tr("Recogniser"))
+        labelled(self.method, name="Recogniser")
         self.method.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        for method in METHODS:
-            self.method.addItem(method_words(method), method)
         self.found = Halves(WIDE_LINES)
-        legend = tr(
-            "Rows are what was made, columns what was recognised. Press a number to see its takes."
+        legend = labelled(
+            Words(role="hint"),
+            text="Rows are what was made, columns what was recognised. "
+            "Press a number to see its takes.",
         )
-        point = tr("How certain it must be before a gesture counts as made.")
+        point = labelled(
+            Words(role="hint"), text="How certain it must be before a gesture counts as made."
+        )
         self.found.add(self.headline, self.everyday, self.advice)
         self.found.add_beside(
-            Words(tr("What was taken for what"), "heading"),
+            labelled(Words(role="heading"), text="What was taken for what"),
             self.table,
-            Words(legend, "hint"),
-            Words(tr("Recognition point"), "heading"),
-            Words(point, "hint"),
+            legend,
+            labelled(Words(role="heading"), text="Recognition point"),
+            point,
             self.points,
-            Words(tr("Recogniser"), "heading"),
+            labelled(Words(role="heading"), text="Recogniser"),
             self.method,
         )
         in_column(self.bar, self.failure, self.found, 1, of=inner)
@@ -106,7 +109,11 @@ class ResultsView(QWidget):
         self.found.setVisible(findings is not None)
         self.method.setCurrentIndex(self.method.findData(self.tuning.method))
         self._show_advice()
-        shown = (findings, [(name, one.title) for name, one in self.controller.gestures.items()])
+        shown = (
+            language_code(),
+            findings,
+            [(name, one.title) for name, one in self.controller.gestures.items()],
+        )
         if shown != self._shown:  # a table that is filled anew forgets which cell is looked at
             self._shown = shown
             self.table.show_findings(findings)
@@ -136,9 +143,9 @@ class ResultsView(QWidget):
     def _show_failure(self) -> None:
         problem = self.training.problem
         self.failure.setVisible(problem is not None)
-        if problem is self._told_problem:
+        if (language_code(), problem) == self._told_problem:
             return
-        self._told_problem = problem
+        self._told_problem = (language_code(), problem)
         box = self.failure.layout()
         while box is not None and (item := box.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
@@ -179,3 +186,7 @@ class ResultsView(QWidget):
         """Somebody may want to train soon."""
         super().showEvent(event)
         self.training.warm()
+
+
+def _methods() -> dict[object, str]:
+    return {method: method_words(method) for method in METHODS}
