@@ -12,8 +12,8 @@ from nep_studio.ui.messages import Message
 from nep_studio.ui.plugins.gestures.exchange import add_imported, read_csv, write_csv
 from nep_studio.ui.plugins.gestures.exchange_mcap import read_mcap, write_mcap
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
+from nep_studio.ui.plugins.gestures.live import unpacked
 from nep_studio.ui.plugins.gestures.menus import Exchange
-from nep_studio.ui.plugins.gestures.packed_arrays import unpacked
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
 from nodes.recordings import read_recordings
 from tests.ui.trainer.test_gesture_controller import samples

@@ -36,8 +36,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
-from .arranging import ArrangeDialog
-from .board import CueBoard, cue_words
+from .arranging import ArrangeDialog, CueBoard, cue_words
 
 if TYPE_CHECKING:
     from collections.abc import Callable

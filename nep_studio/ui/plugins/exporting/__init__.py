@@ -128,7 +128,7 @@ def make(host: Host) -> Parts:
 
 def export_picture(host: Host) -> None:
     """Ask for a picture of the blocks."""
-    from .picture_dialog import PictureDialog
+    from .picture import PictureDialog
 
     document = host.services.document
     if document is not None:

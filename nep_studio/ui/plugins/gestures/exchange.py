@@ -24,8 +24,7 @@ from nep_studio.project.kept_files import EVERYDAY, NEITHER, spans_of
 from nodes.recordings import Recording, read_recording, read_recordings, write_recording
 
 from .gesture_controller import GestureController
-from .live import Samples
-from .packed_arrays import packed, thinned
+from .live import Samples, packed, thinned
 from .project_gestures import LONGEST_TAKE_S, SHORTEST_TAKE_S, new_id
 from .results.training import labelled
 

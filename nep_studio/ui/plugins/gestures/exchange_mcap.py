@@ -23,8 +23,7 @@ from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.own_gestures import WRISTS, OwnGesture, OwnRecording, Wrist
 
 from .exchange import Imported, ImportedTake
-from .live import Samples
-from .packed_arrays import packed, thinned, unpacked
+from .live import Samples, packed, thinned, unpacked
 
 TAKES = "/gesture_takes"
 LARGEST_BYTES = 300_000_000

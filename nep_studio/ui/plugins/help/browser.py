@@ -32,8 +32,7 @@ from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import is_right_to_left, language_code, tr
 from nep_studio.ui.workbench.placing import free_place
 
-from .pages import DRAG, EXAMPLE, PICTURE, sample_clip
-from .repository import Book, Page
+from .repository import DRAG, EXAMPLE, PICTURE, Book, Page, sample_clip
 
 # How pages of the help look: their style sheet, from the theme and the size of the text.
 

@@ -30,8 +30,7 @@ from robots.body.body import Body, posture_name
 from robots.errors import ActionFailed
 
 from .motion_controller import MotionController, Player
-from .timeline import Timeline
-from .timeline_painter import Fault
+from .timeline import Fault, Timeline
 
 
 class Header(QWidget):

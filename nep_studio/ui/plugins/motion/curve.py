@@ -17,8 +17,7 @@ from nep_studio.ui.words import tr
 
 from . import editing
 from .motion_controller import MotionController, joint_words, limb_of_joint_words
-from .timeline import Timeline, shift_of
-from .timeline_painter import Scale, snapped
+from .timeline import Scale, Timeline, shift_of, snapped
 
 SMALL_STEP, LARGE_STEP = 1.0, 5.0
 """Degrees, or hundredths of a hand, for an arrow key."""

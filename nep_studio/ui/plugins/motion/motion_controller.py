@@ -38,7 +38,7 @@ from robots.body.limbs import Limb
 
 from . import editing
 from .rehearsal import Rehearsal, TooFast, falling, given_time
-from .timeline_painter import Fault, limb_words
+from .timeline import Fault, limb_words
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor

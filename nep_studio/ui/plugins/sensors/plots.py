@@ -24,13 +24,13 @@ from .curves_view import (
     CurvesView,
     Frame,
     LiveColumns,
+    LiveLayer,
     Picture,
     columns_of,
     marks_between,
     polygons,
 )
 from .feed import Mark, SensorFeed
-from .live_layer import LiveLayer
 from .measuring import TimeView, fitting_length
 from .streams import Samples, StreamKey
 

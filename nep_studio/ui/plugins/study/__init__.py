@@ -23,7 +23,7 @@ from nep_studio.ui.words import count_words, tr
 from .start import StudyRecorder
 
 if TYPE_CHECKING:
-    from .results import ResultsDialog
+    from .form import ResultsDialog
 
 
 # The sign that is in the window as long as a study is recorded.
@@ -139,7 +139,7 @@ class StudyKit(QObject):
 
     def show_results(self) -> None:
         """Show what was answered."""
-        from .results import ResultsDialog
+        from .form import ResultsDialog
 
         dialog = ResultsDialog(self._folder, self._host.widget)
         dialog.answers_asked.connect(lambda: self._save_answers(dialog))

@@ -25,8 +25,15 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.editor import History
 from nep_studio.blocks.program import Changes
 from nep_studio.run.session import Ending
-from nep_studio.study.records import Event, Sitting, StudyFolder, What
-from nep_studio.study.sus import conditions_for, next_code, participant_number
+from nep_studio.study.records import (
+    Event,
+    Sitting,
+    StudyFolder,
+    What,
+    conditions_for,
+    next_code,
+    participant_number,
+)
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Message, Told
 from nep_studio.ui.widgets.forms import room_around

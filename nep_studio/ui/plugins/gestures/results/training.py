@@ -19,7 +19,7 @@ from nep_studio.blocks.own_gestures import OwnRecogniser, OwnRecording, keep_rec
 from nep_studio.problems import Problem
 from nep_studio.project.kept_files import EVERYDAY, Gestures, Span, labels_of, spans_of
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
-from nep_studio.ui.plugins.gestures.packed_arrays import unpacked
+from nep_studio.ui.plugins.gestures.live import unpacked
 from nep_studio.ui.words import tr
 from nodes.recordings import Recording, write_recording
 
