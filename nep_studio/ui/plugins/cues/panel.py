@@ -148,11 +148,7 @@ class CuePanel(QWidget):
     """Buttons, a line for words, and what was sent when. With ``is_large`` it is for a show."""
 
     def __init__(
-        self,
-        host: Host,
-        *,
-        is_large: bool = False,
-        parent: QWidget | None = None,
+        self, host: Host, *, is_large: bool = False, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
         self._look: Look = host.services.look

@@ -37,11 +37,7 @@ from .sample_view import TakeView
 
 def wrist_words() -> dict[object, str]:
     """Where a sensor can be, in words."""
-    return {
-        "left": tr("Left wrist"),
-        "right": tr("Right wrist"),
-        "hand": tr("In the hand"),
-    }
+    return {"left": tr("Left wrist"), "right": tr("Right wrist"), "hand": tr("In the hand")}
 
 
 class WearerBox(QObject):

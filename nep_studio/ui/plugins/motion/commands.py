@@ -56,13 +56,7 @@ class Commands:
         add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
         controller = self.controller
         add("undo_motion", "Undo", controller.undo, icon_name="undo-2", keys=keys.Undo)
-        add(
-            "redo_motion",
-            "Redo",
-            controller.redo,
-            icon_name="redo-2",
-            keys=(keys.Redo, "Ctrl+Y"),
-        )
+        add("redo_motion", "Redo", controller.redo, icon_name="redo-2", keys=(keys.Redo, "Ctrl+Y"))
         add("add_pose", "Add a pose", self.add_pose, icon_name="plus")
         add("copy_pose", "Copy the poses to here", self.copy, icon_name="copy-plus")
         add("delete_pose", "Delete the poses", self.delete, icon_name="trash-2")

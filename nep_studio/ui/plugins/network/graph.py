@@ -246,12 +246,7 @@ def _rect(key: Key, spot: Spot, line: float, is_mirrored: bool) -> QRectF:
 
 
 def _curve(
-    a: Key,
-    b: Key,
-    rects: Mapping[Key, QRectF],
-    line: float,
-    is_mirrored: bool,
-    is_back: bool,
+    a: Key, b: Key, rects: Mapping[Key, QRectF], line: float, is_mirrored: bool, is_back: bool
 ) -> Curve:
     if is_back:
         return _back_curve(a, b, rects, line)

@@ -8,12 +8,7 @@ from typing import Literal
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QPainter, QPaintEvent
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QLabel,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from nep_core.errors import NepError
 from nep_studio.blocks.operations.fixes import WATCH
@@ -194,12 +189,7 @@ def _lines(place: Place) -> list[Step]:
     )
     write = tr("Write this address as where it sends to (IP, host or target):")
     port = tr("And this port; then start sending:")
-    return [
-        _same_network(),
-        Step(choose),
-        Step(write, place.address),
-        Step(port, str(place.port)),
-    ]
+    return [_same_network(), Step(choose), Step(write, place.address), Step(port, str(place.port))]
 
 
 def _paper_watch(place: Place) -> list[Step]:

@@ -9,12 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from PySide6.QtCore import QObject, QSize, Qt, QTimer, Signal
-from PySide6.QtWidgets import (
-    QDialog,
-    QPushButton,
-    QStackedWidget,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QPushButton, QStackedWidget, QWidget
 
 from nep_core.errors import NepError
 from nep_studio.problems import Problem, problem_of
@@ -433,12 +428,7 @@ class WatchDialog(QDialog):
 
 
 def _asked_first(page: WayPage) -> list[QWidget]:
-    return [
-        page.network.switch,
-        page.address,
-        page.gestures.gestures,
-        page.recording.button,
-    ]
+    return [page.network.switch, page.address, page.gestures.gestures, page.recording.button]
 
 
 def _own_addresses() -> Sequence[str]:
