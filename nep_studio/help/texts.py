@@ -127,15 +127,11 @@ def _take(said: str, depth: int, open_: list[tuple[int, list[Sketch]]]) -> None:
         chain = inside
     elif depth > place and chain:
         raise NotationError(f"“{said}” is indented, but in no mouth")
-    chain.append(_sketch(said))
-
-
-def _sketch(said: str) -> Sketch:
     tokens = _tokens(said)
     made = _block(tokens)
     if tokens:
         raise NotationError(f"“{said}”: what is {tokens[0]}?")
-    return made
+    chain.append(made)
 
 
 def _block(tokens: list[str]) -> Sketch:

@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListWidget,
@@ -337,7 +336,13 @@ class ConnectDialog(QDialog):
         area.setFrameShape(QFrame.Shape.NoFrame)
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setWidget(page)
-        in_column((area, 1), self._foot(), of=self, margins=line, spacing=line // 2)
+        foot = in_row(1)
+        self.use_button.setProperty("kind", "primary")
+        for button in (self.close_button, self.use_button):
+            button.setAutoDefault(False)
+            foot.addWidget(button)
+        self.found.button.setAutoDefault(False)
+        in_column((area, 1), foot, of=self, margins=line, spacing=line // 2)
         room = room_around(self.parentWidget()).size()
         self.resize(min(line * 32, room.width()), min(line * 44, round(room.height() * 0.9)))
 
@@ -365,15 +370,6 @@ class ConnectDialog(QDialog):
         row = in_row(self.test_button, 1)
         form.addRow("", row)
         return form
-
-    def _foot(self) -> QHBoxLayout:
-        foot = in_row(1)
-        self.use_button.setProperty("kind", "primary")
-        for button in (self.close_button, self.use_button):
-            button.setAutoDefault(False)
-            foot.addWidget(button)
-        self.found.button.setAutoDefault(False)
-        return foot
 
     def _connect(self) -> None:
         self.found.chosen.connect(self._on_chosen)

@@ -316,17 +316,6 @@ class ArrangeDialog(QDialog):
         self.why_not.setProperty("role", "hint")
         self.done_button = QPushButton(tr("Done"))
         self.cancel_button = QPushButton(tr("Cancel"))
-        self._fill_choices()
-        self._lay_out()
-        self._connect()
-        self._show(0)
-
-    def select(self, cue: Cue) -> None:
-        """Show a cue."""
-        found = next((n for n, one in enumerate(self.cues) if one.id == cue.id), 0)
-        self.list.setCurrentRow(found)
-
-    def _fill_choices(self) -> None:
         side = self.fontMetrics().height()
         for colour in COLOURS:
             picture = QPixmap(side, side)
@@ -335,6 +324,14 @@ class ArrangeDialog(QDialog):
         self.key.addItem(tr("None"), "")
         for key in KEYS:
             self.key.addItem(key, key)
+        self._lay_out()
+        self._connect()
+        self._show(0)
+
+    def select(self, cue: Cue) -> None:
+        """Show a cue."""
+        found = next((n for n, one in enumerate(self.cues) if one.id == cue.id), 0)
+        self.list.setCurrentRow(found)
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()

@@ -224,7 +224,7 @@ def print_program(canvas: CanvasHost, printer: QPrinter, code: str, options: Pri
 def _paint(
     painter: QPainter, sheet: Sheet, canvas: CanvasHost, paper: QRectF, place: tuple[int, int]
 ) -> None:
-    title = _title(sheet, canvas)
+    title = sheet.title or page_title(canvas.editor.project, canvas.page_layout.page)
     name = canvas.editor.project.name
     row = QRectF(0, 0, paper.width(), HEAD - 12)
     painter.setPen(INK)
@@ -248,10 +248,6 @@ def _paint(
     else:
         _paint_code(painter, sheet)
     painter.restore()
-
-
-def _title(sheet: Sheet, canvas: CanvasHost) -> str:
-    return sheet.title or page_title(canvas.editor.project, canvas.page_layout.page)
 
 
 def _paint_blocks(painter: QPainter, sheet: BlocksSheet, canvas: CanvasHost) -> None:

@@ -182,7 +182,7 @@ class GestureCard(QFrame):
         super().__init__()
         self.name, self._controller = name, controller
         self._is_current = self._is_target = self._is_recording = False
-        self.title = QLineEdit()
+        self.title = QLineEdit(maxLength=60)
         self.count = QLabel()
         self.record = labelled(QPushButton(), text="Record")
         self.chip = GestureChip(canvas)
@@ -190,13 +190,7 @@ class GestureCard(QFrame):
         self.takes = TakesList(controller, pictures)
         self.setProperty("kind", "card")
         self.setAcceptDrops(True)
-        self._lay_out()
-        self._connect()
-        self.dress()
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        self.title.setMaxLength(60)
         labelled(self.title, name="Name of the gesture")
         self.count.setProperty("role", "hint")
         self.record.setAutoDefault(False)
@@ -211,6 +205,8 @@ class GestureCard(QFrame):
         box.addLayout(above)
         box.addLayout(between)
         box.addWidget(self.takes)
+        self._connect()
+        self.dress()
 
     def _connect(self) -> None:
         self.title.editingFinished.connect(self._on_title_edited)

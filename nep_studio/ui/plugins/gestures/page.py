@@ -244,12 +244,6 @@ class TrainerPage(QWidget):
         self.exchange = Exchange(controller, self)
         self.results, self.trial = ResultsView(controller, training), TryOut(controller, training)
         self.beeps = False
-        self._lay_out()
-        self._connect()
-        self._on_current_changed(self.cards.current)
-        follow_words(self, self._name_tabs)
-
-    def _lay_out(self) -> None:
         self.tabs = QTabWidget(documentMode=True)
         self.tabs.addTab(self.trial, "")
         self.tabs.addTab(self.results, "")
@@ -264,6 +258,9 @@ class TrainerPage(QWidget):
         self._shape: Shape | None = None
         in_column(self.outer, of=self, margins=0)
         fit_icons(self)
+        self._connect()
+        self._on_current_changed(self.cards.current)
+        follow_words(self, self._name_tabs)
 
     def _name_tabs(self) -> None:
         for part, words in (

@@ -38,7 +38,18 @@ class ImportDialog(QDialog):
         self.use_button = QPushButton(tr("Use this motion"))
         self.cancel_button = QPushButton(tr("Cancel"))
         self._title = ""
-        self._lay_out()
+        line = self.fontMetrics().height()
+        how = QLabel(
+            tr(
+                "In Choregraphe, right-click in the timeline and choose “Export motion to "
+                "clipboard”, Python or C++. Paste it here."
+            )
+        )
+        how.setWordWrap(True)
+        self.use_button.setProperty("kind", "primary")
+        foot = in_row(self.file_button, 1, self.cancel_button, self.use_button)
+        in_column(how, (self.text, 1), self.reason, foot, of=self)
+        self.resize(line * 36, line * 24)
         self.text.textChanged.connect(self._on_text_changed)
         self.file_button.clicked.connect(self._on_file_asked)
         self.use_button.clicked.connect(self._on_use_clicked)
@@ -58,20 +69,6 @@ class ImportDialog(QDialog):
             return
         self.text.setPlainText(text)
         self._title = path.stem
-
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        how = QLabel(
-            tr(
-                "In Choregraphe, right-click in the timeline and choose “Export motion to "
-                "clipboard”, Python or C++. Paste it here."
-            )
-        )
-        how.setWordWrap(True)
-        self.use_button.setProperty("kind", "primary")
-        foot = in_row(self.file_button, 1, self.cancel_button, self.use_button)
-        in_column(how, (self.text, 1), self.reason, foot, of=self)
-        self.resize(line * 36, line * 24)
 
     def _motion(self) -> OwnAnimation | str:
         """The motion in the text, or why there is none."""

@@ -543,10 +543,12 @@ class Faults(QObject):
             return
 
     def _fast(self, one: TooFast) -> Fault:
+        name = one.joint
+        limb = limb_of_joint_words(self.controller.body, name)
         words = tr(
             "Too fast at {time} s: {joint} would have to move {ratio} times as fast as it can.",
             time=f"{one.to_s:.2f}",
-            joint=self._joint(one.joint),
+            joint=f"{limb} ({joint_words(self._language(), self.controller.body, name)})",
             ratio=f"{one.ratio:.1f}",
         )
         return Fault("fast", one.from_s, one.to_s, words)
@@ -554,7 +556,3 @@ class Faults(QObject):
     def _fall(self, at_s: float) -> Fault:
         words = tr("The robot would fall at {time} s.", time=f"{at_s:.2f}")
         return Fault("fall", at_s, max(self.controller.motion.duration_s, at_s + 0.05), words)
-
-    def _joint(self, name: str) -> str:
-        limb = limb_of_joint_words(self.controller.body, name)
-        return f"{limb} ({joint_words(self._language(), self.controller.body, name)})"

@@ -136,7 +136,8 @@ class SendBox(QWidget):
         self.example_button = labelled(QPushButton(), text="Example")
         self.example_button.setProperty("kind", "quiet")
         labelled(self.example_button, tip="Write the example again")
-        self._lay_out()
+        row = in_row((self.history, 1), self.example_button, self.send_button)
+        in_column((self.text, 1), self.note, row, of=self, margins=0)
         self.send_button.clicked.connect(self.send_now)
         self.example_button.clicked.connect(self._on_example_clicked)
         self.history.activated.connect(self._on_history_activated)
@@ -146,10 +147,6 @@ class SendBox(QWidget):
         look.theme_changed.connect(self._on_theme_changed)
         self._on_theme_changed()
         follow_words(self, self._show_history)
-
-    def _lay_out(self) -> None:
-        row = in_row((self.history, 1), self.example_button, self.send_button)
-        in_column((self.text, 1), self.note, row, of=self, margins=0)
 
     def show_topic(self, topic: str, last: Any = None) -> None:
         """Write messages of this topic; what was begun for it before is there again."""

@@ -120,12 +120,10 @@ class PersonBox(QWidget):
                     self.name.setEditText(person.name)
         for widget in (self.way, self.way_words, self.before):
             widget.setEnabled(person is not None)
-        self.way_words.setText(self._way_words(self.way.value() / 100))
-
-    def _way_words(self, way_m: float) -> str:
+        way_m = self.way.value() / 100
         which = "close" if way_m < CLOSE_M else "middle" if way_m < MIDDLE_M else "far"
         label = self._language().choices.get("distances", dict.fromkeys(DISTANCES_M, ""))[which]
-        return tr("{m} m: {distance}", m=f"{way_m:.1f}", distance=label)
+        self.way_words.setText(tr("{m} m: {distance}", m=f"{way_m:.1f}", distance=label))
 
     def _come(self) -> None:
         name = self.name.currentText().strip()

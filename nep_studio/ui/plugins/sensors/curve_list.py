@@ -139,17 +139,14 @@ class CurveList(QTreeWidget):
 
     def _size_columns(self) -> None:
         metrics = QFontMetricsF(self.font())
-        self.setColumnWidth(0, self._names_width(metrics))
+        # Room for box, line and name of every curve; the headings go over all columns
+        names = [curve.name for curve in self._plots.curves.values()]
+        widest = max((metrics.horizontalAdvance(name) for name in names), default=0.0)
+        self.setColumnWidth(0, round(widest + self.iconSize().width() + 3 * metrics.height()))
         for at in range(1, self.columnCount()):
             title = self.headerItem().text(at)
             words = max(metrics.horizontalAdvance(title), metrics.horizontalAdvance("-0.0000000"))
             self.setColumnWidth(at, round(words + metrics.height() * 1.6))
-
-    def _names_width(self, metrics: QFontMetricsF) -> int:
-        """Room for box, line and name of every curve; the headings go over all columns."""
-        names = [curve.name for curve in self._plots.curves.values()]
-        widest = max((metrics.horizontalAdvance(name) for name in names), default=0.0)
-        return round(widest + self.iconSize().width() + 3 * metrics.height())
 
     def _item(
         self, heading: QTreeWidgetItem, curve: Curve, metrics: QFontMetricsF
@@ -220,17 +217,6 @@ class FieldChooser(QDialog):
         self.hint = labelled(QLabel(), text="Numbers appear here as soon as a node sends some.")
         self.hint.setProperty("role", "hint")
         self.hint.setWordWrap(True)
-        self._make_tree()
-        buttons = QDialogButtonBox()
-        close = labelled(QPushButton(), text="Close")
-        close.clicked.connect(self.accept)
-        buttons.addButton(close, QDialogButtonBox.ButtonRole.AcceptRole)
-        in_column(self.search, self.hint, self.tree, buttons, of=self)
-        line = self.fontMetrics().height()
-        self.resize(line * _WIDTH_LINES, line * _HEIGHT_LINES)
-        network.changed.connect(self._on_changed)
-
-    def _make_tree(self) -> None:
         self.model = QStandardItemModel(0, 2, self)
         follow_words(self, self._name_columns)
         self.model.itemChanged.connect(self._on_item_changed)
@@ -244,6 +230,14 @@ class FieldChooser(QDialog):
         self.tree.setModel(self._found)
         self.tree.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         labelled(self.tree, name="Numbers that nodes send")
+        buttons = QDialogButtonBox()
+        close = labelled(QPushButton(), text="Close")
+        close.clicked.connect(self.accept)
+        buttons.addButton(close, QDialogButtonBox.ButtonRole.AcceptRole)
+        in_column(self.search, self.hint, self.tree, buttons, of=self)
+        line = self.fontMetrics().height()
+        self.resize(line * _WIDTH_LINES, line * _HEIGHT_LINES)
+        network.changed.connect(self._on_changed)
 
     def _name_columns(self) -> None:
         self.model.setHorizontalHeaderLabels([tr("Number"), tr("Last value")])

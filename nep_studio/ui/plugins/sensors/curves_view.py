@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QPixmap, QPolygonF
 from PySide6.QtWidgets import QWidget
@@ -85,7 +84,14 @@ class LiveColumns:
         columns = columns_of(self._stream.samples(new), self.width_s)
         table = np.vstack([columns.number, columns.low, columns.high])
         if len(self._ring) and self._ring.newest(1)[0, 0] == table[0, 0]:
-            self._ring.replace_last(self._joined(table[:, 0]))
+            # The newest column and more samples of it
+            column = table[:, 0]
+            last = self._ring.newest(1)[:, 0]
+            low, high = slice(1, 1 + self._channels), slice(1 + self._channels, None)
+            joined = column.copy()
+            joined[low] = np.fmin(last[low], column[low])
+            joined[high] = np.fmax(last[high], column[high])
+            self._ring.replace_last(joined)
             table = table[:, 1:]
         self._ring.append(table)
 
@@ -95,15 +101,6 @@ class LiveColumns:
         return Columns(
             self.width_s, table[0], table[1 : 1 + self._channels], table[1 + self._channels :]
         )
-
-    def _joined(self, column: Floats) -> NDArray[np.float64]:
-        """The newest column and more samples of it."""
-        last = self._ring.newest(1)[:, 0]
-        low, high = slice(1, 1 + self._channels), slice(1 + self._channels, None)
-        joined = column.copy()
-        joined[low] = np.fmin(last[low], column[low])
-        joined[high] = np.fmax(last[high], column[high])
-        return joined
 
 
 # Columns of a curve as lines on the screen, made by numpy without a loop over points.

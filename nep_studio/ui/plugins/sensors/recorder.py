@@ -139,7 +139,10 @@ class Recording:
 
     def add(self, batch: Imu) -> None:
         """Write a batch; one whose rows do not fit its times is left out."""
-        if not _is_whole(batch):
+        count = len(batch.t)
+        if not (
+            count > 0 and len(batch.acc) == count and (batch.gyr is None or len(batch.gyr) == count)
+        ):
             return
         try:
             part = self._part(batch)
@@ -186,11 +189,6 @@ class Recording:
             if not path.exists():
                 return path
             number += 1
-
-
-def _is_whole(batch: Imu) -> bool:
-    count = len(batch.t)
-    return count > 0 and len(batch.acc) == count and (batch.gyr is None or len(batch.gyr) == count)
 
 
 def _kind(batch: Imu) -> tuple[bool, bool, bool]:

@@ -12,7 +12,6 @@ from PySide6.QtCore import QPoint, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QHideEvent, QPixmap, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -209,7 +208,8 @@ class EmptyPage(QScrollArea):
         self.watch_button.setProperty("kind", "primary")
         self.replay_button = labelled(QPushButton(), text="Replay a recording…")
         self.choose_button = labelled(QPushButton(), text="Choose numbers…")
-        box.addLayout(self._buttons())
+        row = in_row(1, self.watch_button, self.replay_button, self.choose_button, 1)
+        box.addLayout(row)
         box.addStretch(1)
         self.setWidget(inside)
         self.watch_button.clicked.connect(self.watch_asked)
@@ -223,10 +223,6 @@ class EmptyPage(QScrollArea):
             text="The virtual watch starts…" if is_starting else "Start the virtual watch",
         )
         self.watch_button.setEnabled(not is_starting)
-
-    def _buttons(self) -> QHBoxLayout:
-        row = in_row(1, self.watch_button, self.replay_button, self.choose_button, 1)
-        return row
 
 
 WATCH = "virtual_watch"

@@ -128,7 +128,17 @@ class PinQuestion(QFrame):
         self.back_button = QPushButton(tr("Back to the show"))
         self._going = QTimer(self, singleShot=True, interval=PIN_STAYS_MS)
         self._going.timeout.connect(self.hide)
-        box = in_column(self.words, self.line, self._digits(), of=self)
+        digits = QWidget()
+        digits.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every telephone
+        grid = QGridLayout(digits)
+        grid.setContentsMargins(0, 0, 0, 0)
+        for number, digit in enumerate("123456789⌫0"):
+            button = QPushButton(digit)
+            button.setMinimumHeight(self.fontMetrics().height() * 3)
+            button.setAccessibleName(tr("Delete") if digit == "⌫" else digit)
+            button.clicked.connect(lambda _=False, digit=digit: self._on_digit(digit))
+            grid.addWidget(button, number // 3, number % 3)
+        box = in_column(self.words, self.line, digits, of=self)
         row = in_row(self.back_button, self.leave_button)
         box.addLayout(row)
         self.line.returnPressed.connect(self._on_given)
@@ -148,19 +158,6 @@ class PinQuestion(QFrame):
         self.raise_()
         self.line.setFocus()
         self._going.start()
-
-    def _digits(self) -> QWidget:
-        digits = QWidget()
-        digits.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every telephone
-        grid = QGridLayout(digits)
-        grid.setContentsMargins(0, 0, 0, 0)
-        for number, digit in enumerate("123456789⌫0"):
-            button = QPushButton(digit)
-            button.setMinimumHeight(self.fontMetrics().height() * 3)
-            button.setAccessibleName(tr("Delete") if digit == "⌫" else digit)
-            button.clicked.connect(lambda _=False, digit=digit: self._on_digit(digit))
-            grid.addWidget(button, number // 3, number % 3)
-        return digits
 
     def _on_digit(self, digit: str) -> None:
         self._going.start()

@@ -206,7 +206,12 @@ class ShowWindow(QWidget):
         self.holding = Holding(self, self.title)
         self.hold_bar = HoldBar(self)
         self.pin = PinQuestion(host.services.settings.is_pin, self)
-        self._lay_out()
+        head = in_row(1, self.state_sign, self.state_words, 1)
+        buttons = in_row(1, (self.run_button, 2), (self.stop_button, 2), 1)
+        self._box = in_column(self.title, head, (self.middle, 3), of=self)
+        if self.cues is not None:
+            self._box.addWidget(self.cues, 5)
+        self._box.addLayout(buttons)
         self._connect()
         self._dress()
         self.refresh()
@@ -260,14 +265,6 @@ class ShowWindow(QWidget):
         """All is measured by the screen, which may be another one now."""
         super().resizeEvent(event)
         self._dress()
-
-    def _lay_out(self) -> None:
-        head = in_row(1, self.state_sign, self.state_words, 1)
-        buttons = in_row(1, (self.run_button, 2), (self.stop_button, 2), 1)
-        self._box = in_column(self.title, head, (self.middle, 3), of=self)
-        if self.cues is not None:
-            self._box.addWidget(self.cues, 5)
-        self._box.addLayout(buttons)
 
     def _connect(self) -> None:
         self.performance.changed.connect(self.refresh)

@@ -316,12 +316,6 @@ class ItemRow(QFrame):
             button.setAccessibleName(told)
             button.setAccessibleDescription(words)
             self._group.addButton(button, place)
-        self._lay_out()
-        self._group.idToggled.connect(self._on_toggled)
-        self.clear_button.clicked.connect(self.clear)
-        self._show_clear()
-
-    def _lay_out(self) -> None:
         head = in_row((self.label, 1), (self.clear_button, 0, Qt.AlignmentFlag.AlignTop))
         policy = self.clear_button.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
@@ -331,6 +325,9 @@ class ItemRow(QFrame):
         for button in self.buttons:
             self._options.addWidget(button, 1)
         in_column(head, self._options, of=self)
+        self._group.idToggled.connect(self._on_toggled)
+        self.clear_button.clicked.connect(self.clear)
+        self._show_clear()
 
     def fit(self, width: int) -> None:
         """Put the options in a row where there is room for it, else one below the other."""
@@ -440,7 +437,12 @@ class QuestionnaireDialog(QDialog):
         self.which.setParent(page)
         box.addWidget(self.which)
         box.addWidget(self.participant_fields)
-        box.addWidget(_instruction())
+        words = tr(
+            "Say how much you agree with each sentence. Answer at once, do not think long. An item"
+            " that you cannot answer may stay open. Keys: Tab to the next item, digits to answer."
+        )
+        label = QLabel(words, wordWrap=True)
+        box.addWidget(label)
         for row in self.rows:
             row.changed.connect(self._show_note)
             box.addWidget(row)
@@ -497,12 +499,3 @@ class QuestionnaireDialog(QDialog):
             Reply(participant_fields.participant, participant_fields.chosen_condition, chosen, form)
         )
         self.accept()
-
-
-def _instruction() -> QLabel:
-    words = tr(
-        "Say how much you agree with each sentence. Answer at once, do not think long. An item"
-        " that you cannot answer may stay open. Keys: Tab to the next item, digits to answer."
-    )
-    label = QLabel(words, wordWrap=True)
-    return label

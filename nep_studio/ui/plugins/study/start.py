@@ -67,7 +67,9 @@ class ParticipantFields(QWidget):
         self._form = QFormLayout(self)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._form.addRow(tr("Participant"), self.code)
-        self._form.addRow("", _hint(tr("A code, not a name. Its number decides the order.")))
+        label = QLabel(tr("A code, not a name. Its number decides the order."), wordWrap=True)
+        label.setProperty("role", "hint")
+        self._form.addRow("", label)
         if may_change_conditions:
             self._form.addRow(tr("Conditions"), self.conditions)
         self._form.addRow(tr("Condition now"), self.condition)
@@ -121,12 +123,6 @@ class ParticipantFields(QWidget):
             return tr("The code has no number: the order is that of the first participant.")
         order = ", ".join(ordered)
         return tr("The order for {participant}: {order}", participant=self.participant, order=order)
-
-
-def _hint(words: str) -> QLabel:
-    label = QLabel(words, wordWrap=True)
-    label.setProperty("role", "hint")
-    return label
 
 
 class StartDialog(QDialog):

@@ -459,7 +459,10 @@ class Tour(QObject):
             self.veil.setGeometry(room)
             self.veil.show_hole(place)
             self.bubble.sit_beside(place, room)
-        over = _parts_of(self._host.widget)[-2:]
+        # What lies in a window, the lowest first; its dialogs are windows of their own
+        window = self._host.widget
+        parts = (part for part in window.children() if isinstance(part, QWidget))
+        over = [part for part in parts if not part.isWindow()][-2:]
         if over != [self.veil, self.bubble] or self.bubble.isHidden():
             for part in (self.veil, self.bubble):
                 part.show()
@@ -522,9 +525,3 @@ class Tour(QObject):
             or canvas.pointing.gesture is not None
             or canvas.fields.widget is not None
         )
-
-
-def _parts_of(window: QWidget) -> list[QWidget]:
-    """What lies in a window, the lowest first; its dialogs are windows of their own."""
-    parts = (part for part in window.children() if isinstance(part, QWidget))
-    return [part for part in parts if not part.isWindow()]

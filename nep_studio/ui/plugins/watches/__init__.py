@@ -162,7 +162,11 @@ class WatchKit(QObject):
             host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
         runner = host.services.runner
-        for name in self._stand_ins(runner.local.planned):
+        # The virtual watches that run, and that the project does not ask for any more
+        started = runner.local.planned
+        wanted = {node.name for node in self._host.services.runner.planned()}
+        virtual = [one.name for one in started.values() if one.node == VIRTUAL_WATCH]
+        for name in [name for name in virtual if name not in wanted]:
             runner.stop_node(name)
         dialog.trial.keep(self._planned_of(block))
         if not self._stays:
@@ -172,12 +176,6 @@ class WatchKit(QObject):
     def _planned_of(self, block: str) -> PlannedNode | None:
         planned = self._host.services.runner.planned()
         return next((node for node in planned if node.block_id == block), None)
-
-    def _stand_ins(self, started: dict[str, PlannedNode]) -> list[str]:
-        """The virtual watches that run, and that the project does not ask for any more."""
-        wanted = {node.name for node in self._host.services.runner.planned()}
-        virtual = [one.name for one in started.values() if one.node == VIRTUAL_WATCH]
-        return [name for name in virtual if name not in wanted]
 
     def _on_finished(self) -> None:
         self.dialog = None

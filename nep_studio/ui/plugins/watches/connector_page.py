@@ -109,12 +109,6 @@ class LiveView(QFrame):
         box.setSpacing(line // 2)
         box.addLayout(head)
         box.addWidget(self.curve)
-        box.addLayout(self._figures(line))
-        box.addWidget(self.understood)
-        box.addWidget(self.correct_button, 0, Qt.AlignmentFlag.AlignLeading)
-        box.addWidget(self.advice_card)
-
-    def _figures(self, line: int) -> QGridLayout:
         grid = QGridLayout()
         grid.setColumnStretch(3, 1)
         grid.setHorizontalSpacing(line // 2)
@@ -124,7 +118,10 @@ class LiveView(QFrame):
             row[3].setProperty("role", "hint")
             for column, label in enumerate(row):
                 grid.addWidget(label, at, column, Qt.AlignmentFlag.AlignTop)
-        return grid
+        box.addLayout(grid)
+        box.addWidget(self.understood)
+        box.addWidget(self.correct_button, 0, Qt.AlignmentFlag.AlignLeading)
+        box.addWidget(self.advice_card)
 
     def show_waiting(self, title: str, sentence: str, advice: Sequence[str] = ()) -> None:
         """Nothing has arrived yet; ``advice``: what to look at."""

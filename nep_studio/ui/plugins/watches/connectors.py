@@ -8,7 +8,7 @@ from typing import Literal
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QPainter, QPaintEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from nep_core.errors import NepError
 from nep_studio.blocks.operations.fixes import WATCH
@@ -314,7 +314,19 @@ class StepsList(QWidget):
             if len(steps) > 1:
                 badge = StepNumber(number + 1, look)
                 grid.addWidget(badge, number, 0, Qt.AlignmentFlag.AlignTop)
-            grid.addLayout(self._column(step, extras.get(step.extra)), number, 1)
+            extra = extras.get(step.extra)
+            label = QLabel(wordWrap=True)
+            column = in_column(label, spacing=self.fontMetrics().height() // 3)
+            self.words.append(label)
+            is_address = step.copied.startswith("http") or "." in step.copied
+            words = tr("Copy the address") if is_address else tr("Copy")
+            is_long = len(step.copied) > MOST_LETTERS
+            copy_line = CopyLine(self._look, words, is_long) if step.copied else None
+            self.copy_lines.append(copy_line)
+            for below in (copy_line, extra):
+                if below is not None:
+                    column.addWidget(below)
+            grid.addLayout(column, number, 1)
         self.fill(steps)
 
     def fill(self, steps: Sequence[Step]) -> None:
@@ -323,17 +335,3 @@ class StepsList(QWidget):
             label.setText(step.words)
             if copy_line is not None:
                 copy_line.show_text(step.copied)
-
-    def _column(self, step: Step, extra: QWidget | None) -> QVBoxLayout:
-        label = QLabel(wordWrap=True)
-        column = in_column(label, spacing=self.fontMetrics().height() // 3)
-        self.words.append(label)
-        is_address = step.copied.startswith("http") or "." in step.copied
-        words = tr("Copy the address") if is_address else tr("Copy")
-        is_long = len(step.copied) > MOST_LETTERS
-        copy_line = CopyLine(self._look, words, is_long) if step.copied else None
-        self.copy_lines.append(copy_line)
-        for below in (copy_line, extra):
-            if below is not None:
-                column.addWidget(below)
-        return column

@@ -258,14 +258,6 @@ class WatchDialog(QDialog):
         self.use_button = QPushButton(tr("Use this watch"))
         self._waiting_since_s = 0.0
         self._settling = QTimer(self, singleShot=True, interval=SETTLE_MS)
-        self._lay_out()
-        self._connect()
-        self._on_theme_changed()
-        self._update()
-
-    # Layout
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.pages.addWidget(scrolled(self.choosing))
         self.use_button.setProperty("kind", "primary")
@@ -275,6 +267,11 @@ class WatchDialog(QDialog):
         foot = in_row(self.back_button, 1, self.close_button, self.use_button)
         in_column((self.pages, 1), foot, of=self, margins=line, spacing=line // 2)
         fit_on_screen(self, LINES_WIDE, LINES_HIGH)
+        self._connect()
+        self._on_theme_changed()
+        self._update()
+
+    # Layout
 
     def minimumSizeHint(self) -> QSize:
         """What is of use; the pages scroll."""

@@ -239,7 +239,8 @@ class PointPanel(QWidget):
             tip=text_of("Set the recognition point to {percent} %", percent=75),
         )
         self.reset.setProperty("kind", "quiet")
-        self._lay_out()
+        row = in_row((self.gesture, 1), self.reset)
+        in_column(row, self.curve, self.slider, self.sentence, of=self, margins=0)
         self.gesture.currentIndexChanged.connect(self.refresh)
         self.curve.dragged.connect(lambda certainty: tuning.preview(self.name, certainty))
         self.curve.let_go.connect(lambda: tuning.keep(self.name))
@@ -248,10 +249,6 @@ class PointPanel(QWidget):
         tuning.method_changed.connect(self.refresh)
         self.fill()
         follow_words(self, self.refresh)
-
-    def _lay_out(self) -> None:
-        row = in_row((self.gesture, 1), self.reset)
-        in_column(row, self.curve, self.slider, self.sentence, of=self, margins=0)
 
     @property
     def name(self) -> str:

@@ -165,7 +165,18 @@ class TryOut(QWidget):
         """Until then nothing is news: another recogniser or point may find what is long over."""
         self._flashing: Detection | None = None
         self._make()
-        self._lay_out()
+        inner = QWidget()
+        head = in_row((self.sign, 0, Qt.AlignmentFlag.AlignVCenter), (self.said, 1))
+        self._bars_box = QVBoxLayout()
+        self._bars_box.setSpacing(0)
+        self.live = Halves(WIDE_LINES)
+        self.live.first.addLayout(self._bars_box)
+        self.live.add(self.meaning, self.timeline, self.corrections)
+        self.live.add_beside(labelled(Words(role="heading"), text="Expected curve"), self.band)
+        in_column(head, self.steps, self.live, 1, of=inner)
+        self.area = scrolled(inner)
+        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        in_column(self.area, of=self, margins=0)
         self._connect()
         self._fill_bars()
         self.meaning.hide()
@@ -184,20 +195,6 @@ class TryOut(QWidget):
         self._flash_over = QTimer(self, singleShot=True, interval=FLASH_MS)
         self._say_soon = QTimer(self, singleShot=True, interval=ANNOUNCE_MS)
         self._is_heard = QTimer(self, interval=_HEARING_MS)
-
-    def _lay_out(self) -> None:
-        inner = QWidget()
-        head = in_row((self.sign, 0, Qt.AlignmentFlag.AlignVCenter), (self.said, 1))
-        self._bars_box = QVBoxLayout()
-        self._bars_box.setSpacing(0)
-        self.live = Halves(WIDE_LINES)
-        self.live.first.addLayout(self._bars_box)
-        self.live.add(self.meaning, self.timeline, self.corrections)
-        self.live.add_beside(labelled(Words(role="heading"), text="Expected curve"), self.band)
-        in_column(head, self.steps, self.live, 1, of=inner)
-        self.area = scrolled(inner)
-        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        in_column(self.area, of=self, margins=0)
 
     def _connect(self) -> None:
         self.controller.heard.connect(self._on_heard)
