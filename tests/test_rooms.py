@@ -26,7 +26,7 @@ class Room:
 
 TALK = ("zmq", "msgspec", "psutil", "platformdirs")
 UI = ("faults", "nep_core", "robots", "nodes", "nep_studio", "nep_studio.blocks", "nep_studio.ui")
-QT = (*TALK, "numpy", "PySide6", "pyqtgraph")
+QT = (*TALK, "numpy", "PySide6", "shiboken6", "pyqtgraph")
 AROUND = ("nep_studio.ui.canvas", "nep_studio.ui.workbench", "nep_studio.ui.running")
 OFFERED = ("nep_studio.ui.host", "nep_studio.ui.services")
 """What plugins see of the window; it names what runs and the workbench, for types only."""

@@ -119,8 +119,8 @@ def _catalogue(code: str, _resources: Path) -> _Catalogue:
 
 def _pseudo(text: str) -> str:
     """Lengthen a text by two fifths and accent its letters; what is filled in stays."""
-    if text == "{said}":
-        return text  # somebody's own words, and nothing else
+    if text == "{said}" or text.endswith("·]"):
+        return text  # somebody's own words, or what is told already
     parts = _PLACES.split(text)
     said = [part if _PLACES.fullmatch(part) else part.translate(_ACCENTED) for part in parts]
     return "[" + "".join(said) + "·" * (2 * len(text) // 5 + 1) + "]"

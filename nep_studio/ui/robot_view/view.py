@@ -29,7 +29,7 @@ from PySide6.QtWidgets import QGestureEvent, QPinchGesture, QSizePolicy, QToolTi
 
 from nep_core.wire.messages import RobotState, Thing
 from nep_studio import paths
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -172,6 +172,7 @@ class RoomPicture(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         labelled(self, name="The robots' room")
+        follow_words(self, self._describe)
         look.theme_changed.connect(self._on_theme_changed)
 
     def sizeHint(self) -> QSize:

@@ -20,32 +20,30 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import Words, text_of
 from nep_studio.blocks.checks.problem import Problem
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import ChecklistStep, MessageText
 from nep_studio.ui.messages import KIND_ICONS, Message
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import room_around
-from nep_studio.ui.words import count_words, tr
+from nep_studio.ui.widgets.forms import hint, room_around
+from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.blocks.checks import Problem
 
 
-def severity_word(problem: Problem) -> str:
-    """How bad it is, in a word."""
-    words = {"error": tr("Error"), "warning": tr("Warning"), "info": tr("Note")}
-    return words[problem.severity]
+SEVERITIES = {"error": "Error", "warning": "Warning", "info": "Note"}
+"""How bad it is, in a word."""
 
 
 def fix_button(problem: Problem) -> QPushButton | None:
     """The button for what the program can do about it."""
     if problem.fix is None:
         return None
-    button = QPushButton(tr(problem.fix.label))
+    button = labelled(QPushButton(), text=problem.fix.label, description=problem.sentence)
     button.setProperty("kind", "primary")
-    button.setAccessibleDescription(tr(problem.sentence))
     return button
 
 
@@ -72,7 +70,6 @@ class ProblemsPanel(QScrollArea):
         labelled(self, name="Problems")
         self._is_old = True
         look.theme_changed.connect(self._refresh)
-        follow_words(self, self._refresh)
 
     def show_problems(self, problems: Sequence[Problem]) -> None:
         """Show these; nothing is drawn again when they are the same."""
@@ -106,7 +103,7 @@ class ProblemsPanel(QScrollArea):
             box.addWidget(row)
         hidden = len(self._problems) - len(shown)
         if hidden:
-            box.addWidget(_hint(count_words(hidden, "and 1 more", "and {n} more")))
+            box.addWidget(hint("and 1 more" if hidden == 1 else text_of("and {n} more", n=hidden)))
         if not self._problems:
             box.addWidget(_all_well(self._look))
         box.addStretch(1)
@@ -123,8 +120,8 @@ class ProblemRow(QFrame):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-        sentence = tr(problem.sentence)
-        self.setAccessibleName(f"{severity_word(problem)}: {sentence}")
+        kind, sentence = text_of(SEVERITIES[problem.severity]), text_of(problem.sentence)
+        labelled(self, name=text_of("{name}: {kind}", name=kind, kind=sentence))
         row = QHBoxLayout(self)
         row.addWidget(_sign(problem, look, self), 0, Qt.AlignmentFlag.AlignTop)
         words = QVBoxLayout()
@@ -154,22 +151,14 @@ def _sign(problem: Problem, look: Look, widget: QWidget) -> QLabel:
     label, size = QLabel(), round(widget.fontMetrics().height() * 1.2)
     colour, ratio = look.theme.colour(problem.severity), widget.devicePixelRatioF()
     label.setPixmap(icon_pixmap(KIND_ICONS[problem.severity], colour, size, ratio))
-    label.setToolTip(severity_word(problem))
-    return label
+    return labelled(label, tip=SEVERITIES[problem.severity])
 
 
-def _words(text: str) -> QLabel:
-    label = QLabel(text)
+def _words(text: Words) -> QLabel:
+    label = labelled(QLabel(), text=text)
     label.setTextFormat(Qt.TextFormat.PlainText)
     label.setWordWrap(True)
     label.setProperty("role", "heading")
-    return label
-
-
-def _hint(text: str) -> QLabel:
-    label = QLabel(text)
-    label.setProperty("role", "hint")
-    label.setWordWrap(True)
     return label
 
 
@@ -180,7 +169,7 @@ def _all_well(look: Look) -> QWidget:
     sign, size = QLabel(), round(row.fontMetrics().height() * 1.3)
     sign.setPixmap(icon_pixmap("circle-check", look.theme.colour("success"), size))
     box.addWidget(sign)
-    box.addWidget(_hint(tr("Nothing to correct. The program is checked while you work.")), 1)
+    box.addWidget(hint("Nothing to correct. The program is checked while you work."), 1)
     return row
 
 

@@ -181,21 +181,13 @@ def test_a_click_elsewhere_closes_it(karate: MainWindow, palette: CommandPalette
 
 def test_it_speaks_the_language_of_the_window(karate: MainWindow, qtbot: QtBot) -> None:
     karate.studio.choose_language("de")
-    palette = add_command_palette(karate)
+    [palette] = karate.findChildren(CommandPalette)
     palette.open()
 
     type_in(palette, "dunkel", qtbot)
     qtbot.keyClick(palette.line, Key.Key_Return)
 
     assert karate.look.theme.name == "dark"
-
-
-def test_after_a_change_of_language_there_is_one_palette(
-    karate: MainWindow, palette: CommandPalette, qtbot: QtBot
-) -> None:
-    add_command_palette(karate)
-
-    qtbot.waitUntil(lambda: len(karate.findChildren(CommandPalette)) == 1)
 
 
 def test_a_screen_reader_finds_a_list_of_commands(palette: CommandPalette) -> None:

@@ -263,11 +263,14 @@ def test_after_the_panel_is_gone_nothing_of_it_listens(
     window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
 ) -> None:
     gone: list[bool] = []
-    panel(KARATE).destroyed.connect(lambda: gone.append(True))
+    panel(KARATE)
     document = window.files.document
+    of_a_show = CuePanel(window.host, is_large=True)
+    of_a_show.destroyed.connect(lambda: gone.append(True))
+    of_a_show.show()
 
-    window.studio.choose_language("de")
-    window.studio.choose_language("en")
+    of_a_show.deleteLater()
+    del of_a_show
     qtbot.waitUntil(lambda: bool(gone))
 
     hat = next(b.id for b in document.project.blocks.values() if b.type == "event.gesture")

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import gc
 import threading
-import weakref
 from collections.abc import Callable
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QEvent, QObject
+from PySide6.QtCore import QCoreApplication, QObject
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
 from nep_studio import paths
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.words import tr
 from tests.blocks.block_building import B, build
 from tests.ui.running.window_use import LONG_WAIT, WAIT_MS, Seen, block_of, press, state_is
 
@@ -178,21 +177,23 @@ def _threads() -> set[str]:
     return {thread.name for thread in threading.enumerate()}
 
 
-def test_nothing_of_the_window_before_stays_when_the_language_changes(
-    karate: MainWindow, qtbot: QtBot
+def test_a_program_goes_on_in_another_language(
+    window: MainWindow, qtbot: QtBot, open_program: Callable[..., Seen]
 ) -> None:
-    for panel in karate.workbench.panels.all:
-        panel.action.setChecked(True)
-    workbench = karate.workbench
-    parts = (workbench, workbench.canvas, workbench.helpers.palette, *karate.menus.values())
-    widgets = [panel.widget for panel in workbench.panels.all]
-    old = {type(one).__name__: weakref.ref(one) for one in (*parts, *widgets)}
-    del workbench, parts, widgets, panel
+    seen = open_program(WAITING)
+    press(window, qtbot, "run")
+    state_is(window, qtbot, "running")
+    wait = block_of(window, "control.wait")
+    qtbot.waitUntil(lambda: wait in window.running.stage.marks.glowing, timeout=WAIT_MS)
+    states, workbench = list(seen.states), window.workbench
 
-    for code in ("de", "en", "ar", "en"):
-        karate.studio.choose_language(code)
-        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    for code in ("de", "ja", "qps-rtl", "en", "de"):
+        window.studio.choose_language(code)
         QCoreApplication.processEvents()
-    gc.collect()
 
-    assert [name for name, one in old.items() if one() is not None] == []
+    assert seen.states == states and window.running.runner.state == "running"
+    assert window.workbench is workbench and wait in window.running.stage.marks.glowing
+    assert window.actions_by_name["run"].text() == tr("Run again")
+    press(window, qtbot, "stop")
+    state_is(window, qtbot, "idle")
+    assert window.actions_by_name["run"].text() == tr("Run")

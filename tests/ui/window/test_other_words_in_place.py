@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from PySide6.QtCore import QObject
+import pytest
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QComboBox, QTabBar, QTabWidget, QWidget
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QTabBar, QWidget
+from pytestqt.qtbot import QtBot
+from shiboken6 import isValid
 
 from nep_studio import paths
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.words import PSEUDO, tr
+from tests.ui.window.conftest import Chooser
+from tests.ui.window.putting_away import put_away
 
 KARATE = paths.examples() / "karate_greeting.nep"
-LEFT_OUT = ("nep_studio.ui.plugins",)
-"""What is in these does not tell its words again yet, in place."""
+LEFT_OUT: tuple[str, ...] = ()
+"""What is in these modules does not tell its words again in place yet."""
 
 TEXTS = (
     "text",
@@ -21,46 +29,224 @@ TEXTS = (
     "windowTitle",
     "iconText",
     "toolTip",
-    "statusTip",
     "placeholderText",
     "accessibleName",
     "accessibleDescription",
 )
-Words = list[tuple[str, str, str]]
+Said = tuple[str, str, str]
+"""Where words are, what of it they are, and how they go."""
 
 
-def words_of(window: MainWindow) -> Words:
-    """All words of a window: where they are, what they are, and how they go."""
-    return sorted(_words(window, type(window).__name__))
-
-
-def _words(thing: QObject, place: str) -> Iterator[tuple[str, str, str]]:
+def words_of(thing: QObject, place: str = "") -> Iterator[Said]:
+    """All words of a window, however deep."""
     for kind in TEXTS:
         said = getattr(thing, kind, None)
         if callable(said) and isinstance(words := said(), str) and words:
             yield place, kind, words
-    yield from ((place, "item", words) for words in _items(thing))
-    for number, child in enumerate(_children(thing)):
-        name = child.objectName() or str(number)
-        yield from _words(child, f"{place}/{type(child).__name__}:{name}")
+    yield from ((place, "item", words) for words in items_of(thing))
+    for number, child in enumerate(parts_of(thing)):
+        inner = f"{place}/{type(child).__name__}:{child.objectName() or number}"
+        yield from words_of(child, inner)
 
 
-def _items(thing: QObject) -> Iterator[str]:
-    if isinstance(thing, QTabBar | QTabWidget):
+def items_of(thing: QObject) -> Iterator[str]:
+    if isinstance(thing, QTabBar):
         for index in range(thing.count()):
             yield from (thing.tabText(index), thing.tabToolTip(index))
+            yield thing.accessibleTabName(index)
     elif isinstance(thing, QComboBox):
         yield from (thing.itemText(index) for index in range(thing.count()))
 
 
-def _children(thing: QObject) -> list[QObject]:
-    """The parts that have words; a list's rows are no objects."""
-    found = [one for one in thing.children() if isinstance(one, QWidget | QAction)]
-    found += [
-        one
-        for inner in thing.children()
-        if not isinstance(inner, QWidget | QAction)
-        for one in inner.children()
-        if isinstance(one, QAction)
-    ]
-    return [one for one in found if not type(one).__module__.startswith(LEFT_OUT)]
+def parts_of(thing: QObject) -> list[QObject]:
+    """The widgets and actions in it; some are in an object that is neither."""
+    found: list[QObject] = []
+    for one in thing.children():
+        found += [one] if isinstance(one, QWidget | QAction) else one.findChildren(QAction)
+    return [one for one in found if not is_left_out(one)]
+
+
+def is_left_out(thing: QObject) -> bool:
+    return type(thing).__module__.startswith(LEFT_OUT)
+
+
+def widgets_of(thing: QObject) -> Iterator[QWidget]:
+    for part in parts_of(thing):
+        if isinstance(part, QWidget):
+            yield part
+        yield from widgets_of(part)
+
+
+def opened(studio: Studio, qtbot: QtBot) -> MainWindow:
+    """A window with a project and all panels, large enough for all words."""
+    made = MainWindow(studio, Chooser())
+    qtbot.addWidget(made, before_close_func=put_away)
+    made.resize(2400, 1400)
+    made.show()
+    made.start(None)
+    made.files.open_example(KARATE)
+    for panel in made.workbench.panels.all:
+        made.workbench.panels.show(panel.widget)
+    made.workbench.panels.show(made.workbench.code)
+    made.workbench.panels.show(made.workbench.problems)
+    made.workbench.panels.row.setSizes([600, 1000, 800])
+    qtbot.waitUntil(lambda: "Impressive" in made.workbench.code.text.toPlainText())
+    return made
+
+
+def differences(one: MainWindow, other: MainWindow) -> tuple[list[Said], list[Said]]:
+    ours, theirs = set(words_of(one)), set(words_of(other))
+    return sorted(ours - theirs), sorted(theirs - ours)
+
+
+@pytest.mark.parametrize("codes", [["de"], ["ja", PSEUDO, "en", "de"], [PSEUDO]])
+def test_all_words_are_those_of_a_window_that_was_made_in_the_language(
+    studio: Studio, qtbot: QtBot, codes: list[str]
+) -> None:
+    window = opened(studio, qtbot)
+    for code in codes:
+        studio.choose_language(code)
+        QTest.qWait(20)
+    fresh = opened(studio, qtbot)
+
+    for _ in range(100):
+        if differences(window, fresh) == ([], []):
+            break
+        QTest.qWait(50)
+
+    assert differences(window, fresh) == ([], [])
+
+
+def test_the_comparison_finds_words_that_stay_behind(studio: Studio, qtbot: QtBot) -> None:
+    window, fresh = opened(studio, qtbot), opened(studio, qtbot)
+    window.workbench.code.copy_button.setText("left behind")
+
+    ours, _ = differences(window, fresh)
+
+    assert "left behind" in [words for _, _, words in ours]
+
+
+def test_nothing_is_made_anew(studio: Studio, qtbot: QtBot) -> None:
+    window = opened(studio, qtbot)
+    before = list(widgets_of(window))
+
+    for code in ("de", "ja", PSEUDO, "en"):
+        studio.choose_language(code)
+        QTest.qWait(50)
+
+    assert [type(one).__name__ for one in before if not isValid(one)] == []
+    assert [one for one in before if one not in set(widgets_of(window))] == []
+
+
+def test_the_place_and_what_is_selected_stay(karate: MainWindow, qtbot: QtBot) -> None:
+    canvas, palette = karate.workbench.canvas, karate.workbench.helpers.palette
+    block = karate.files.document.project.pages["behaviour"][1].body[2]
+    canvas.selection.set([block])
+    canvas.commands.duplicate()
+    canvas.selection.set([block])
+    canvas.sight.zoom(1.3)
+    canvas.sight.move_camera(40.0, 60.0)
+    camera = (canvas.sight.camera.x, canvas.sight.camera.y, canvas.sight.camera.scale)
+    palette.open_drawer("control")
+    palette.search.setFocus()
+
+    for code in ("de", "ja", "en"):
+        karate.studio.choose_language(code)
+        QTest.qWait(20)
+
+    now = canvas.sight.camera
+    assert (now.x, now.y, now.scale) == camera
+    assert canvas.selection.ids == (block,)
+    assert karate.files.document.editor.history.undo_label
+    assert palette.shelf.shown_drawer().id == "control"
+    assert karate.focusWidget() is palette.search
+
+
+def test_what_is_searched_for_stays(karate: MainWindow) -> None:
+    palette, bar = karate.workbench.helpers.palette, karate.workbench.helpers.find_bar
+    palette.search.setText("wait")
+    bar.open("karate")
+    hits = bar.hits
+
+    karate.studio.choose_language("de")
+    QTest.qWait(20)
+
+    assert palette.search.text() == "wait"
+    assert (bar.isVisible(), bar.line.text()) == (True, "karate")
+    assert bar.hits == hits != ()
+
+
+def test_what_is_being_typed_in_a_field_stays(karate: MainWindow) -> None:
+    canvas = karate.workbench.canvas
+    project = karate.files.document.project
+    block = next(one.id for one in project.blocks.values() if one.type == "robot.say")
+    canvas.fields.open(block, "text")
+    editor = canvas.fields.widget
+    editor.setText("Hello, wor")
+    editor.textEdited.emit(editor.text())
+    english = editor.accessibleName()
+
+    karate.studio.choose_language("de")
+    QTest.qWait(20)
+
+    assert canvas.fields.widget is editor and editor.text() == "Hello, wor"
+    assert editor.accessibleName() not in ("", english)
+    canvas.fields.cancel()
+    assert project.blocks[block].fields["text"] != "Hello, wor"
+
+
+def test_an_open_choice_is_told_in_other_words(karate: MainWindow) -> None:
+    canvas = karate.workbench.canvas
+    project = karate.files.document.project
+    block = next(one.id for one in project.blocks.values() if one.type == "robot.do")
+    canvas.fields.open(block, "posture")
+
+    karate.studio.choose_language("de")
+
+    assert canvas.fields.place == (block, "posture")
+    assert canvas.fields.widget.search.placeholderText() == tr("Type to search")
+    canvas.fields.close()
+
+
+def test_python_that_is_being_written_stays(karate: MainWindow) -> None:
+    code = karate.workbench.code
+    code.begin_editing()
+    code.text.setPlainText("# not finished")
+
+    karate.studio.choose_language("de")
+    QTest.qWait(20)
+
+    assert code.is_editing and code.text.toPlainText() == "# not finished"
+    assert code.apply_button.accessibleName() == tr("Apply")
+
+
+def test_the_blocks_are_read_from_the_right_and_from_the_left_again(karate: MainWindow) -> None:
+    workbench = karate.workbench
+    areas = workbench.panels.areas
+
+    karate.studio.choose_language(PSEUDO)
+    QTest.qWait(20)
+    mirrored = (workbench.canvas.look.measures.is_mirrored, areas["left"].x() > areas["right"].x())
+    karate.studio.choose_language("en")
+    QTest.qWait(20)
+    usual = (workbench.canvas.look.measures.is_mirrored, areas["left"].x() > areas["right"].x())
+
+    assert (mirrored, usual) == ((True, True), (False, False))
+    assert karate.layoutDirection() == Qt.LayoutDirection.LeftToRight
+
+
+def test_the_panels_are_put_back_without_being_made_anew(karate: MainWindow) -> None:
+    panels = karate.workbench.panels
+    widgets = [panel.widget for panel in panels.all]
+    code = next(panel for panel in panels.all if panel.widget is karate.workbench.code)
+    problems = next(panel for panel in panels.all if panel.widget is karate.workbench.problems)
+    code.action.setChecked(False)
+    problems.action.setChecked(True)
+    karate.workbench.helpers.palette.set_narrow(True)
+
+    karate.reset_panels()
+
+    assert code.action.isChecked() and not problems.action.isChecked()
+    assert not karate.workbench.helpers.palette.is_narrow
+    assert [panel.widget for panel in panels.all] == widgets
+    assert not karate.settings.is_chosen(code.name)

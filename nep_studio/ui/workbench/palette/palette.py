@@ -259,16 +259,20 @@ class Palette(QWidget):
         self._connect()
         add_delete_area(canvas, self)
         labelled(self, name="Palette")
-        follow_words(self, self.refresh)
+        self.refresh()
+        follow_words(self, self._say)
 
     # What is shown
 
     def refresh(self) -> None:
-        """Take the theme, the words, the direction and the project of the canvas."""
+        """Take the theme, the direction and the project of the canvas."""
         self._sign.setIcon(icon("search", self.canvas.look.theme))
-        self._show_fold()
         self._listen()
         self.shelf.refresh()
+        self._say()
+
+    def _say(self) -> None:
+        self._show_fold()
         self.fill()
 
     def fill(self, *, to_top: bool = False) -> None:

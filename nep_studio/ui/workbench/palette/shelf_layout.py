@@ -27,6 +27,8 @@ SCALE = 0.8
 NARROWEST = 160.0
 HIGHEST_SNIPPET = 200.0
 """How much of a snippet is shown, in units of the measures."""
+ROUNDING = 1.0
+"""A list that begins at a place may be scrolled so much less: to whole pixels."""
 
 
 @dataclass(slots=True)
@@ -117,12 +119,12 @@ class ShelfLayout:
 
     def spot_and_way(self, y: float) -> tuple[int, float]:
         """A height as the number of the spot there, and the way from its top."""
-        number = max(0, bisect_right(self._tops, y) - 1)
+        number = max(0, bisect_right(self._tops, y + ROUNDING) - 1)
         return (number, y - self._tops[number]) if self._tops else (0, y)
 
     def drawer_and_way(self, y: float) -> tuple[str, float]:
         """A height as a drawer, and the way from its beginning."""
-        drawer = self.drawer_at(y)
+        drawer = self.drawer_at(y + ROUNDING)
         first = self.first_of(drawer.id) if drawer is not None else None
         return (first.entry.drawer.id, y - first.y) if first is not None else ("", y)
 

@@ -12,6 +12,7 @@ from nep_studio.project.surroundings import kept_things
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.words import tr
 from tests.ui.window.conftest import Chooser, answer, chooser, home, karate, studio, window
 
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
@@ -62,9 +63,9 @@ def test_a_new_language_of_the_window_keeps_what_stands_there(
 
     karate.studio.choose_language("de")
 
-    qtbot.waitUntil(lambda: karate.findChild(RobotsPanel) is not panel)
-    fresh = shown(karate, qtbot)
-    assert [thing.kind for thing in fresh.stage.view.room.things] == ["person"]
+    assert karate.findChildren(RobotsPanel) == [panel]
+    assert [thing.kind for thing in panel.stage.view.room.things] == ["person"]
+    assert panel.stage.tools.view.text() == tr("View") != "View"
 
 
 def test_things_can_be_moved_while_the_program_runs_which_needs_no_new_start(

@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.plugins.sensors import SensorsPanel
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.words import tr
 from tests.ui.window.conftest import chooser, home, karate, studio, window
 
 __all__ = ["chooser", "home", "karate", "studio", "window"]
@@ -53,20 +54,17 @@ def test_the_panel_is_hidden_at_first_and_its_place_has_room(
 
 
 def test_what_was_heard_stays_when_the_language_changes(opened: MainWindow, qtbot: QtBot) -> None:
-    before = panel_of(opened).opened()
-    before.start_watch()
-    qtbot.waitUntil(lambda: bool(before.plots.rows), timeout=NODE_START_MS)
-    feed, recorder = before.feed, before.recorder
-    before.record()
+    workspace = panel_of(opened).opened()
+    workspace.start_watch()
+    qtbot.waitUntil(lambda: bool(workspace.plots.rows), timeout=NODE_START_MS)
+    workspace.record()
 
-    opened.studio.settings.language = "qps-rtl"
-    opened._on_words_changed()
-    opened.workbench.panels.show(panel_of(opened))
-    after = panel_of(opened).opened()
+    opened.studio.choose_language("de")
 
-    assert (after.feed, after.recorder) == (feed, recorder)
-    qtbot.waitUntil(after.record_bar.isVisible)
-    assert len(after.plots.rows) == 2
+    titles = [row.row.title for row in workspace.plots.rows]
+    assert titles == [tr("Acceleration"), tr("Gyroscope")] != ["Acceleration", "Gyroscope"]
+    assert workspace.record_bar.isVisible()
+    recorder = workspace.recorder
     samples = recorder.samples
     qtbot.waitUntil(lambda: recorder.samples > samples + 20)
     recorder.stop()

@@ -164,6 +164,8 @@ class TryOut(QWidget):
         self._told_s = 0.0
         """Until then nothing is news: another recogniser or point may find what is long over."""
         self._flashing: Detection | None = None
+        self._moved = ""
+        """The gesture whose recognition point was moved last."""
         self._make()
         inner = QWidget()
         head = in_row((self.sign, 0, Qt.AlignmentFlag.AlignVCenter), (self.said, 1))
@@ -180,7 +182,7 @@ class TryOut(QWidget):
         self._connect()
         self._fill_bars()
         self.meaning.hide()
-        follow_words(self, self._show_state)
+        follow_words(self, self._say)
 
     def _make(self) -> None:
         look = self.controller.look
@@ -304,16 +306,21 @@ class TryOut(QWidget):
             announce(self, self._title(triggers[-1].gesture))
 
     def _on_point_changed(self, name: str) -> None:
+        self._moved = name
         self.looks.set_points(self.tuning.points)
         self._told_s = max(self._told_s, self.looks.now_s)
         if name in self.bars:
             self.bars[name].show_gesture(name)
         # What the recognition point that is moved means for takes and everyday movement
         findings = self.tuning.findings
-        words = both_sides(findings, name, self.tuning.point(name)) if findings else ""
+        words = both_sides(findings, name, self.tuning.point(name)) if findings and name else ""
         self.meaning.setText(f"{self._title(name)}: {words}" if words else "")
         self.meaning.setVisible(bool(words))
         self._show_looks()
+
+    def _say(self) -> None:
+        self._show_state()
+        self._show_meaning(self._moved)
 
     def _show_state(self) -> None:
         icon, colour, words, step = self._state()
