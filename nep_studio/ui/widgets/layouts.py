@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Generic, TypeVar
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QFrame,
@@ -79,6 +80,52 @@ def _fill(
                 box.addWidget(widget, stretch)
             case (widget, stretch, alignment):
                 box.addWidget(widget, stretch, alignment)
+
+
+class InLines(QWidget):
+    """A widget whose size is told in lines of text, as its width and its height."""
+
+    usual_lines: tuple[float, float]
+    least_lines: tuple[float, float] = (0, 0)
+    """Zeros where its layout knows better."""
+
+    def sizeHint(self) -> QSize:
+        """What it would like."""
+        return self._pixels(self.usual_lines)
+
+    def minimumSizeHint(self) -> QSize:
+        """Less is of no use."""
+        least = self.least_lines
+        return self._pixels(least) if any(least) else super().minimumSizeHint()
+
+    def _pixels(self, lines: tuple[float, float]) -> QSize:
+        line = self.fontMetrics().height()
+        return QSize(round(line * lines[0]), round(line * lines[1]))
+
+
+Page = TypeVar("Page", bound=QWidget)
+
+
+class LatePanel(InLines, Generic[Page]):
+    """Makes its page when it is shown for the first time: what draws it is slow to load."""
+
+    def __init__(self, make: Callable[[], Page]) -> None:
+        super().__init__()
+        self._make = make
+        self.page: Page | None = None
+        self._box = in_column(of=self, margins=0)
+
+    def opened(self) -> Page:
+        """What is in it; made now if it is not there yet."""
+        if self.page is None:
+            self.page = self._make()
+            self._box.addWidget(self.page)
+        return self.page
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Open it."""
+        self.opened()
+        super().showEvent(event)
 
 
 class Flow(QLayout):

@@ -97,10 +97,6 @@ class GestureChip(QAbstractButton):
             self._canvas.begin_external_drag(self.clip(), place, self)
         super().mousePressEvent(event)
 
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """A click adds the block."""
-        super().mouseReleaseEvent(event)
-
     def sizeHint(self) -> QSize:
         """Room for its words; long names are cut."""
         metrics = self.fontMetrics()

@@ -361,11 +361,6 @@ class TakesList(QWidget):
         tell_current(self)
         self.update()
 
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Show that the keyboard is elsewhere."""
-        super().focusOutEvent(event)
-        self.update()
-
     def _go_to(self, number: int) -> None:
         if 0 <= number < len(self.takes):
             self.current = number

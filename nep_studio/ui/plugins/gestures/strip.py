@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QRectF, Qt, QTimer
 from PySide6.QtGui import (
     QFocusEvent,
     QFontMetricsF,
@@ -14,10 +14,11 @@ from PySide6.QtGui import (
     QPen,
     QShowEvent,
 )
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
 
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
+from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
 
 from .curves import (
@@ -51,8 +52,10 @@ _BIG, _SMALLER = 0.6, 0.32
 """How high the countdown is, and the count of takes, as a share of the graph."""
 
 
-class Strip(QWidget):
+class Strip(InLines):
     """Shows the last ten seconds; a chosen take in their place until nobody looks at it."""
+
+    usual_lines, least_lines = (26, 7), (8, 5)
 
     def __init__(self, controller: GestureController, session: TakeSession, take: TakeView) -> None:
         super().__init__()
@@ -102,16 +105,6 @@ class Strip(QWidget):
                 return tr("Go")
             return tr("{number} of {count}", number=session.taken, count=session.wanted)
         return ""
-
-    def sizeHint(self) -> QSize:
-        """Room to see how a movement goes."""
-        line = self.fontMetrics().height()
-        return QSize(line * 26, line * 7)
-
-    def minimumSizeHint(self) -> QSize:
-        """Less shows nothing."""
-        line = self.fontMetrics().height()
-        return QSize(line * 8, line * 5)
 
     # Painting
 
@@ -219,11 +212,6 @@ class Strip(QWidget):
         """Draw nothing that nobody sees."""
         super().hideEvent(event)
         self._frames.stop()
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show that the keyboard is here."""
-        super().focusInEvent(event)
-        self.update()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Show that it is elsewhere."""

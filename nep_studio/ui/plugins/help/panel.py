@@ -34,7 +34,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import UnknownIcon, icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .browser import ZOOM_STEP, ExampleBar, HelpBrowser
@@ -373,11 +373,13 @@ CONTENTS_LINES = 15
 """How wide the contents are at least then."""
 
 
-class HelpPanel(QWidget):
+class HelpPanel(InLines):
     """Shows the help. ``try_requested`` brings a project that a person wants to try.
 
     ``left`` says that the keyboard is to go on with the program.
     """
+
+    usual_lines = (24, 30)
 
     try_requested = Signal(object)
     page_shown = Signal(str)
@@ -474,11 +476,6 @@ class HelpPanel(QWidget):
         """Ask for a printer, and print the page."""
 
         ask_to_print(self.browser, self)
-
-    def sizeHint(self) -> QSize:
-        """Room to read."""
-        line = self.fontMetrics().height()
-        return QSize(24 * line, 30 * line)
 
     def _step(self, step: Callable[[int], bool]) -> None:
         if step(self.browser.verticalScrollBar().value()):

@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QDialog, QFileDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
 from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import tr
 from robots.body.body import Body
 from robots.body.choregraphe import KeyframesUnreadable, read_choregraphe
@@ -100,11 +101,7 @@ class ImportDialog(QDialog):
             self.reason.setText(motion)
 
     def _on_file_asked(self) -> None:
-        dialog = QFileDialog(self, tr("A file from Choregraphe"))
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.fileSelected.connect(lambda chosen: self.read_file(Path(chosen)))
-        dialog.open()
+        ask_for_path(self, tr("A file from Choregraphe"), Path(), self.read_file)
 
     def _on_use_clicked(self) -> None:
         motion = self._motion()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -26,7 +26,7 @@ from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, type_words
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .graph import Graph, Key, graph_of
@@ -36,13 +36,15 @@ from .topics import Talks, TopicPane
 Statuses = Callable[[], Mapping[str, NodeStatus]]
 
 
-class NetworkPanel(QWidget):
+class NetworkPanel(InLines):
     """Looks at the network while it is visible.
 
     ``run_asked`` asks to run the project, the first step where nothing is there to see;
     ``sharing_asked`` to show which other computers come in; ``node_chosen`` gives the name of a
     node, ``plot_requested`` a topic and a field.
     """
+
+    usual_lines = (40, 18)
 
     run_asked = Signal()
     sharing_asked = Signal()
@@ -134,11 +136,6 @@ class NetworkPanel(QWidget):
         """Show the messages of a topic."""
         self.pane.show_topic(topic, self._feed.seen.topics.get(topic))
         self.pane.show()
-
-    def sizeHint(self) -> QSize:
-        """Room for a small graph."""
-        line = self.fontMetrics().height()
-        return QSize(line * 40, line * 18)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Look at the network."""

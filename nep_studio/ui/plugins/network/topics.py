@@ -24,7 +24,6 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QFileDialog,
     QHBoxLayout,
     QLabel,
     QLineEdit,
@@ -46,6 +45,7 @@ from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
 
 from .sending import SendBox
@@ -440,17 +440,14 @@ class TopicPane(QWidget):
 
     def _on_save_clicked(self) -> None:
         name = self.topic.strip("/").replace("/", "_") or "messages"
-        dialog = QFileDialog(self, tr("Save messages"), str(self.folder / f"{name}.csv"))
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setNameFilters([tr("Table (*.csv)"), tr("JSON lines (*.jsonl)")])
+        place, kinds = (
+            self.folder / f"{name}.csv",
+            (tr("Table (*.csv)"), tr("JSON lines (*.jsonl)")),
+        )
+        dialog = ask_for_path(self, tr("Save messages"), place, self.save_to, "save", kinds)
         dialog.filterSelected.connect(
             lambda chosen: dialog.setDefaultSuffix("jsonl" if "jsonl" in chosen else "csv")
         )
-        dialog.setDefaultSuffix("csv")
-        dialog.selectFile(f"{name}.csv")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(lambda path: self.save_to(Path(path)))
-        dialog.open()
 
     def _on_plot_menu(self) -> None:
         menu: QMenu = self.bar.plot_menu

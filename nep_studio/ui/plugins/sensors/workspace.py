@@ -11,7 +11,6 @@ import numpy as np
 from PySide6.QtCore import QPoint, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QHideEvent, QPixmap, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
-    QFileDialog,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -31,6 +30,7 @@ from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
 from nodes.recordings import Recording, write_recording
 
@@ -145,34 +145,20 @@ class SensorFiles:
 
     def choose_recording(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
         """Ask which recording to play."""
-        dialog = QFileDialog(parent, tr("Replay a recording"), str(folder))
-        dialog.setNameFilters([tr("Recordings (*.csv)"), tr("All files (*)")])
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        _open(dialog, on_chosen)
+        kinds = (tr("Recordings (*.csv)"), tr("All files (*)"))
+        ask_for_path(parent, tr("Replay a recording"), folder, on_chosen, kinds=kinds)
 
     def choose_place(
         self, parent: QWidget, suggested: Path, kind: str, on_chosen: OnChosen
     ) -> None:
         """Ask where a file is to be kept; ``kind`` says in words what it is."""
-        dialog = QFileDialog(parent, tr("Export"), str(suggested.parent))
-        dialog.setNameFilters([f"{kind} (*{suggested.suffix})", tr("All files (*)")])
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix(suggested.suffix.removeprefix("."))
-        dialog.selectFile(suggested.name)
-        _open(dialog, on_chosen)
+        kinds = (f"{kind} (*{suggested.suffix})", tr("All files (*)"))
+        ask_for_path(parent, tr("Export"), suggested, on_chosen, "save", kinds)
 
     def choose_folder(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
         """Ask for the folder of recordings."""
-        dialog = QFileDialog(parent, tr("Choose a folder for recordings"), str(folder))
-        dialog.setFileMode(QFileDialog.FileMode.Directory)
-        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
-        _open(dialog, on_chosen)
-
-
-def _open(dialog: QFileDialog, on_chosen: OnChosen) -> None:
-    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
-    dialog.open()
+        title = tr("Choose a folder for recordings")
+        ask_for_path(parent, title, folder, on_chosen, "folder")
 
 
 # What the panel says while nothing is measured: what belongs there, and the first steps.

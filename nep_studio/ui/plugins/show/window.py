@@ -41,7 +41,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, code_font
 from nep_studio.ui.widgets.forms import ElidedLabel, screen_around
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .leaving import HoldBar, Holding, PinQuestion, StayingAwake
@@ -56,8 +56,10 @@ if TYPE_CHECKING:
 _FLAGS = Qt.TextFlag.TextWordWrap.value | Qt.AlignmentFlag.AlignCenter.value
 
 
-class StageWords(QWidget):
+class StageWords(InLines):
     """A text that fills its room, with the lines before it, smaller, above."""
+
+    usual_lines = (20, 8)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -69,11 +71,6 @@ class StageWords(QWidget):
         self.lines = lines
         self.setAccessibleName(lines[-1] if lines else "")
         self.update()
-
-    def sizeHint(self) -> QSize:
-        """A few lines."""
-        line = self.fontMetrics().height()
-        return QSize(line * 20, line * 8)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the lines."""

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QButtonGroup,
     QCheckBox,
     QComboBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -30,6 +29,7 @@ from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import column_in, hint, label_of, labelled, quiet_button
 from nep_studio.ui.widgets.layouts import Flow, in_column
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .connectors import APPS, BLUETOOTH, PAPER_WATCH, PHONE_PAGE, RECORDING, VIRTUAL, ConnectorKind
@@ -444,9 +444,5 @@ class RecordingQuestion(QWidget):
             self.changed.emit()
 
     def _on_choose(self) -> None:
-        dialog = QFileDialog(self, tr("Choose a recording"), str(self._folder))
-        dialog.setNameFilters([tr("Recordings (*.csv)"), tr("All files (*)")])
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.choose)
-        dialog.open()
+        kinds, title = (tr("Recordings (*.csv)"), tr("All files (*)")), tr("Choose a recording")
+        ask_for_path(self, title, self._folder, lambda path: self.choose(str(path)), kinds=kinds)

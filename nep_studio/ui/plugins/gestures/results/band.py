@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
 
@@ -17,7 +17,7 @@ from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.features import POINTS, Detection, Integers, Singles, cut_windows
 from nodes.perceptual.recognition.gmr import Gmr
@@ -180,8 +180,13 @@ LINES_HIGH = 3.6
 _AXES = "xyz"
 
 
-class BandView(QWidget):
+class BandView(InLines):
     """Three strips, one for each axis, over the duration of the movement."""
+
+    usual_lines, least_lines = (
+        (16, LINES_HIGH * len(_AXES) + 1.5),
+        (9, LINES_HIGH * len(_AXES) + 1.5),
+    )
 
     def __init__(self, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -198,15 +203,6 @@ class BandView(QWidget):
         self.band, self.kind = band, kind
         self.setAccessibleDescription(words)
         self.update()
-
-    def sizeHint(self) -> QSize:
-        """Three strips and the legend."""
-        line = self.fontMetrics().height()
-        return QSize(line * 16, round(line * (LINES_HIGH * len(_AXES) + 1.5)))
-
-    def minimumSizeHint(self) -> QSize:
-        """Rather narrow, and as high."""
-        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
 
     def strip(self, number: int) -> QRectF:
         """Where the strip of an axis is."""

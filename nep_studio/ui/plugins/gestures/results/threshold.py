@@ -13,7 +13,7 @@ from nep_studio.blocks.own_gestures import TRIGGER
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .findings import Findings, Point, between
@@ -62,11 +62,13 @@ _LEAST_RATE = 1.0
 """The scale of false triggers an hour goes up to this at least: one false one looks small."""
 
 
-class PointCurve(QWidget):
+class PointCurve(InLines):
     """Two curves over the certainty, and the place where the recognition point is.
 
     ``dragged`` gives the certainty that the mouse is at, ``let_go`` that it was let go.
     """
+
+    usual_lines, least_lines = (16, LINES_HIGH), (9, LINES_HIGH)
 
     dragged = Signal(float)
     let_go = Signal()
@@ -85,15 +87,6 @@ class PointCurve(QWidget):
         """Show the curves of a gesture and its recognition point."""
         self.points, self.certainty = points, certainty
         self.update()
-
-    def sizeHint(self) -> QSize:
-        """As wide as there is room, some lines high."""
-        line = self.fontMetrics().height()
-        return QSize(line * 16, round(line * LINES_HIGH))
-
-    def minimumSizeHint(self) -> QSize:
-        """Rather narrow, and as high."""
-        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
 
     # The mouse
 

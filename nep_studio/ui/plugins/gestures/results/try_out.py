@@ -311,12 +311,15 @@ class TryOut(QWidget):
         self._told_s = max(self._told_s, self.looks.now_s)
         if name in self.bars:
             self.bars[name].show_gesture(name)
-        # What the recognition point that is moved means for takes and everyday movement
+        self._show_meaning(name)
+        self._show_looks()
+
+    def _show_meaning(self, name: str) -> None:
+        """What the recognition point that is moved means for takes and everyday movement."""
         findings = self.tuning.findings
         words = both_sides(findings, name, self.tuning.point(name)) if findings and name else ""
         self.meaning.setText(f"{self._title(name)}: {words}" if words else "")
         self.meaning.setVisible(bool(words))
-        self._show_looks()
 
     def _say(self) -> None:
         self._show_state()
