@@ -17,8 +17,7 @@ from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards
-from .exchange import Imported, add_imported, read_csv, write_csv
-from .exchange_mcap import read_mcap, write_mcap
+from .exchange import Imported, add_imported, read_csv, read_mcap, write_csv, write_mcap
 from .gesture_controller import GestureController
 from .project_gestures import Keeping
 

@@ -48,8 +48,7 @@ from .recording import (
 from .results.training import Training
 from .results.try_out import TryOut
 from .results.view import ResultsView
-from .sample_view import TakeView
-from .strip import Strip
+from .strip import Strip, TakeView
 
 # How the parts of the page are arranged, by the room that there is for them.
 

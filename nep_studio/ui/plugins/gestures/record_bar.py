@@ -30,7 +30,7 @@ from nep_studio.ui.words import tr
 from .gesture_controller import GestureController
 from .project_gestures import Keeping
 from .recording import TakeSession
-from .sample_view import TakeView
+from .strip import TakeView
 
 # Who wears the sensor, and where: chosen here before something is recorded.
 

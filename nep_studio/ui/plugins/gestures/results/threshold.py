@@ -16,8 +16,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
-from .findings import Findings, Point, between
-from .tuning import HIGHEST, LOWEST, Tuning
+from .findings import HIGHEST, LOWEST, Findings, Point, Tuning, between
 
 # What a recognition point of a gesture means, in one sentence with both of its sides.
 

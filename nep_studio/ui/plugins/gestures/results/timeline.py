@@ -17,8 +17,8 @@ from nep_studio.ui.words import count_words, tr
 from nodes.perceptual.recognition.features import Detection
 
 from .certainties import KEPT_S, Looks
+from .findings import Tuning
 from .threshold import PointSlider
-from .tuning import Tuning
 
 LINES_HIGH = 6.0
 _EVERY_S = 5.0

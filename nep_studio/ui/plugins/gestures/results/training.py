@@ -23,7 +23,7 @@ from nep_studio.ui.plugins.gestures.live import unpacked
 from nep_studio.ui.words import tr
 from nodes.recordings import Recording, write_recording
 
-from .tuning import Tuning
+from .findings import Tuning
 from .worker import Done, Ended, Failed, Progress, Worker, order
 
 # What can go wrong while gestures are learned, as problems with a checklist.
