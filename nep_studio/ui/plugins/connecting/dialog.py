@@ -22,7 +22,6 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QProgressBar,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -30,8 +29,8 @@ from PySide6.QtWidgets import (
 from nep_studio.ui.background import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import card_around, room_around
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.forms import card_around, label_of, room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import count_words, tr
 
 if TYPE_CHECKING:
@@ -332,10 +331,7 @@ class ConnectDialog(QDialog):
         self.about.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         column.addWidget(self._about_card)
         column.addStretch(1)
-        self._area = area = QScrollArea(widgetResizable=True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(page)
+        self._area = area = scrolled(page)
         foot = in_row(1)
         self.use_button.setProperty("kind", "primary")
         for button in (self.close_button, self.use_button):
@@ -352,10 +348,10 @@ class ConnectDialog(QDialog):
         form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
         self.address.setPlaceholderText("192.168.1.10")
         self.password.setEchoMode(QLineEdit.EchoMode.Password)
-        form.addRow(_label(tr("Address"), self.address), self.address)
+        form.addRow(label_of(tr("Address"), self.address), self.address)
         form.addRow("", self.asks_password)
-        self._user_label = _label(tr("User"), self.user)
-        self._password_label = _label(tr("Password"), self.password)
+        self._user_label = label_of(tr("User"), self.user)
+        self._password_label = label_of(tr("Password"), self.password)
         form.addRow(self._user_label, self.user)
         form.addRow(self._password_label, self.password)
         self._kept = QLabel(
@@ -364,7 +360,7 @@ class ConnectDialog(QDialog):
         self._kept.setWordWrap(True)
         self._kept.setProperty("role", "hint")
         form.addRow("", self._kept)
-        form.addRow(_label(tr("In this project it is"), self.robot), self.robot)
+        form.addRow(label_of(tr("In this project it is"), self.robot), self.robot)
         self.test_button.setProperty("kind", "primary")
         self.test_button.setDefault(True)
         row = in_row(self.test_button, 1)
@@ -483,11 +479,4 @@ def about_words(about: AboutRobot) -> str:
 def _heading(words: str) -> QLabel:
     label = QLabel(words)
     label.setProperty("role", "heading")
-    return label
-
-
-def _label(words: str, buddy: QWidget) -> QLabel:
-    label = QLabel(words)
-    label.setBuddy(buddy)
-    buddy.setAccessibleName(words)
     return label

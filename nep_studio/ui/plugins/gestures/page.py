@@ -10,7 +10,6 @@ from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -28,7 +27,7 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import explained, follow_words
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.watch_view.status import WatchStatus
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards
@@ -278,10 +277,7 @@ class TrainerPage(QWidget):
         box.addWidget(self.head)
         box.addWidget(self.strip, 1)
         box.addWidget(self.bar)
-        area = QScrollArea(widgetResizable=True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(top)
+        area = scrolled(top)
         area.setMinimumSize(line * 15, line * 4)
         return area
 

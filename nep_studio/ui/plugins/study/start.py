@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -37,7 +36,7 @@ from nep_studio.study.records import (
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Message, Told
 from nep_studio.ui.widgets.forms import room_around
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -160,11 +159,7 @@ class StartDialog(QDialog):
         foot = in_row(1, self.cancel_button, self.start_button)
         page = QWidget()
         in_column(self.participant_fields, card, 1, of=page, margins=0, spacing=line)
-        area = QScrollArea(widgetResizable=True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(page)
-        in_column((area, 1), foot, of=self, margins=line, spacing=line)
+        in_column((scrolled(page), 1), foot, of=self, margins=line, spacing=line)
         room = room_around(self).size()
         self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
 
