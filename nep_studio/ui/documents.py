@@ -117,10 +117,6 @@ class Document(QObject):
             self._journal.flush()
             self._look_at_journal()
 
-    def use_language(self, language: Language) -> None:
-        """Show the blocks in the words of another language."""
-        self.editor.use_language(language)
-
     def close(self, *, keep: bool = False) -> None:
         """End; the journal goes, unless it is to be kept for the next start."""
         if not self._is_open:

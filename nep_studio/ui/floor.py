@@ -149,4 +149,4 @@ class Floor(QObject):
 def floor_of(host: Host) -> Floor:
     """The one floor, made when it is first asked for."""
     files, runner = host.services.files, host.services.runner
-    return host.keep(Floor, lambda: Floor(files, runner, runner))
+    return host.shared(Floor, lambda: Floor(files, runner, runner))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from nep_studio.ui.workbench.side_panels import AreaName
     from nep_studio.ui.workbench.workbench import Workbench
 
-Kept = TypeVar("Kept")
+Shared = TypeVar("Shared")
 MenuName = Literal["file", "edit", "view", "run", "robots", "help"]
 
 
@@ -59,7 +59,7 @@ class Host(Protocol):
     def ask(self, command: str, *values: Any) -> Any:
         """Let another plugin do what it offers by this name; None when nobody offers it."""
 
-    def keep(self, kind: type[Kept], make: Callable[[], Kept]) -> Kept:
+    def shared(self, kind: type[Shared], make: Callable[[], Shared]) -> Shared:
         """The one object of a kind that several plugins share, made when one first asks for it."""
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 from weakref import WeakKeyDictionary, WeakMethod
 
 from PySide6.QtCore import QEvent, QObject
-from PySide6.QtWidgets import QApplication, QComboBox, QTabWidget
+from PySide6.QtWidgets import QApplication, QTabWidget
 from shiboken6 import isValid
 
 from nep_studio.ui.words import tr
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from faults import Words
 
 Owner = TypeVar("Owner", bound=QObject)
-Items = TypeVar("Items", QComboBox, QTabWidget)
+Tabs = TypeVar("Tabs", bound=QTabWidget)
 Tell = Callable[[], object]
 
 SETTERS = {
@@ -57,8 +57,8 @@ def explained(owner: Owner, words: Words) -> Owner:
     return labelled(owner, tip=words, name=words)
 
 
-def labelled_items(owner: Items, /, *words: Words) -> Items:
-    """Put words on the items of a choice, or on tabs, as ``labelled`` does; they are there."""
+def labelled_items(owner: Tabs, /, *words: Words) -> Tabs:
+    """Put words on the tabs that are there, as ``labelled`` does."""
     known = _labels.setdefault(owner, {})
     for place, said in enumerate(words):
         known[place] = said
@@ -92,9 +92,7 @@ def tell_again() -> None:
 
 
 def _put(owner: Any, key: str | int, said: Words) -> None:
-    if isinstance(key, str):
-        getattr(owner, SETTERS[key])(tr(said))
-    elif isinstance(owner, QTabWidget):
+    if isinstance(key, int):
         owner.setTabText(key, tr(said))
     else:
-        owner.setItemText(key, tr(said))
+        getattr(owner, SETTERS[key])(tr(said))

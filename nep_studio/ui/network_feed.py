@@ -434,4 +434,4 @@ def feed_of(host: Host) -> NetworkFeed:
     def find_network() -> Network | None:
         return runner.local.network
 
-    return host.keep(NetworkFeed, lambda: NetworkFeed(find_network, running))
+    return host.shared(NetworkFeed, lambda: NetworkFeed(find_network, running))

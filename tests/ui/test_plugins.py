@@ -140,16 +140,14 @@ def test_a_command_that_nobody_offers_is_nothing(window: MainWindow) -> None:
     assert window.host.ask("weather.rain", 3) is None
 
 
-def test_what_is_kept_is_made_once_and_outlives_another_language(window: MainWindow) -> None:
-    kept = window.host.keep(Kept, Kept)
+def test_what_plugins_share_is_made_once(window: MainWindow) -> None:
+    made = window.host.shared(Shared, Shared)
 
-    window.studio.choose_language("es")
-
-    assert window.host.keep(Kept, lambda: pytest.fail("it is there")) is kept
+    assert window.host.shared(Shared, lambda: pytest.fail("it is there")) is made
 
 
-class Kept:
-    """Something that is to stay."""
+class Shared:
+    """Something that several plugins need."""
 
 
 WEATHER = """

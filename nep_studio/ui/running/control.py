@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class RunControl(QObject):
-    """Runs the window's project; it stays when the window's contents are made anew.
+    """Runs the window's project.
 
     ``became_stale`` tells that the blocks have changed since the program was started,
     ``plan_changed`` that the project needs other nodes now, or nodes with other settings.
@@ -75,7 +75,7 @@ class RunControl(QObject):
         return self.runner.controller.is_stale
 
     def attach(self) -> None:
-        """Work with the workbench that the window has now."""
+        """Show on the canvas what runs, now that there is one."""
         self.stage.show_on(self._host.workbench.canvas)
 
     def follow(self, document: Document | None) -> None:

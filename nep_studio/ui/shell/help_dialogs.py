@@ -170,10 +170,9 @@ def compare_with_saved(window: MainWindow) -> None:
         window.messages.tell_error(error)
         return
 
-    def show(block: str) -> None:
-        window.workbench.show_block(block)  # that of now: other words make another workbench
-
-    ComparingDialog(document, saved, show, window).show()
+    dialog = ComparingDialog(document, saved, window.workbench.show_block, window)
+    window.studio.words_changed.connect(dialog.reject)  # it speaks the language of before
+    dialog.show()
 
 
 def _item(difference: Difference) -> QListWidgetItem:

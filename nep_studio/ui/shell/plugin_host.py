@@ -11,7 +11,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
 
 from nep_studio.ui import plugins
-from nep_studio.ui.host import Kept, NewAction, NewPanel, Parts, Plugin
+from nep_studio.ui.host import NewAction, NewPanel, Parts, Plugin, Shared
 
 if TYPE_CHECKING:
     from nep_studio.ui.actions import Actions
@@ -26,7 +26,7 @@ class WindowHost:
 
     def __init__(self, window: MainWindow) -> None:
         self._window = window
-        self._kept: dict[type, object] = {}
+        self._shared: dict[type, object] = {}
         self._commands: dict[str, Callable[..., object]] = {
             "start_page.tour_taken": lambda: window.start_page.tour_offer.hide()
         }
@@ -74,11 +74,11 @@ class WindowHost:
         do = self._commands.get(command)
         return None if do is None else do(*values)
 
-    def keep(self, kind: type[Kept], make: Callable[[], Kept]) -> Kept:
+    def shared(self, kind: type[Shared], make: Callable[[], Shared]) -> Shared:
         """The one object of a kind, made when it is first asked for."""
-        if kind not in self._kept:
-            self._kept[kind] = make()
-        return cast("Kept", self._kept[kind])
+        if kind not in self._shared:
+            self._shared[kind] = make()
+        return cast("Shared", self._shared[kind])
 
     # What the window does with what plugins bring
 

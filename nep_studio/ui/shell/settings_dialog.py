@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -13,7 +12,6 @@ from PySide6.QtCore import QObject, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QDialog,
     QFileDialog,
     QFormLayout,
@@ -29,7 +27,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from faults import Words, text_of, verbatim
+from faults import text_of
 from nep_studio import __version__
 from nep_studio.settings import (
     LARGEST_TEXT,
@@ -46,6 +44,7 @@ from nep_studio.ui.labels import labelled, labelled_items
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of
 from nep_studio.ui.words import available_languages, tr
 
@@ -73,9 +72,9 @@ class LookPage(QWidget):
 
     def __init__(self, settings: Settings) -> None:
         super().__init__()
-        languages = {code: verbatim(name) for code, name in available_languages().items()}
-        self.language = _choice(languages, settings.language)
-        self.theme = _choice({name: load_theme(name).title for name in themes()}, settings.theme)
+        self.language, self.theme = Choices(_languages), Choices(_themes)
+        self.language.choose(settings.language)
+        self.theme.choose(settings.theme)
         self.text_size = QSlider(Qt.Orientation.Horizontal)
         self.text_percent = QLabel()
         self._set_up_slider(settings.text_scale)
@@ -262,13 +261,12 @@ def _form(page: QWidget) -> QFormLayout:
     return form
 
 
-def _choice(words: Mapping[str, Words], chosen: str) -> QComboBox:
-    """What the computer says, or one of these."""
-    box = QComboBox()
-    for value in (SYSTEM, *words):
-        box.addItem("", value)
-    box.setCurrentIndex(max(0, box.findData(chosen)))
-    return labelled_items(box, "Like the computer's", *words.values())
+def _languages() -> dict[str, str]:
+    return {SYSTEM: tr("Like the computer's"), **available_languages()}
+
+
+def _themes() -> dict[str, str]:
+    return {SYSTEM: tr("Like the computer's"), **{n: tr(load_theme(n).title) for n in themes()}}
 
 
 # Asks for the newest version in a thread of its own; the window never waits for the answer.

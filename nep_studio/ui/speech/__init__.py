@@ -110,4 +110,4 @@ class Sound(QObject):
 def sound_of(host: Host) -> Sound:
     """The one sound, made when it is first asked for."""
     settings, runner = host.services.settings, host.services.runner
-    return host.keep(Sound, lambda: Sound(runner, settings, runner))
+    return host.shared(Sound, lambda: Sound(runner, settings, runner))
