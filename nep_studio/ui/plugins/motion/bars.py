@@ -30,7 +30,8 @@ from robots.body.body import Body, posture_name
 from robots.errors import ActionFailed
 
 from .motion_controller import MotionController, Player
-from .timeline import Fault, Timeline
+from .rehearsal import Fault
+from .timeline import Timeline
 
 
 class Header(QWidget):

@@ -37,8 +37,7 @@ from robots.body.kinematics import Skeleton
 from robots.body.limbs import Limb
 
 from . import editing
-from .rehearsal import Rehearsal, TooFast, falling, given_time
-from .timeline import Fault, limb_words
+from .rehearsal import Fault, Rehearsal, TooFast, falling, given_time, limb_words
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor

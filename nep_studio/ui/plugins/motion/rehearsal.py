@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation
+from nep_studio.ui.words import tr
 from robots.body.body import Angles, Body, Posture
 from robots.body.keyframes import Track, ticks, track_angles
 from robots.body.kinematics import UPRIGHT, Skeleton, TorsoPose, pose_of
@@ -42,6 +44,26 @@ class TooFast:
     from_s: float
     to_s: float
     ratio: float
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Where on the timeline something is wrong, and what, in words."""
+
+    kind: Literal["fast", "fall"]
+    from_s: float
+    to_s: float
+    words: str
+
+
+LIMBS = (Limb.HEAD, Limb.LEFT_ARM, Limb.RIGHT_ARM, Limb.LEGS)
+"""In the order of their rows on the timeline."""
+
+
+def limb_words() -> dict[Limb, str]:
+    """What the limbs are called, in the order of the rows."""
+    words = (tr("Head"), tr("Left arm"), tr("Right arm"), tr("Legs"))
+    return dict(zip(LIMBS, words, strict=True))
 
 
 class Rehearsal:

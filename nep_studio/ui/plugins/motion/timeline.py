@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 from PySide6.QtCore import QEvent, QLineF, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
@@ -26,10 +25,10 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
-from robots.body.limbs import Limb
 
 from .editing import SAME_S, key_times
 from .motion_controller import MotionController
+from .rehearsal import LIMBS, Fault, limb_words
 
 # What keys and clicks on the timeline mean, apart from the widget.
 
@@ -311,25 +310,6 @@ class _Drag:
 
 
 # Paints the timeline of a motion.
-
-LIMBS = (Limb.HEAD, Limb.LEFT_ARM, Limb.RIGHT_ARM, Limb.LEGS)
-"""The rows."""
-
-
-@dataclass(frozen=True)
-class Fault:
-    """Where on the timeline something is wrong, and what, in words."""
-
-    kind: Literal["fast", "fall"]
-    from_s: float
-    to_s: float
-    words: str
-
-
-def limb_words() -> dict[Limb, str]:
-    """What the limbs are called, in the order of the rows."""
-    words = (tr("Head"), tr("Left arm"), tr("Right arm"), tr("Legs"))
-    return dict(zip(LIMBS, words, strict=True))
 
 
 class TimelinePainter:

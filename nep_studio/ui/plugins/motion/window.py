@@ -43,8 +43,9 @@ from .commands import Commands, ProjectCommands
 from .curve import CurvePanel
 from .editing import pose_at
 from .motion_controller import Faults, KeptMotions, MotionController, Player, joint_words
+from .rehearsal import limb_words
 from .stage import PosingStage, RobotPoses
-from .timeline import Timeline, limb_words
+from .timeline import Timeline
 
 if TYPE_CHECKING:
     from nep_studio.ui.host import Host
