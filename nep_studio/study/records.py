@@ -438,8 +438,7 @@ def _write(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -
     """Write beside the old file, then put the new one in its place in one step."""
     new = path.with_name(f".{path.name}.{os.getpid()}.new")
     try:
-        data = csv_text(columns, rows).encode("utf-8-sig", "replace")
-        new.write_bytes(data)
+        new.write_bytes(csv_text(columns, rows).encode("utf-8-sig", "replace"))
         os.replace(new, path)
     except OSError:
         with suppress(OSError):

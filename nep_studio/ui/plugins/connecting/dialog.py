@@ -363,8 +363,7 @@ class ConnectDialog(QDialog):
         form.addRow(label_of(tr("In this project it is"), self.robot), self.robot)
         self.test_button.setProperty("kind", "primary")
         self.test_button.setDefault(True)
-        row = in_row(self.test_button, 1)
-        form.addRow("", row)
+        form.addRow("", in_row(self.test_button, 1))
         return form
 
     def _connect(self) -> None:

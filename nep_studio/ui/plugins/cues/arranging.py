@@ -446,5 +446,4 @@ class ArrangeDialog(QDialog):
 
 
 def _button(words: str, icon_name: str, theme: Theme) -> QPushButton:
-    button = QPushButton(icon(icon_name, theme), words, autoDefault=False)
-    return button
+    return QPushButton(icon(icon_name, theme), words, autoDefault=False)

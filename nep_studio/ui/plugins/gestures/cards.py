@@ -180,7 +180,7 @@ class GestureCard(QFrame):
         self._is_current = self._is_target = self._is_recording = False
         self.title = QLineEdit(maxLength=60)
         self.count = QLabel()
-        self.record = labelled(QPushButton(), text="Record")
+        self.record = labelled(QPushButton(autoDefault=False), text="Record")
         self.chip = GestureChip(canvas)
         self.menu = QToolButton()
         self.takes = TakesList(controller, pictures)
@@ -189,7 +189,6 @@ class GestureCard(QFrame):
         line = self.fontMetrics().height()
         labelled(self.title, name="Name of the gesture")
         self.count.setProperty("role", "hint")
-        self.record.setAutoDefault(False)
         labelled(self.menu, tip="More", name="More")
         above = in_row((self.title, 1), self.count, self.menu)
         between = FlowLayout(gap=line // 3)

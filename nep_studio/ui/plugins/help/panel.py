@@ -223,8 +223,7 @@ class ToolRow(QWidget):
 
 
 def _button() -> QToolButton:
-    button = QToolButton(autoRaise=True)
-    return button
+    return QToolButton(autoRaise=True)
 
 
 # The pages that were read, to go back and forth between.

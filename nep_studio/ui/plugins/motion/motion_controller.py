@@ -235,8 +235,7 @@ class MotionController(QObject):
             return
         seconds = max(seconds, SHORTEST_STEP_S - self.chosen[0])
         moves = {time: editing.usable(time + seconds) for time in self.chosen}
-        motion = editing.moved(self.motion, moves)
-        self.do(label, motion, merge=merge)
+        self.do(label, editing.moved(self.motion, moves), merge=merge)
         self.choose(set(moves.values()))
 
     def shift_after(self, time: float, seconds: float, label: str, *, merge: str = "") -> None:

@@ -180,8 +180,7 @@ class DrivePad(QFrame):
         for key, (row, column) in keys.items():
             grid.addWidget(self._button(key), row, column)
         heading.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        box = in_column(heading, group)
-        return box
+        return in_column(heading, group)
 
     def _button(self, key: int) -> QPushButton:
         button = self.buttons[key] = QPushButton()

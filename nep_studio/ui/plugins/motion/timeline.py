@@ -394,8 +394,7 @@ class TimelinePainter:
             )
             if not times:
                 continue
-            colour = self.theme.colour("accent")
-            pale = QColor(colour)
+            pale = QColor(self.theme.colour("accent"))
             pale.setAlphaF(0.35)
             self.painter.setPen(QPen(pale, self.line * 0.12))
             middle = row.center().y()
@@ -407,8 +406,7 @@ class TimelinePainter:
     def _diamond(self, time: float, row: QRectF, size: float, is_chosen: bool) -> None:
         x, y = self.scale.x(time), row.center().y()
         around = [(0, -size), (size, 0), (0, size), (-size, 0)]
-        fill = self.theme.colour("accent" if is_chosen else "field")
-        self.painter.setBrush(fill)
+        self.painter.setBrush(self.theme.colour("accent" if is_chosen else "field"))
         self.painter.setPen(QPen(self.theme.colour("accent"), max(1.5, self.line / 9)))
         self.painter.drawPolygon(QPolygonF([QPointF(x + a, y + b) for a, b in around]))
         if is_chosen and size > self.line * 0.3:  # a dot too: not by its filling alone

@@ -494,8 +494,7 @@ class GraphView(QWidget):
     def _go(self, dx: int, dy: int) -> None:
         start = self.selected
         if start is None or start not in self.shapes.rects:
-            first = next(iter(self._graph.keys), None)
-            self.select(first)
+            self.select(next(iter(self._graph.keys), None))
             return
         following = self.shapes.next_to(start, dx, dy)
         if following is not None:

@@ -441,8 +441,7 @@ class QuestionnaireDialog(QDialog):
             "Say how much you agree with each sentence. Answer at once, do not think long. An item"
             " that you cannot answer may stay open. Keys: Tab to the next item, digits to answer."
         )
-        label = QLabel(words, wordWrap=True)
-        box.addWidget(label)
+        box.addWidget(QLabel(words, wordWrap=True))
         for row in self.rows:
             row.changed.connect(self._show_note)
             box.addWidget(row)
