@@ -24,6 +24,7 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, type_words
+from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
@@ -31,7 +32,7 @@ from nep_studio.ui.words import count_words, tr
 
 from .graph import Graph, Key, graph_of
 from .graph_view import ZOOM_STEP, GraphView
-from .topics import Talks, TopicPane
+from .topics import TopicPane
 
 Statuses = Callable[[], Mapping[str, NodeStatus]]
 
@@ -56,7 +57,7 @@ class NetworkPanel(InLines):
         self,
         feed: NetworkFeed,
         statuses: Statuses,
-        talks: Talks,
+        runner: Runner,
         look: Look,
         parent: QWidget | None = None,
     ) -> None:
@@ -64,7 +65,7 @@ class NetworkPanel(InLines):
         self._feed, self._statuses, self._look = feed, statuses, look
         self.graph = GraphView(look)
         self.list = NetworkList()
-        self.pane = TopicPane(talks, look)
+        self.pane = TopicPane(runner, look)
         self.pane.hide()
         self.empty = _Empty()
         self.summary = QLabel()

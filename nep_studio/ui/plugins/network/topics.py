@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import datetime
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import msgspec
 from PySide6.QtCore import (
@@ -40,7 +40,7 @@ from nep_core.wire.messages import BY_TOPIC
 from nep_studio.ui.labels import follow_words, labelled, labelled_items
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
-from nep_studio.ui.running.runner import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
@@ -258,27 +258,15 @@ SHOW_MS = 50
 """Twenty times a second is as fast as anybody can see."""
 
 
-class Talks(Protocol):
-    """Brings messages and sends them: a runner."""
-
-    def tap(
-        self, topic: str, *, kind: type[Any] | None = None, most: int = 2000, parent: Any
-    ) -> Tap:
-        """Hear a topic."""
-
-    def send(self, topic: str, message: msgspec.Struct | dict[str, Any]) -> bool:
-        """Send a message."""
-
-
 class TopicPane(QWidget):
     """Hears its topic while it is visible. ``plot_requested`` gives the topic and a field."""
 
     plot_requested = Signal(str, str)
     saving_failed = Signal(str, str)
 
-    def __init__(self, talks: Talks, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(self, runner: Runner, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._talks = talks
+        self._runner = runner
         self._tap: Tap | None = None
         self._is_paused = False
         self._seen: TopicSeen | None = None
@@ -296,7 +284,7 @@ class TopicPane(QWidget):
         self.full = QPlainTextEdit(readOnly=True)
         labelled(self.full, name="The message in full")
         self.full.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.send_box = SendBox(talks.send, look)
+        self.send_box = SendBox(runner.send, look)
         self._later = QTimer(self, singleShot=True, interval=SHOW_MS)
         self._later.timeout.connect(self._on_later)
         self._lay_out()
@@ -391,7 +379,7 @@ class TopicPane(QWidget):
     def _start(self) -> None:
         if self.topic and self._tap is None:
             kind = BY_TOPIC.get(self.topic)
-            self._tap = self._talks.tap(self.topic, kind=kind, parent=self)
+            self._tap = self._runner.tap(self.topic, kind=kind, parent=self)
             self._tap.arrived.connect(self._on_arrived)
 
     def _stop(self) -> None:
