@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 import pytest
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QTabWidget, QWidget
 
 from faults import text_of
-from nep_studio.ui.labels import follow_words, labelled, tell_again
+from nep_studio.ui.labels import follow_words, labelled, labelled_items, tell_again
 from nep_studio.ui.words import tr, use_language
 
 
@@ -42,6 +42,18 @@ def test_values_are_told_with_their_words(qtbot):
     speak("de")
 
     assert action.text() == tr("Opening “{name}”…", name="Dance") and "Dance" in action.text()
+
+
+def test_tabs_are_told_again(qtbot):
+    tabs = QTabWidget()
+    qtbot.addWidget(tabs)
+    for _ in range(2):
+        tabs.addTab(QWidget(), "")
+    labelled_items(tabs, "Run", "Stop")
+
+    speak("de")
+
+    assert [tabs.tabText(0), tabs.tabText(1)] == [tr("Run"), tr("Stop")] != ["Run", "Stop"]
 
 
 def test_the_newest_words_are_the_ones_that_follow(qtbot):

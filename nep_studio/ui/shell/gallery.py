@@ -39,7 +39,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import Flow, begin_where_reading_begins
+from nep_studio.ui.widgets.layouts import Flow, ReadingLabel
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 
 # How the gallery says what an example needs, how hard and how long it is, and what it is about.
@@ -335,10 +335,9 @@ class Card(QFrame):
 
 
 def _label(words: str, role: str) -> QLabel:
-    label = labelled(QLabel(), text=words)
+    label = labelled(ReadingLabel(), text=words)
     label.setWordWrap(True)
     label.setProperty("role", role)
-    begin_where_reading_begins(label)
     if role == "heading":
         font = QFont(label.font())
         font.setWeight(QFont.Weight.DemiBold)
@@ -551,7 +550,10 @@ class Gallery(QWidget):
 
     def _on_settled(self) -> None:
         """Paint the pictures that are smaller or larger than their cards once more."""
-        self._unpainted = [path for path, card in self._cards.items() if not card.is_painted()]
+        waiting = set(self._unpainted)
+        self._unpainted = [
+            path for path, card in self._cards.items() if path in waiting or not card.is_painted()
+        ]
         self._painting.start()
 
     def _on_paint_next(self) -> None:

@@ -21,7 +21,7 @@ from nep_studio.ui.document_files import Files
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
-from nep_studio.ui.widgets.layouts import Flow, begin_where_reading_begins
+from nep_studio.ui.widgets.layouts import Flow, ReadingLabel
 
 from .gallery import Card, Gallery
 
@@ -48,10 +48,9 @@ class TourOffer(QFrame):
         box.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
         words = QVBoxLayout()
         self.words = labelled(
-            QLabel(), text="New here? Five short steps show how a robot gets its behaviour."
+            ReadingLabel(), text="New here? Five short steps show how a robot gets its behaviour."
         )
         self.words.setWordWrap(True)
-        begin_where_reading_begins(self.words)
         words.addWidget(self.words)
         words.addLayout(self._answers(line))
         box.addLayout(words, 1)
@@ -152,17 +151,16 @@ class StartPage(QScrollArea):
         row.addWidget(sign)
         words = QVBoxLayout()
         words.setSpacing(line // 4)
-        title = QLabel("NEP Studio")
+        title = ReadingLabel("NEP Studio")
         title.setStyleSheet(f"font-size: {round(line * 1.7)}px; font-weight: 600;")
-        begin_where_reading_begins(title)
         words.addStretch(1)
         words.addWidget(title)
         about = labelled(
-            QLabel(), text="Give a social robot its behaviour with blocks, without programming."
+            ReadingLabel(),
+            text="Give a social robot its behaviour with blocks, without programming.",
         )
         about.setProperty("role", "hint")
         about.setWordWrap(True)
-        begin_where_reading_begins(about)
         words.addWidget(about)
         words.addStretch(1)
         row.addSpacing(line)
@@ -247,10 +245,9 @@ class StartPage(QScrollArea):
 
 
 def _heading(words: str, line: int) -> QLabel:
-    label = labelled(QLabel(), text=words)
+    label = labelled(ReadingLabel(), text=words)
     label.setProperty("role", "title")
     label.setContentsMargins(0, line // 2, 0, 0)
-    begin_where_reading_begins(label)
     return label
 
 

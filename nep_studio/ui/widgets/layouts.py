@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Generic, TypeVar
 
-from PySide6.QtCore import QPoint, QRect, QSize, Qt
+from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt
 from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
@@ -214,11 +214,24 @@ class Flow(QLayout):
         return y + row - room.y()
 
 
-def begin_where_reading_begins(label: QLabel) -> None:
-    """Let a label begin at its side of the window, whatever letters its words begin with."""
-    if label.layoutDirection() == Qt.LayoutDirection.RightToLeft:
-        side = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignAbsolute
-        label.setAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+class ReadingLabel(QLabel):
+    """Begins at its side of the window, whatever letters its words begin with."""
+
+    def __init__(self, words: str = "", parent: QWidget | None = None) -> None:
+        super().__init__(words, parent)
+        self._begin()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Go to the other side with the window."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.LayoutDirectionChange:
+            self._begin()
+
+    def _begin(self) -> None:
+        flags = Qt.AlignmentFlag
+        is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
+        side = flags.AlignRight | flags.AlignAbsolute if is_mirrored else flags.AlignLeft
+        self.setAlignment(side | flags.AlignVCenter)
 
 
 # Widgets beside each other, in as many rows as they need.

@@ -15,6 +15,7 @@ from shiboken6 import isValid
 from nep_studio import paths
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.widgets.layouts import ReadingLabel
 from nep_studio.ui.words import PSEUDO, tr
 from tests.ui.window.conftest import Chooser
 from tests.ui.window.putting_away import put_away
@@ -276,3 +277,27 @@ def test_the_panels_are_put_back_without_being_made_anew(karate: MainWindow) -> 
     assert not karate.workbench.helpers.palette.is_narrow
     assert [panel.widget for panel in panels.all] == widgets
     assert not karate.settings.is_chosen(code.name)
+
+
+def test_the_first_page_shows_its_examples_in_other_words(window: MainWindow, qtbot: QtBot) -> None:
+    cards = list(window.start_page.cards.values())
+    qtbot.waitUntil(lambda: all(card.is_painted() for card in cards))
+    window.start_page.verticalScrollBar().setValue(150)
+    before = [card.picture.pixmap().cacheKey() for card in cards]
+
+    window.studio.choose_language("ja")
+
+    qtbot.waitUntil(lambda: not set(before) & {card.picture.pixmap().cacheKey() for card in cards})
+    assert list(window.start_page.cards.values()) == cards
+    assert window.start_page.verticalScrollBar().value() == 150
+
+
+def test_headings_of_the_first_page_begin_where_reading_begins(window: MainWindow) -> None:
+    heading = window.start_page.cards[KARATE].findChild(ReadingLabel)
+
+    window.studio.choose_language(PSEUDO)
+    mirrored = heading.alignment()
+    window.studio.choose_language("en")
+
+    assert mirrored & Qt.AlignmentFlag.AlignRight and mirrored & Qt.AlignmentFlag.AlignAbsolute
+    assert heading.alignment() & Qt.AlignmentFlag.AlignLeft

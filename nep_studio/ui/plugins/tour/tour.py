@@ -11,7 +11,6 @@ from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
-    QLabel,
     QLineEdit,
     QPlainTextEdit,
     QPushButton,
@@ -27,7 +26,7 @@ from nep_studio.blocks.program import Block, Stack
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import begin_where_reading_begins, in_row
+from nep_studio.ui.widgets.layouts import ReadingLabel, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -239,7 +238,7 @@ class Bubble(QFrame):
         super().__init__(window)
         self.setProperty("kind", "card")
         self.setAutoFillBackground(True)
-        self._title, self._text = QLabel(), QLabel()
+        self._title, self._text = ReadingLabel(), ReadingLabel()
         self._dots = Dots(look, self)
         self.next_button, self.back_button = QPushButton(), QPushButton()
         self.leave_button = QPushButton()
@@ -266,8 +265,6 @@ class Bubble(QFrame):
         """Show a step, ``number`` of ``count`` from 0."""
         self._title.setText(step.title)
         self._text.setText(step.text)
-        for label in (self._title, self._text):
-            begin_where_reading_begins(label)
         self._dots.show_place(number, count)
         labelled(self.leave_button, text="End the tour")
         labelled(self.back_button, text="Back")
