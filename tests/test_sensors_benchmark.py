@@ -48,7 +48,7 @@ def test_curves_that_are_not_drawn_are_no_success(
 
     _sensors_child.check_curves(plots)
 
-    monkeypatch.setattr("nep_studio.ui.plugins.sensors.live_layer.lines", lambda *_: [])
+    monkeypatch.setattr("nep_studio.ui.plugins.sensors.curves_view.lines", lambda *_: [])
     plots.resize(900, 300)
     plots.draw()
     with pytest.raises(RuntimeError, match="is not drawn"):

@@ -73,7 +73,12 @@ def _parts(source: str) -> Iterator[list[str]]:
 def _part(lines: list[str], document: Document, inserts: dict[str, str]) -> str:
     first = lines[0]
     if heading := _HEADING.fullmatch(first):
-        return _heading(heading, document)
+        depth, words = len(heading[1]), heading[2]
+        if depth == 1:
+            document.title = words
+        anchor = heading[3] or f"part-{len(document.headings)}"
+        document.headings.append(Heading(depth, words, anchor))
+        return f'<h{depth}><a name="{anchor}"></a>{inline(words, document)}</h{depth}>'
     if comment := _COMMENT.fullmatch(first.strip()):
         document.about |= {key: value.strip() for key, value in _KEY.findall(comment[1])}
         return _part(lines[1:], document, inserts) if lines[1:] else ""
@@ -83,26 +88,7 @@ def _part(lines: list[str], document: Document, inserts: dict[str, str]) -> str:
         return inserts.get(first.strip("{}"), "")
     if first.startswith("|"):
         return _table(lines, document)
-    return _lists_and_text(lines, document)
-
-
-def code_html(code: str) -> str:
-    """Lines of code in a box; long ones are wrapped, and they are always read from the left."""
-    lines = f"<pre dir='ltr' align='left' style='white-space: pre-wrap'>{escape(code)}</pre>"
-    return f'<table class="code" width="100%" cellspacing="0"><tr><td>{lines}</td></tr></table>'
-
-
-def _heading(found: re.Match[str], document: Document) -> str:
-    depth, words = len(found[1]), found[2]
-    if depth == 1:
-        document.title = words
-    anchor = found[3] or f"part-{len(document.headings)}"
-    document.headings.append(Heading(depth, words, anchor))
-    return f'<h{depth}><a name="{anchor}"></a>{inline(words, document)}</h{depth}>'
-
-
-def _lists_and_text(lines: list[str], document: Document) -> str:
-    """Lines that begin like a list become one; the others are a paragraph."""
+    # Lines that begin like a list become one; the others are a paragraph
     made = []
     for kind, found in groupby(lines, _list_kind):
         told = list(found)
@@ -112,6 +98,12 @@ def _lists_and_text(lines: list[str], document: Document) -> str:
         items = (_item(line.split(" ", 1)[1], document) for line in told)
         made.append(f"<{kind}>{''.join(items)}</{kind}>")
     return "".join(made)
+
+
+def code_html(code: str) -> str:
+    """Lines of code in a box; long ones are wrapped, and they are always read from the left."""
+    lines = f"<pre dir='ltr' align='left' style='white-space: pre-wrap'>{escape(code)}</pre>"
+    return f'<table class="code" width="100%" cellspacing="0"><tr><td>{lines}</td></tr></table>'
 
 
 def _list_kind(line: str) -> str:

@@ -12,10 +12,8 @@ from nep_studio.blocks.files import load, to_bytes
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import paste
 from nep_studio.blocks.program import PAGES, Project
-from nep_studio.help import notation
 from nep_studio.help import texts as help_examples
-from nep_studio.help.notation import NotationError
-from nep_studio.help.texts import Example, example_of, examples
+from nep_studio.help.texts import Example, NotationError, example_of, examples
 from nep_studio.run.installation import studio_language
 
 LANGUAGE = studio_language()
@@ -126,7 +124,7 @@ def test_a_fault_in_an_example_is_named(program, why):
 
 
 def test_mouths_are_filled_in_the_order_of_the_lines():
-    written = notation.read(
+    written = help_examples.read(
         "control.if condition=(logic.truth truth=true)\n"
         '  robot.say text="a"\n'
         "  control.repeat times=2\n"

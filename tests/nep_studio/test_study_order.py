@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from nep_studio.study.sus import conditions_for, latin_square, next_code, participant_number
+from nep_studio.study.records import conditions_for, latin_square, next_code, participant_number
 
 
 @pytest.mark.parametrize("count", range(1, 9))

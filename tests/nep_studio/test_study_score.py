@@ -9,14 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.study.records import Reply, summarize
-from nep_studio.study.sus import (
+from nep_studio.study.records import (
     BROOKE,
     PAPER,
+    Reply,
     brooke_questionnaire,
     paper_questionnaire,
     questionnaire,
     score_of_means,
+    summarize,
     sus_score,
 )
 

@@ -15,8 +15,7 @@ from nep_studio import paths
 from nep_studio.blocks.language import Language
 from nep_studio.help.texts import help_folder
 from nep_studio.run.installation import studio_language
-from nep_studio.ui.plugins.help.pages import manifests, node_title
-from nep_studio.ui.plugins.help.repository import Book, Rows
+from nep_studio.ui.plugins.help.repository import Book, Rows, manifests, node_title
 from nep_studio.ui.theme.icons import APPLICATION_ICON, icon_path
 from nep_studio.ui.words import use_language
 

@@ -26,8 +26,7 @@ from nep_studio.help.texts import (
     split,
 )
 from nep_studio.ui.canvas.fields.editors import slot_name
-from nep_studio.ui.plugins.help.pages import DRAG, EXAMPLE, PICTURE, sample_clip, text_of
-from nep_studio.ui.plugins.help.repository import Book
+from nep_studio.ui.plugins.help.repository import DRAG, EXAMPLE, PICTURE, Book, sample_clip, text_of
 from nep_studio.ui.words import tr
 
 from .contents import DOCS

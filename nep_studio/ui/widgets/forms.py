@@ -21,6 +21,7 @@ from faults import Words
 from nep_studio.ui import labels
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 
 UNKNOWN = "…"
 """Stands where an address is not known."""
@@ -119,9 +120,7 @@ def card_around(label: QLabel, kind: str) -> QFrame:
     card = QFrame()
     card.setProperty("kind", kind)
     room = label.fontMetrics().height() // 2
-    box = QVBoxLayout(card)
-    box.setContentsMargins(room, room, room, room)
-    box.addWidget(label)
+    in_column(label, of=card, margins=room)
     return card
 
 

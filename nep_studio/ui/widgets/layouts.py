@@ -1,11 +1,12 @@
-"""A layout that flows like words in a text, from the side where reading begins."""
+"""Layouts: rows and columns in one call, widgets that flow like words, pages that scroll."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Generic, TypeVar
 
 from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QFrame,
@@ -18,6 +19,113 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
+
+Part = (
+    QWidget | QLayout | int | tuple[QWidget | QLayout, int] | tuple[QWidget, int, Qt.AlignmentFlag]
+)
+"""What stands in a row or column: a widget or layout, with its stretch and alignment where it has
+any; a number alone is room that stretches so much."""
+Margins = int | tuple[int, int, int, int]
+"""Pixels on all sides; or left, above, right and below."""
+
+
+def in_row(
+    *parts: Part,
+    of: QWidget | None = None,
+    margins: Margins | None = None,
+    spacing: int | None = None,
+) -> QHBoxLayout:
+    """Put parts beside each other; in the widget ``of`` they become its layout."""
+    row = QHBoxLayout()
+    _fill(row, parts, of, margins, spacing)
+    return row
+
+
+def in_column(
+    *parts: Part,
+    of: QWidget | None = None,
+    margins: Margins | None = None,
+    spacing: int | None = None,
+) -> QVBoxLayout:
+    """Put parts below each other; in the widget ``of`` they become its layout."""
+    column = QVBoxLayout()
+    _fill(column, parts, of, margins, spacing)
+    return column
+
+
+def _fill(
+    box: QBoxLayout,
+    parts: Sequence[Part],
+    of: QWidget | None,
+    margins: Margins | None,
+    spacing: int | None,
+) -> None:
+    if of is not None:
+        of.setLayout(box)
+    if margins is not None:
+        box.setContentsMargins(*((margins,) * 4 if isinstance(margins, int) else margins))
+    if spacing is not None:
+        box.setSpacing(spacing)
+    for part in parts:
+        match part:
+            case int():
+                box.addStretch(part)
+            case QWidget():
+                box.addWidget(part)
+            case QLayout():
+                box.addLayout(part)
+            case (QLayout() as inner, stretch):
+                box.addLayout(inner, stretch)
+            case (QWidget() as widget, stretch):
+                box.addWidget(widget, stretch)
+            case (widget, stretch, alignment):
+                box.addWidget(widget, stretch, alignment)
+
+
+class InLines(QWidget):
+    """A widget whose size is told in lines of text, as its width and its height."""
+
+    usual_lines: tuple[float, float]
+    least_lines: tuple[float, float] = (0, 0)
+    """Zeros where its layout knows better."""
+
+    def sizeHint(self) -> QSize:
+        """What it would like."""
+        return self._pixels(self.usual_lines)
+
+    def minimumSizeHint(self) -> QSize:
+        """Less is of no use."""
+        least = self.least_lines
+        return self._pixels(least) if any(least) else super().minimumSizeHint()
+
+    def _pixels(self, lines: tuple[float, float]) -> QSize:
+        line = self.fontMetrics().height()
+        return QSize(round(line * lines[0]), round(line * lines[1]))
+
+
+Page = TypeVar("Page", bound=QWidget)
+
+
+class LatePanel(InLines, Generic[Page]):
+    """Makes its page when it is shown for the first time: what draws it is slow to load."""
+
+    def __init__(self, make: Callable[[], Page]) -> None:
+        super().__init__()
+        self._make = make
+        self.page: Page | None = None
+        self._box = in_column(of=self, margins=0)
+
+    def opened(self) -> Page:
+        """What is in it; made now if it is not there yet."""
+        if self.page is None:
+            self.page = self._make()
+            self._box.addWidget(self.page)
+        return self.page
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Open it."""
+        self.opened()
+        super().showEvent(event)
 
 
 class Flow(QLayout):
@@ -212,18 +320,13 @@ class Halves(QWidget):
         self._box.setContentsMargins(0, 0, 0, 0)
         self.first, self.second = self._column(), self._column()
 
-    @property
-    def is_wide(self) -> bool:
-        """Whether they are beside each other."""
-        return self._box.direction() != QBoxLayout.Direction.TopToBottom
-
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Put them where there is room."""
         super().resizeEvent(event)
         line = self.fontMetrics().height()
         has_room = self.width() >= self._wide_lines * line
         down, beside = QBoxLayout.Direction.TopToBottom, QBoxLayout.Direction.LeftToRight
-        if has_room != self.is_wide:
+        if has_room != (self._box.direction() != QBoxLayout.Direction.TopToBottom):
             self._box.setDirection(beside if has_room else down)
             self._box.setSpacing(line if has_room else -1)
 
@@ -251,8 +354,7 @@ class Halves(QWidget):
 
 def scrolled(page: QWidget) -> QScrollArea:
     """Put a page into an area that scrolls up and down."""
-    area = QScrollArea()
-    area.setWidgetResizable(True)
+    area = QScrollArea(widgetResizable=True)
     area.setFrameShape(QFrame.Shape.NoFrame)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     area.setWidget(page)

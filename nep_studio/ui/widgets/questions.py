@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Literal
 
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtWidgets import QFileDialog, QFrame, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QFrame, QWidget
 
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.problems import Problem
@@ -15,6 +16,7 @@ from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
 from nep_studio.ui.canvas.fields.popup import Question
 from nep_studio.ui.messages import Message, Messages
 from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .forms import room_around
@@ -45,9 +47,7 @@ class Asking(QFrame):
             words, yes, answered=self._on_answered, refused=self._on_refused, name=name
         )
         self.reason = ReasonBubble(theme, self)
-        column = QVBoxLayout(self)
-        column.addWidget(self.question)
-        column.addWidget(self.reason)
+        in_column(self.question, self.reason, of=self)
         self.setMinimumWidth(self.fontMetrics().averageCharWidth() * 38)
 
     def show_at(self, place: QPoint) -> None:
@@ -73,7 +73,39 @@ class Asking(QFrame):
         self.close()
 
 
-# Asks where a text is to be kept, and tells when it cannot be.
+# Asks for files and folders, and where a text is to be kept; tells when it cannot be.
+
+
+def ask_for_path(
+    parent: QWidget,
+    title: str,
+    start: Path,
+    on_chosen: Callable[[Path], object],
+    mode: Literal["open", "save", "folder"] = "open",
+    kinds: Sequence[str] = (),
+) -> QFileDialog:
+    """Ask with the system's dialog for a file to open or to save, or for a folder.
+
+    ``start`` is the folder where one begins to look; of a file to save it is the suggestion.
+    ``kinds`` are such as "Recordings (*.csv)". Nothing is called when the person thinks better.
+    """
+    is_save = mode == "save"
+    dialog = QFileDialog(parent, title, str(start.parent if is_save else start))
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    if kinds:
+        dialog.setNameFilters(list(kinds))
+    if is_save:
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(start.suffix.removeprefix("."))
+        dialog.selectFile(start.name)
+    elif mode == "folder":
+        dialog.setFileMode(QFileDialog.FileMode.Directory)
+        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
+    else:
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+    dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
+    dialog.open()
+    return dialog
 
 
 def save_text(
@@ -84,20 +116,12 @@ def save_text(
     then: Callable[[Path], object] | None = None,
 ) -> QFileDialog:
     """Ask for a file, first called ``name``, and ``save`` it; ``then`` follows when it is there."""
-    dialog = QFileDialog(window, tr("Save as"), str(usual_folder("projects")))
-    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-    dialog.setDefaultSuffix(Path(name).suffix.removeprefix("."))
-    dialog.selectFile(name)
 
-    def on_chosen(chosen: str) -> None:
-        path = Path(chosen)
+    def on_chosen(path: Path) -> None:
         if _is_saved(messages, path, save) and then is not None:
             then(path)
 
-    dialog.fileSelected.connect(on_chosen)
-    dialog.open()
-    return dialog
+    return ask_for_path(window, tr("Save as"), usual_folder("projects") / name, on_chosen, "save")
 
 
 def _is_saved(messages: Messages, path: Path, save: Callable[[Path], object]) -> bool:

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QFileDialog, QPushButton
 
 from nep_studio.blocks.files import load, to_bytes
 from nep_studio.blocks.operations.finding import compare
-from nep_studio.ui.plugins.exporting.picture_dialog import PictureDialog
+from nep_studio.ui.plugins.exporting.picture import PictureDialog
 from tests.blocks.block_building import B
 from tests.ui.checklist.person import CTRL, LEFT, Key, Person, say, story
 

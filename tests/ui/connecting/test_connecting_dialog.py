@@ -13,8 +13,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 from zeroconf import ServiceInfo, Zeroconf
 
-from nep_studio.ui.plugins.connecting.dialog import ConnectDialog
-from nep_studio.ui.plugins.connecting.search import ADDRESS
+from nep_studio.ui.plugins.connecting.dialog import ADDRESS, ConnectDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.theme.look import Look

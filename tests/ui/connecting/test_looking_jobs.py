@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QCoreApplication
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.plugins.connecting.search import RobotTest
+from nep_studio.ui.plugins.connecting.dialog import RobotTest
 
 
 def test_a_test_tells_its_steps_and_its_end(qtbot: QtBot) -> None:

@@ -19,16 +19,16 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.files import load
 from nep_studio.blocks.program import Project
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.exporting.paper import (
+from nep_studio.ui.plugins.exporting.print_dialog import (
     SMALLEST_SCALE,
     USUAL_SCALE,
     BlocksSheet,
     CodeSheet,
+    ProgramPrintDialog,
     block_sheets,
     code_sheets,
     cut,
 )
-from nep_studio.ui.plugins.exporting.print_dialog import ProgramPrintDialog
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window

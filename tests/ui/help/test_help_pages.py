@@ -28,8 +28,7 @@ from nep_studio.help.texts import (
     split,
 )
 from nep_studio.run.installation import studio_language
-from nep_studio.ui.plugins.help.pages import EVERY_BLOCK
-from nep_studio.ui.plugins.help.repository import Book
+from nep_studio.ui.plugins.help.repository import EVERY_BLOCK, Book
 from nep_studio.ui.words import use_language
 
 LANGUAGE = studio_language()

@@ -15,8 +15,7 @@ from shiboken6 import isValid
 
 from nep_core.wire import messages as m
 from nep_studio.ui.plugins.motion import MotionKit
-from nep_studio.ui.plugins.motion.drive import STILL, Drive, Tilt, sum_of
-from nep_studio.ui.plugins.motion.gamepad import Gamepad, Sticks
+from nep_studio.ui.plugins.motion.drive import STILL, Drive, Gamepad, Sticks, Tilt, sum_of
 from nep_studio.ui.plugins.motion.teleoperation import TeleoperationWindow
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B

@@ -12,8 +12,7 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.project.triggers import kept_cues
 from nep_studio.ui.documents import Document
-from nep_studio.ui.plugins.cues.arranging import ArrangeDialog
-from nep_studio.ui.plugins.cues.board import COLOURS, columns_for, ink_on
+from nep_studio.ui.plugins.cues.arranging import COLOURS, ArrangeDialog, columns_for, ink_on
 from nep_studio.ui.plugins.cues.panel import CuePanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build

@@ -10,8 +10,8 @@ import pytest
 
 from nep_core.wire import messages as m
 from nep_studio.ui.node_style import ago_words, pretty, rate_words, short_rate
-from nep_studio.ui.plugins.network.saving import as_csv, as_json_lines, number_fields
 from nep_studio.ui.plugins.network.sending import EXAMPLES, NotAMessage, example_of, read_message
+from nep_studio.ui.plugins.network.topics import as_csv, as_json_lines, number_fields
 from nep_studio.ui.running.runner import Heard
 
 IMU = m.Imu(source="watch", rate_hz=50.0, t=[0.0, 0.1], acc=[(0.0, 1.0, 2.0), (3.0, 4.0, 5.0)])

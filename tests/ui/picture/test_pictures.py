@@ -25,6 +25,7 @@ from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.plugins.exporting.picture import (
     LARGEST_PIXELS,
+    PictureDialog,
     PictureOptions,
     copy_picture,
     fitting_scale,
@@ -34,7 +35,6 @@ from nep_studio.ui.plugins.exporting.picture import (
     svg_of,
     write_picture,
 )
-from nep_studio.ui.plugins.exporting.picture_dialog import PictureDialog
 from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build, karate
 

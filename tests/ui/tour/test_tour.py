@@ -13,8 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.wire.messages import ActionRequest
 from nep_studio.blocks.edits.project import RenameProject
-from nep_studio.ui.plugins.tour.steps import place_of, say_block
-from nep_studio.ui.plugins.tour.tour import Tour
+from nep_studio.ui.plugins.tour.tour import Tour, place_of, say_block
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import PSEUDO
 

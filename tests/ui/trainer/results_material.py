@@ -17,8 +17,7 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
-from nep_studio.ui.plugins.gestures.live import Samples
-from nep_studio.ui.plugins.gestures.packed_arrays import packed
+from nep_studio.ui.plugins.gestures.live import Samples, packed
 from nodes.perceptual.recognition.validation import CERTAINTIES
 from nodes.recordings import Recording
 from nodes.sensory.arm.people import simulate_session

@@ -16,8 +16,14 @@ from nep_studio.blocks.own_gestures import (
 )
 from nep_studio.blocks.program import PAGES
 from nep_studio.ui.plugins.gestures.gesture_controller import SILENT_S, GestureController
-from nep_studio.ui.plugins.gestures.live import KEPT_S, LiveStream, Samples
-from nep_studio.ui.plugins.gestures.packed_arrays import packed, thinned, unpacked
+from nep_studio.ui.plugins.gestures.live import (
+    KEPT_S,
+    LiveStream,
+    Samples,
+    packed,
+    thinned,
+    unpacked,
+)
 from nep_studio.ui.running.runner import Heard
 
 REST = np.tile([0.0, 0.0, 9.81], (100, 1))

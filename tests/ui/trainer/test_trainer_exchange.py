@@ -9,11 +9,16 @@ import pytest
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import Message
-from nep_studio.ui.plugins.gestures.exchange import add_imported, read_csv, write_csv
-from nep_studio.ui.plugins.gestures.exchange_mcap import read_mcap, write_mcap
+from nep_studio.ui.plugins.gestures.exchange import (
+    add_imported,
+    read_csv,
+    read_mcap,
+    write_csv,
+    write_mcap,
+)
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
+from nep_studio.ui.plugins.gestures.live import unpacked
 from nep_studio.ui.plugins.gestures.menus import Exchange
-from nep_studio.ui.plugins.gestures.packed_arrays import unpacked
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
 from nodes.recordings import read_recordings
 from tests.ui.trainer.test_gesture_controller import samples
@@ -224,7 +229,7 @@ def test_a_place_that_cannot_be_written_is_told(
 def test_a_huge_mcap_file_is_refused(
     tmp_path: Path, desk: GestureController, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("nep_studio.ui.plugins.gestures.exchange_mcap.LARGEST_BYTES", 10)
+    monkeypatch.setattr("nep_studio.ui.plugins.gestures.exchange.LARGEST_BYTES", 10)
     path = tmp_path / "huge.mcap"
     path.write_bytes(b"\0" * 11)
 

@@ -16,12 +16,10 @@ from nep_studio.help.texts import block_page
 from nep_studio.problems import Problem
 from nep_studio.run.controller import Ended
 from nep_studio.run.session import Ending
-from nep_studio.study.records import Reply, Sitting, StudyFolder
-from nep_studio.study.sus import BROOKE
+from nep_studio.study.records import BROOKE, Reply, Sitting, StudyFolder
 from nep_studio.ui.plugins.help.help_controller import HelpController
 from nep_studio.ui.plugins.study import StudySign
-from nep_studio.ui.plugins.study.form import QuestionnaireDialog
-from nep_studio.ui.plugins.study.results import ResultsDialog
+from nep_studio.ui.plugins.study.form import QuestionnaireDialog, ResultsDialog
 from nep_studio.ui.plugins.study.start import StartDialog, StudyRecorder
 from nep_studio.ui.shell.main_window import MainWindow
 

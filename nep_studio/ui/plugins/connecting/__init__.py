@@ -64,7 +64,14 @@ def open_connecting(host: Host, robot: str = "") -> ConnectDialog | None:
 def use_robot(host: Host, robot: str, address: str, login: SavedLogin | None) -> None:
     """Let a robot of the project be the real one at an address; one step of undo."""
     workbench = host.workbench
-    _keep_login(host, address, login)
+    try:
+        save_login(address, login)
+    except OSError as error:
+        sentence = tr("User and password could not be kept; the robot will ask for them again.")
+        steps = (tr("Is there room on the disk?"),)
+        host.services.messages.tell_problem(
+            Problem(tr("Not everything was kept"), sentence, steps, str(error))
+        )
     try:
         block = use_real_robot(workbench.canvas.editor, robot, address, tr("connect a robot"))
     except EditRefused as refusal:
@@ -74,17 +81,6 @@ def use_robot(host: Host, robot: str, address: str, login: SavedLogin | None) ->
     host.services.messages.confirm(
         tr("{robot} is now the real one at {address}", robot=robot, address=address)
     )
-
-
-def _keep_login(host: Host, address: str, login: SavedLogin | None) -> None:
-    try:
-        save_login(address, login)
-    except OSError as error:
-        sentence = tr("User and password could not be kept; the robot will ask for them again.")
-        steps = (tr("Is there room on the disk?"),)
-        host.services.messages.tell_problem(
-            Problem(tr("Not everything was kept"), sentence, steps, str(error))
-        )
 
 
 plugin = Plugin("connecting", make, order=140)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import logging
+import threading
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtGui import QCloseEvent, QHideEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -13,24 +16,167 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QProgressBar,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
 
+from nep_studio.ui.background import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import card_around, room_around
-from nep_studio.ui.words import tr
-
-from .search import FoundList, RobotTest
+from nep_studio.ui.widgets.forms import card_around, label_of, room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
+from nep_studio.ui.words import count_words, tr
 
 if TYPE_CHECKING:
+    from robots.naoqi.discovery import FoundRobot
     from robots.naoqi.probe import AboutRobot, Check
+
+# Looks for robots and tests the way to one, in threads of their own; news come as signals.
+
+log = logging.getLogger(__name__)
+
+
+class RobotSearch(Job):
+    """Robots that announce themselves in the network."""
+
+    found = Signal(str, str)
+    """The name and the address of a robot."""
+
+    def start(self, seconds: float, interfaces: Sequence[str] = ()) -> None:
+        """Listen for some seconds; ``interfaces`` as in ``find_robots``."""
+
+        def work(cancelled: threading.Event, tell: Tell) -> None:
+            from robots.naoqi.discovery import find_robots
+
+            find_robots(tell, cancelled, seconds=seconds, interfaces=interfaces)
+
+        self._start(work, self._tell_found)
+
+    def _tell_found(self, what: object) -> None:
+        robot = cast("FoundRobot", what)
+        self.found.emit(robot.name, robot.address)
+
+
+class RobotTest(Job):
+    """The steps on the way to a robot."""
+
+    checked = Signal(object)
+    """The Check of a step."""
+
+    def start(self, address: str, user: str, password: str, robot: str) -> None:
+        """Try every step; the login is used when there is a password."""
+
+        def work(cancelled: threading.Event, tell: Tell) -> None:
+            from robots.naoqi.probe import probe
+            from robots.naoqi.wire.line import Login
+
+            login = Login(user, password) if password else None
+            for check in probe(address, login, robot):
+                if cancelled.is_set():
+                    return
+                tell(check)
+
+        self._start(work, self.checked.emit)
+
+
+# The robots that were found in the network, with the search that finds them.
+
+SEARCH_S = 4.0
+ADDRESS = Qt.ItemDataRole.UserRole
+ROWS = 3
+
+
+class FoundList(QWidget):
+    """``chosen`` gives the address of the robot that a person picks."""
+
+    chosen = Signal(str)
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self.interfaces: tuple[str, ...] = ()
+        self.search = RobotSearch(self)
+        self.robots = QListWidget()
+        self.told = QLabel(wordWrap=True)
+        self.progress = QProgressBar(textVisible=False)
+        self.button = QPushButton()
+        line = self.fontMetrics().height()
+        self.robots.setAccessibleName(tr("Robots in this network"))
+        self.robots.setIconSize(QSize(round(line * 1.4), round(line * 1.4)))
+        self.robots.setFixedHeight(round(line * 1.9) * ROWS)
+        self.told.setProperty("role", "hint")
+        self.progress.setRange(0, 0)
+        self.progress.setAccessibleName(tr("Looking for robots…"))
+        foot = in_row((self.told, 1), self.button)
+        in_column(self.robots, self.progress, foot, of=self, margins=0, spacing=line // 3)
+        self.search.found.connect(self._on_found)
+        self.search.ended.connect(self._on_ended)
+        self.robots.currentItemChanged.connect(self._on_chosen)
+        self.robots.itemClicked.connect(self._on_chosen)
+        self.button.clicked.connect(self._on_pressed)
+
+    def start(self) -> None:
+        """Look for robots, for a few seconds."""
+        self.robots.clear()
+        self.told.setText(tr("Looking for robots…"))
+        self.button.setText(tr("Stop looking"))
+        self.progress.setVisible(True)
+        self.search.start(SEARCH_S, self.interfaces)
+
+    def stop(self) -> None:
+        """Look no longer."""
+        self.search.stop()
+        self._show_end("")
+
+    def _on_pressed(self) -> None:
+        if self.search.is_running:
+            self.stop()
+        else:
+            self.start()
+
+    def _on_found(self, name: str, address: str) -> None:
+        item = QListWidgetItem(icon("bot", self._look.theme), f"{name}   {address}")
+        item.setData(ADDRESS, address)
+        item.setToolTip(address)
+        self.robots.addItem(item)
+
+    def _on_ended(self, problem: str) -> None:
+        self.search.stop()
+        self._show_end(problem)
+
+    def _show_end(self, problem: str) -> None:
+        self.progress.setVisible(False)
+        self.button.setText(tr("Look again"))
+        self.told.setText(self._outcome(problem))
+
+    def _outcome(self, problem: str) -> str:
+        count = self.robots.count()
+        if count:
+            return count_words(count, "1 robot was found.", "{n} robots were found.")
+        if problem:
+            return tr(
+                "This computer cannot look for robots: it is in no network. Connect it to the"
+                " network of the robot."
+            )
+        return tr(
+            "No robot has announced itself. Press its chest button once: it says its address."
+            " Write it below."
+        )
+
+    def _on_chosen(self, item: QListWidgetItem | None) -> None:
+        if item is not None:
+            self.chosen.emit(item.data(ADDRESS))
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Nobody looks at what is found any more."""
+        super().hideEvent(event)
+        self.search.stop()
 
 
 # The steps of the way to a robot, each with a sign and a sentence that says how it went.
@@ -76,12 +222,8 @@ class StepsView(QFrame):
         self._signs: dict[str, QLabel] = {}
         self._words: dict[str, QLabel] = {}
         self.states: dict[str, str] = {}
-        self.advice = QLabel()
+        self.advice = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.advice_card = card_around(self.advice, "warning")
-        self._lay_out()
-        self.clear()
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
@@ -93,14 +235,9 @@ class StepsView(QFrame):
             grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(words, row, 1)
             self._signs[step], self._words[step] = sign, words
-        self.advice.setWordWrap(True)
-        self.advice.setTextFormat(Qt.TextFormat.PlainText)
         self.advice.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.setSpacing(line // 2)
-        box.addLayout(grid)
-        box.addWidget(self.advice_card)
+        in_column(grid, self.advice_card, of=self, margins=line // 2, spacing=line // 2)
+        self.clear()
 
     def clear(self) -> None:
         """No step has been tried."""
@@ -194,16 +331,14 @@ class ConnectDialog(QDialog):
         self.about.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         column.addWidget(self._about_card)
         column.addStretch(1)
-        self._area = area = QScrollArea()
-        area.setWidgetResizable(True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(page)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(area, 1)
-        box.addLayout(self._foot())
+        self._area = area = scrolled(page)
+        foot = in_row(1)
+        self.use_button.setProperty("kind", "primary")
+        for button in (self.close_button, self.use_button):
+            button.setAutoDefault(False)
+            foot.addWidget(button)
+        self.found.button.setAutoDefault(False)
+        in_column((area, 1), foot, of=self, margins=line, spacing=line // 2)
         room = room_around(self.parentWidget()).size()
         self.resize(min(line * 32, room.width()), min(line * 44, round(room.height() * 0.9)))
 
@@ -213,10 +348,10 @@ class ConnectDialog(QDialog):
         form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
         self.address.setPlaceholderText("192.168.1.10")
         self.password.setEchoMode(QLineEdit.EchoMode.Password)
-        form.addRow(_label(tr("Address"), self.address), self.address)
+        form.addRow(label_of(tr("Address"), self.address), self.address)
         form.addRow("", self.asks_password)
-        self._user_label = _label(tr("User"), self.user)
-        self._password_label = _label(tr("Password"), self.password)
+        self._user_label = label_of(tr("User"), self.user)
+        self._password_label = label_of(tr("Password"), self.password)
         form.addRow(self._user_label, self.user)
         form.addRow(self._password_label, self.password)
         self._kept = QLabel(
@@ -225,24 +360,11 @@ class ConnectDialog(QDialog):
         self._kept.setWordWrap(True)
         self._kept.setProperty("role", "hint")
         form.addRow("", self._kept)
-        form.addRow(_label(tr("In this project it is"), self.robot), self.robot)
+        form.addRow(label_of(tr("In this project it is"), self.robot), self.robot)
         self.test_button.setProperty("kind", "primary")
         self.test_button.setDefault(True)
-        row = QHBoxLayout()
-        row.addWidget(self.test_button)
-        row.addStretch(1)
-        form.addRow("", row)
+        form.addRow("", in_row(self.test_button, 1))
         return form
-
-    def _foot(self) -> QHBoxLayout:
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        self.use_button.setProperty("kind", "primary")
-        for button in (self.close_button, self.use_button):
-            button.setAutoDefault(False)
-            foot.addWidget(button)
-        self.found.button.setAutoDefault(False)
-        return foot
 
     def _connect(self) -> None:
         self.found.chosen.connect(self._on_chosen)
@@ -356,11 +478,4 @@ def about_words(about: AboutRobot) -> str:
 def _heading(words: str) -> QLabel:
     label = QLabel(words)
     label.setProperty("role", "heading")
-    return label
-
-
-def _label(words: str, buddy: QWidget) -> QLabel:
-    label = QLabel(words)
-    label.setBuddy(buddy)
-    buddy.setAccessibleName(words)
     return label

@@ -2,31 +2,292 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 import msgspec
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QPixmap
+from PySide6.QtCore import QEvent, QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QKeyEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+)
 from PySide6.QtWidgets import (
+    QAbstractButton,
     QCheckBox,
     QComboBox,
     QDialog,
     QFormLayout,
-    QHBoxLayout,
+    QGridLayout,
     QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
     QPushButton,
-    QVBoxLayout,
+    QSizePolicy,
     QWidget,
 )
 
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.project.triggers import KEYS, Cue, own_cue
+from nep_studio.project.triggers import KEYS, SOURCE, Cue, CueKind, own_cue
+from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
-from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.icons import icon, paint_icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
-from .board import COLOURS, ICONS, colour_words, cue_words
+# The buttons of the cues: as large as a hand finds without looking, as many in a row as fit.
+
+# How cues look: their words, their icons, their colours.
+
+ICONS: dict[CueKind, str] = {
+    "state": "flag",
+    "word": "ear",
+    "gesture": "watch",
+    "touch": "hand",
+    "sight": "eye",
+    "emotion": "user",
+    "person": "users",
+}
+
+COLOURS = ("", "#1f6f78", "#3b6fc9", "#7a4fb5", "#a33b5e", "#b3541e", "#8a6d00", "#2a6b3c")
+"""What a person can choose; "" is the theme's own."""
+
+
+def colour_words(colour: str) -> str:
+    """What a colour is called."""
+    words = (
+        tr("Usual colour"),
+        tr("Teal"),
+        tr("Blue"),
+        tr("Purple"),
+        tr("Raspberry"),
+        tr("Orange"),
+        tr("Gold"),
+        tr("Green"),
+    )
+    return dict(zip(COLOURS, words, strict=True)).get(colour, colour)
+
+
+def cue_words(cue: Cue) -> str:
+    """What a button says: what a person called it, else what it tells of."""
+    if cue.label:
+        return cue.label
+    words = _words(cue)
+    return words if cue.source == SOURCE else f"{words} ({cue.source})"
+
+
+def _words(cue: Cue) -> str:
+    about = cue.words or cue.state.replace("_", " ")
+    match cue.kind:
+        case "word":
+            return f"“{about}”"
+        case "touch":
+            return tr("Touch {part}", part=about)
+        case "sight":
+            return tr("Sees {thing}", thing=about)
+        case "emotion":
+            return tr("Looks {emotion}", emotion=about)
+        case "person":
+            return tr("Somebody is {distance}", distance=about)
+    return about[:1].upper() + about[1:]
+
+
+def ink_on(colour: QColor) -> QColor:
+    """Black or white, whichever is read better on a colour."""
+    red, green, blue = colour.redF(), colour.greenF(), colour.blueF()
+    light = sum(w * _linear(c) for w, c in ((0.2126, red), (0.7152, green), (0.0722, blue)))
+    return QColor("black") if (light + 0.05) ** 2 > 1.05 * 0.05 else QColor("white")
+
+
+def _linear(channel: float) -> float:
+    return channel / 12.92 if channel <= 0.03928 else float(((channel + 0.055) / 1.055) ** 2.4)
+
+
+FLASH_MS = 350
+WIDTH_LINES, HEIGHT_LINES = 8.5, 4.2
+
+
+class CueButton(QAbstractButton):
+    """One cue: icon, words, key; it lights up for a moment when it was sent."""
+
+    def __init__(self, cue: Cue, look: Look, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.cue, self._look = cue, look
+        self.is_heard = True
+        self._flash = QTimer(self, singleShot=True, interval=FLASH_MS)
+        self._flash.timeout.connect(self.update)
+        self.setToolTip(cue.state)
+        follow_words(self, self._say)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+
+    def _say(self) -> None:
+        self.setText(cue_words(self.cue))
+        keys = tr("key {key}", key=self.cue.key) if self.cue.key else ""
+        self.setAccessibleName(", ".join(filter(None, (self.text(), keys))))
+
+    def flash(self) -> None:
+        """Show that it was sent."""
+        self._flash.start()
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """Large enough for a finger."""
+        line = self.fontMetrics().height()
+        return QSize(round(line * WIDTH_LINES), round(line * HEIGHT_LINES))
+
+    def minimumSizeHint(self) -> QSize:
+        """Not smaller than that."""
+        return self.sizeHint()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the button."""
+        theme, line = self._look.theme, self.fontMetrics().height()
+        fill = QColor(self.cue.colour) if self.cue.colour else theme.colour("accent")
+        if self._flash.isActive():
+            fill = theme.colour("glow")
+        elif not self.is_heard:
+            fill = theme.colour("panel_alt")
+        elif self.isDown() or self.underMouse():
+            fill = fill.lighter(115) if fill.lightnessF() < 0.5 else fill.darker(110)
+        ink = ink_on(fill)
+        ring = max(2, line // 7)
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            edge = theme.colour("focus") if self.hasFocus() else theme.colour("field_line")
+            painter.setPen(QPen(edge, ring if self.hasFocus() else max(1, ring // 2)))
+            painter.setBrush(fill)
+            half = ring / 2
+            box = self.rect().toRectF().adjusted(half, half, -half, -half)
+            painter.drawRoundedRect(box, line * 0.45, line * 0.45)
+            self._paint_words(painter, ink, line)
+
+    def _paint_words(self, painter: QPainter, ink: QColor, line: int) -> None:
+        gap = line // 2
+        is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
+        start = self.width() - gap - line if is_mirrored else gap
+        end = gap if is_mirrored else self.width() - gap - line
+        place = QRect(start, gap, line, line).toRectF()
+        paint_icon(painter, place, ICONS[self.cue.kind], ink)
+        painter.setPen(ink)
+        if self.cue.key:
+            key = QRect(end, gap, line, line)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRoundedRect(key.toRectF(), gap / 2, gap / 2)
+            painter.drawText(key, Qt.AlignmentFlag.AlignCenter, self.cue.key)
+        room = self.rect().adjusted(gap, gap + line, -gap, -gap // 2)
+        flags = Qt.TextFlag.TextWordWrap.value | Qt.AlignmentFlag.AlignCenter.value
+        painter.setFont(_fitting(self.text(), room, self.font(), flags))
+        painter.drawText(room, flags, self.text())
+
+
+def _fitting(text: str, room: QRect, font: QFont, flags: int) -> QFont:
+    """The font, up to half as large again, as large as the words still fit."""
+    for percent in (150, 130, 115, 100, 85, 70):
+        sized = QFont(font)
+        sized.setPointSizeF(font.pointSizeF() * percent / 100)
+        sized.setWeight(QFont.Weight.DemiBold)
+        needed = QFontMetrics(sized).boundingRect(room, flags, text)
+        if needed.width() <= room.width() and needed.height() <= room.height():
+            break
+    return sized
+
+
+class CueBoard(QWidget):
+    """All buttons. ``chosen`` gives the cue that was pressed; keys 1 to 9 press theirs."""
+
+    chosen = Signal(object)
+    change_asked = Signal(object)
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self._is_heard = True
+        self.buttons: list[CueButton] = []
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        labelled(self, name="Cues")
+        look.theme_changed.connect(self.update)
+
+    def show_cues(self, cues: Iterable[Cue]) -> None:
+        """Show these, those that are hidden left out."""
+        shown = [cue for cue in cues if not cue.is_hidden]
+        if shown == [button.cue for button in self.buttons]:
+            return
+        focused = next((b.cue.id for b in self.buttons if b.hasFocus()), None)
+        for button in self.buttons:
+            self._grid.removeWidget(button)
+            button.hide()
+            button.deleteLater()
+        self.buttons = [self._button(cue) for cue in shown]
+        self._arrange()
+        for button in self.buttons:
+            button.show()
+            if button.cue.id == focused:
+                button.setFocus()
+
+    def set_heard(self, is_heard: bool) -> None:
+        """Show whether somebody would hear."""
+        self._is_heard = is_heard
+        for button in self.buttons:
+            button.is_heard = is_heard
+            button.update()
+
+    def flash(self, cue: Cue) -> None:
+        """Show that a cue was sent."""
+        for button in self.buttons:
+            if button.cue.id == cue.id:
+                button.flash()
+
+    def press(self, key: str) -> bool:
+        """Press the button of a key; whether there is one."""
+        for button in self.buttons:
+            if key and button.cue.key == key:
+                button.click()
+                return True
+        return False
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Keys press buttons, arrows go from one to the next."""
+        if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier or not self.press(event.text()):
+            super().keyPressEvent(event)
+
+    def resizeEvent(self, event: QEvent) -> None:
+        """As many in a row as fit."""
+        self._arrange()
+
+    def _button(self, cue: Cue) -> CueButton:
+        button = CueButton(cue, self._look, self)
+        button.is_heard = self._is_heard
+        button.clicked.connect(lambda: self.chosen.emit(cue))
+        button.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        button.customContextMenuRequested.connect(lambda: self.change_asked.emit(cue))
+        return button
+
+    def _arrange(self) -> None:
+        columns = columns_for(self.buttons, self.width(), self._grid.horizontalSpacing())
+        for number, button in enumerate(self.buttons):
+            self._grid.addWidget(button, *divmod(number, columns))  # moves one that is there
+        for column in range(self._grid.columnCount()):
+            self._grid.setColumnStretch(column, 1 if column < columns else 0)
+
+
+def columns_for(buttons: Sequence[QWidget], width: int, gap: int) -> int:
+    """How many columns there is room for."""
+    if not buttons:
+        return 1
+    one = buttons[0].sizeHint().width() + max(gap, 0)
+    return max(1, min(len(buttons), (width + max(gap, 0)) // one))
+
+
+# The dialog in which an operator arranges the cues: order, words, colours, keys, own ones.
 
 
 class ArrangeDialog(QDialog):
@@ -51,12 +312,18 @@ class ArrangeDialog(QDialog):
         self.own = QLineEdit()
         self.add_state_button = _button(tr("Add a state"), "flag", theme)
         self.add_word_button = _button(tr("Add words"), "ear", theme)
-        self.why_not = QLabel()
+        self.why_not = QLabel(wordWrap=True)
         self.why_not.setProperty("role", "hint")
-        self.why_not.setWordWrap(True)
         self.done_button = QPushButton(tr("Done"))
         self.cancel_button = QPushButton(tr("Cancel"))
-        self._fill_choices()
+        side = self.fontMetrics().height()
+        for colour in COLOURS:
+            picture = QPixmap(side, side)
+            picture.fill(QColor(colour) if colour else self._theme.colour("accent"))
+            self.colour.addItem(picture, colour_words(colour), colour)
+        self.key.addItem(tr("None"), "")
+        for key in KEYS:
+            self.key.addItem(key, key)
         self._lay_out()
         self._connect()
         self._show(0)
@@ -66,48 +333,22 @@ class ArrangeDialog(QDialog):
         found = next((n for n, one in enumerate(self.cues) if one.id == cue.id), 0)
         self.list.setCurrentRow(found)
 
-    def _fill_choices(self) -> None:
-        side = self.fontMetrics().height()
-        for colour in COLOURS:
-            picture = QPixmap(side, side)
-            picture.fill(QColor(colour) if colour else self._theme.colour("accent"))
-            self.colour.addItem(picture, colour_words(colour), colour)
-        self.key.addItem(tr("None"), "")
-        for key in KEYS:
-            self.key.addItem(key, key)
-
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.own.setPlaceholderText(tr("Name of a state, or words that somebody says"))
         self.own.setAccessibleName(self.own.placeholderText())
         self.label.setPlaceholderText(tr("As it is"))
-        order = QVBoxLayout()
-        for button in (self.up_button, self.down_button, self.remove_button):
-            order.addWidget(button)
-        order.addStretch(1)
-        top = QHBoxLayout()
-        top.addWidget(self.list, 1)
-        top.addLayout(order)
+        order = in_column(self.up_button, self.down_button, self.remove_button, 1)
+        top = in_row((self.list, 1), order)
         form = QFormLayout()
         form.addRow(tr("Words"), self.label)
         form.addRow(tr("Colour"), self.colour)
         form.addRow(tr("Key"), self.key)
         form.addRow("", self.is_shown)
-        new = QHBoxLayout()
-        new.addWidget(self.own, 1)
-        new.addWidget(self.add_state_button)
-        new.addWidget(self.add_word_button)
-        end = QHBoxLayout()
-        end.addStretch(1)
-        end.addWidget(self.cancel_button)
-        end.addWidget(self.done_button)
+        new = in_row((self.own, 1), self.add_state_button, self.add_word_button)
+        end = in_row(1, self.cancel_button, self.done_button)
         self.done_button.setDefault(True)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        for part in (top, form, new):
-            box.addLayout(part)
-        box.addWidget(self.why_not)
-        box.addLayout(end)
+        in_column(top, form, new, self.why_not, end, of=self, margins=line)
         self.resize(line * 30, line * 30)
 
     def _connect(self) -> None:
@@ -205,6 +446,4 @@ class ArrangeDialog(QDialog):
 
 
 def _button(words: str, icon_name: str, theme: Theme) -> QPushButton:
-    button = QPushButton(icon(icon_name, theme), words)
-    button.setAutoDefault(False)
-    return button
+    return QPushButton(icon(icon_name, theme), words, autoDefault=False)

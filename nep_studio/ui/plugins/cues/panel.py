@@ -12,7 +12,6 @@ from PySide6.QtCore import QDateTime, QLocale, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListWidget,
@@ -20,7 +19,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QScrollArea,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -35,10 +33,10 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
-from .arranging import ArrangeDialog
-from .board import CueBoard, cue_words
+from .arranging import ArrangeDialog, CueBoard, cue_words
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -150,11 +148,7 @@ class CuePanel(QWidget):
     """Buttons, a line for words, and what was sent when. With ``is_large`` it is for a show."""
 
     def __init__(
-        self,
-        host: Host,
-        *,
-        is_large: bool = False,
-        parent: QWidget | None = None,
+        self, host: Host, *, is_large: bool = False, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
         self._look: Look = host.services.look
@@ -167,8 +161,7 @@ class CuePanel(QWidget):
         )
         self.empty.setProperty("role", "hint")
         self.empty.setWordWrap(True)
-        self.why_not = QLabel()
-        self.why_not.setWordWrap(True)
+        self.why_not = QLabel(wordWrap=True)
         self.run_button = labelled(QPushButton(), text="Run")
         self.run_button.setProperty("kind", "run")
         self.words = QLineEdit()
@@ -220,39 +213,24 @@ class CuePanel(QWidget):
 
     def _lay_out(self, is_large: bool) -> None:
         line = self.fontMetrics().height()
-        state = QHBoxLayout()
-        state.addWidget(self.why_not, 1)
-        state.addWidget(self.run_button)
-        area = QScrollArea()
-        area.setWidgetResizable(True)
+        state = in_row((self.why_not, 1), self.run_button)
+        area = QScrollArea(widgetResizable=True)
         area.setFrameShape(QFrame.Shape.NoFrame)
         area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         area.setWidget(self.board)
-        say = QHBoxLayout()
-        say.addWidget(self.words, 1)
-        say.addWidget(self.say_button)
-        others = QHBoxLayout()
-        others.addWidget(self.movements)
-        others.addStretch(1)
+        say = in_row((self.words, 1), self.say_button)
+        others = in_row(self.movements, 1)
         if not is_large:
             others.addWidget(self.arrange_button)
         upper = QWidget()
-        column = QVBoxLayout(upper)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(state)
-        column.addWidget(self.empty)
-        column.addWidget(area, 1)
-        column.addLayout(say)
-        column.addLayout(others)
+        in_column(state, self.empty, (area, 1), say, others, of=upper, margins=0)
         split = QSplitter(Qt.Orientation.Horizontal if is_large else Qt.Orientation.Vertical)
         split.setChildrenCollapsible(False)
         split.addWidget(upper)
         split.addWidget(self.log)
         split.setStretchFactor(0, 4)
         split.setStretchFactor(1, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.addWidget(split)
+        in_column(split, of=self, margins=line // 2)
 
     def _connect(self) -> None:
         self.cues.changed.connect(self.refresh)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtGui import QGuiApplication, QKeySequence
-from PySide6.QtWidgets import QFileDialog
 
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
@@ -13,6 +13,7 @@ from nep_studio.run.python_file import SUFFIX, python_file, write_kept
 from nep_studio.ui.documents import Document
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.messages import Message
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import tr
 
 # Save the Python of the open project as a file, and copy it.
@@ -24,13 +25,10 @@ def choose_python_file(host: Host) -> None:
     if document is None or python_text(host, document, "") is None:
         return
     folder = document.folder if document.path is not None else host.services.settings.last_folder
-    dialog = QFileDialog(host.widget, tr("Save the Python as"), str(folder))
-    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-    dialog.setNameFilters([tr("Python programs (*.py)"), tr("All files (*)")])
-    dialog.setDefaultSuffix(SUFFIX.removeprefix("."))
-    dialog.selectFile(_file_name(document))
-    dialog.fileSelected.connect(lambda name: save_python(host, Path(name)))
-    dialog.open()
+    kinds = (tr("Python programs (*.py)"), tr("All files (*)"))
+    suggested, title = folder / _file_name(document), tr("Save the Python as")
+    save = partial(save_python, host)
+    ask_for_path(host.widget, title, suggested, save, "save", kinds)
 
 
 def save_python(host: Host, path: Path) -> bool:
@@ -128,7 +126,7 @@ def make(host: Host) -> Parts:
 
 def export_picture(host: Host) -> None:
     """Ask for a picture of the blocks."""
-    from .picture_dialog import PictureDialog
+    from .picture import PictureDialog
 
     document = host.services.document
     if document is not None:

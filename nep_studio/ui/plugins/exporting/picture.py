@@ -7,7 +7,7 @@ import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Literal, cast
 
 from PySide6.QtCore import (
     QBuffer,
@@ -22,18 +22,31 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QFont, QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter
 from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QPushButton,
+    QWidget,
+)
 
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.operations.copying import copy, to_text
 from nep_studio.blocks.operations.selection import members, runs
 from nep_studio.project import picture_files
+from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
 from nep_studio.ui.canvas.layout.page import PageLayout, boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.pages_bar import page_title
 
@@ -127,7 +140,15 @@ def paint_scene(painter: QPainter, scene: Scene, canvas: CanvasHost, scale: floa
     y = scene.margin
     for part in scene.parts:
         if part.title:
-            _paint_title(painter, part.title, QPointF(scene.margin, y), scene, canvas)
+            title = part.title
+            at = QPointF(scene.margin, y)
+            font = QFont(canvas.look.block_font)
+            font.setPointSizeF(font.pointSizeF() * 1.3)
+            font.setBold(True)
+            painter.setFont(font)
+            painter.setPen(canvas.look.theme.colour("text"))
+            row = QRectF(at.x(), at.y(), scene.width - 2 * scene.margin, scene.title_height)
+            painter.drawText(row, title)
             y += scene.title_height
         left = scene.margin
         if canvas.look.measures.is_mirrored:
@@ -137,18 +158,6 @@ def paint_scene(painter: QPainter, scene: Scene, canvas: CanvasHost, scale: floa
             blocks.paint(painter, boxes_of(chain, part.bounds), max(scale, 1.0))
         painter.translate(part.bounds.x - left, part.bounds.y - y)
         y += part.bounds.height + scene.margin
-
-
-def _paint_title(
-    painter: QPainter, title: str, at: QPointF, scene: Scene, canvas: CanvasHost
-) -> None:
-    font = QFont(canvas.look.block_font)
-    font.setPointSizeF(font.pointSizeF() * 1.3)
-    font.setBold(True)
-    painter.setFont(font)
-    painter.setPen(canvas.look.theme.colour("text"))
-    row = QRectF(at.x(), at.y(), scene.width - 2 * scene.margin, scene.title_height)
-    painter.drawText(row, title)
 
 
 def _selected(canvas: CanvasHost) -> list[Chain]:
@@ -340,3 +349,105 @@ def _paint(
         whole = QRectF(0, 0, scene.width, scene.height)
         painter.fillRect(whole, canvas.look.theme.colour("canvas"))
     paint_scene(painter, scene, canvas, scale)
+
+
+# The dialog that saves or copies a picture of a program.
+
+
+class PictureDialog(QDialog):
+    """Asks what is to be in the picture and how large it is.
+
+    ``folder`` and ``name`` are where the file dialog begins.
+    """
+
+    def __init__(
+        self, canvas: CanvasHost, folder: Path, name: str, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent or canvas.area.window())
+        self._canvas, self._folder, self._name = canvas, folder, name
+        self.setWindowTitle(tr("Picture of the blocks"))
+        self.what = QComboBox(self)
+        self.what.addItem(tr("This page"), "page")
+        self.what.addItem(tr("All pages"), "pages")
+        if canvas.selection.ids:
+            self.what.addItem(tr("The selected blocks"), "selection")
+        self.format = QComboBox(self)
+        for kind, label in (
+            ("png", tr("PNG, for documents and web pages")),
+            ("svg", tr("SVG, sharp at any size")),
+            ("pdf", tr("PDF, to print")),
+        ):
+            self.format.addItem(label, kind)
+        self.scale = QDoubleSpinBox(self, singleStep=0.5, decimals=1)
+        self.scale.setRange(*SCALES)
+        self.scale.setValue(2.0)
+        self.transparent = QCheckBox(tr("Nothing behind the blocks (transparent)"), self)
+        self.program = QCheckBox(tr("With the program inside: the picture can be opened"), self)
+        self.program.setChecked(True)
+        self.reason = ReasonBubble(canvas.look.theme, self)
+        self.format.currentIndexChanged.connect(self._on_format_changed)
+        self._arrange()
+
+    @property
+    def options(self) -> PictureOptions:
+        """What was chosen."""
+        return PictureOptions(
+            cast(What, self.what.currentData()),
+            self.scale.value(),
+            self.transparent.isChecked(),
+            has_program=self.program.isChecked(),
+        )
+
+    @property
+    def kind(self) -> Format:
+        """The kind of file that was chosen."""
+        return cast(Format, self.format.currentData())
+
+    def save(self, path: Path) -> bool:
+        """Write the picture; says why not when that fails."""
+        if not path.suffix:
+            path = path.with_suffix(f".{self.kind}")
+        try:
+            write_picture(self._canvas, path, self.kind, self.options)
+        except EditRefused as refusal:
+            self.reason.tell(refusal.sentence)
+            return False
+        return True
+
+    def _arrange(self) -> None:
+        form = QFormLayout()
+        form.addRow(tr("What"), self.what)
+        form.addRow(tr("File"), self.format)
+        form.addRow(tr("Size"), self.scale)
+        form.addRow("", self.transparent)
+        form.addRow("", self.program)
+        standard = QDialogButtonBox.StandardButton
+        buttons = QDialogButtonBox(standard.Save | standard.Cancel)
+        buttons.button(standard.Save).setText(tr("Save…"))
+        buttons.button(standard.Cancel).setText(tr("Cancel"))
+        copying = QPushButton(tr("Copy picture"), autoDefault=False)
+        copying.clicked.connect(self._on_copied)
+        buttons.addButton(copying, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons.accepted.connect(self._on_save)
+        buttons.rejected.connect(self.reject)
+        in_column(form, self.reason, 1, buttons, of=self)
+
+    def _on_format_changed(self) -> None:
+        self.scale.setEnabled(self.kind == "png")
+        self.program.setEnabled(self.kind != "pdf")
+
+    def _on_save(self) -> None:
+        start = str(self._folder / f"{self._name}.{self.kind}")
+        name, _filter = QFileDialog.getSaveFileName(
+            self, tr("Save the picture"), start, f"{self.kind.upper()} (*.{self.kind})"
+        )
+        if name and self.save(Path(name)):
+            self.accept()
+
+    def _on_copied(self) -> None:
+        try:
+            copy_picture(self._canvas, self.options)
+        except EditRefused as refusal:
+            self.reason.tell(refusal.sentence)
+            return
+        self.accept()

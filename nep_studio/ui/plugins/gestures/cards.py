@@ -18,7 +18,6 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import (
     QAbstractButton,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -36,7 +35,7 @@ from nep_studio.blocks.program import PAGES
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_row
 from nep_studio.ui.words import count_words, tr
 from nep_studio.ui.workbench.placing import insert_clip
 
@@ -97,10 +96,6 @@ class GestureChip(QAbstractButton):
             place = event.globalPosition().toPoint()
             self._canvas.begin_external_drag(self.clip(), place, self)
         super().mousePressEvent(event)
-
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """A click adds the block."""
-        super().mouseReleaseEvent(event)
 
     def sizeHint(self) -> QSize:
         """Room for its words; long names are cut."""
@@ -183,29 +178,19 @@ class GestureCard(QFrame):
         super().__init__()
         self.name, self._controller = name, controller
         self._is_current = self._is_target = self._is_recording = False
-        self.title = QLineEdit()
+        self.title = QLineEdit(maxLength=60)
         self.count = QLabel()
-        self.record = labelled(QPushButton(), text="Record")
+        self.record = labelled(QPushButton(autoDefault=False), text="Record")
         self.chip = GestureChip(canvas)
         self.menu = QToolButton()
         self.takes = TakesList(controller, pictures)
         self.setProperty("kind", "card")
         self.setAcceptDrops(True)
-        self._lay_out()
-        self._connect()
-        self.dress()
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        self.title.setMaxLength(60)
         labelled(self.title, name="Name of the gesture")
         self.count.setProperty("role", "hint")
-        self.record.setAutoDefault(False)
         labelled(self.menu, tip="More", name="More")
-        above = QHBoxLayout()
-        above.addWidget(self.title, 1)
-        above.addWidget(self.count)
-        above.addWidget(self.menu)
+        above = in_row((self.title, 1), self.count, self.menu)
         between = FlowLayout(gap=line // 3)
         for widget in (self.record, self.chip):
             between.addWidget(widget)
@@ -215,11 +200,15 @@ class GestureCard(QFrame):
         box.addLayout(above)
         box.addLayout(between)
         box.addWidget(self.takes)
+        self._connect()
+        self.dress()
 
     def _connect(self) -> None:
         self.title.editingFinished.connect(self._on_title_edited)
         self.record.clicked.connect(self.record_asked)
-        self.menu.clicked.connect(lambda: self.menu_asked.emit(_below(self.menu)))
+        self.menu.clicked.connect(
+            lambda: self.menu_asked.emit(self.menu.mapToGlobal(QPoint(0, self.menu.height())))
+        )
         self.takes.menu_asked.connect(self.take_menu_asked)
         self.takes.current_changed.connect(self.activated)
 
@@ -311,10 +300,6 @@ class GestureCard(QFrame):
         self.takes_dropped.emit(list(takes_in(event.mimeData())))
 
 
-def _below(widget: QToolButton) -> QPoint:
-    return widget.mapToGlobal(QPoint(0, widget.height()))
-
-
 class Cards(QScrollArea):
     """``record_asked`` and ``menu_asked`` give the name of a gesture, ``current_changed`` tells
     that Space records another one."""
@@ -358,9 +343,7 @@ class Cards(QScrollArea):
         self.new_button.setAutoDefault(False)
         self.empty.setWordWrap(True)
         self.empty.setProperty("role", "hint")
-        new = QHBoxLayout()
-        new.addWidget(self.new_name, 1)
-        new.addWidget(self.new_button)
+        new = in_row((self.new_name, 1), self.new_button)
         inner = QWidget()
         self._box = QVBoxLayout(inner)
         self._box.setContentsMargins(line // 4, line // 4, line // 2, line // 4)
@@ -401,7 +384,14 @@ class Cards(QScrollArea):
         self.cards = {name: self.cards[name] for name in gestures}
         self.new_name.setEnabled(self._controller.editor is not None)
         self.new_button.setEnabled(self._controller.editor is not None)
-        self._show_empty()
+        self.empty.setVisible(not self._controller.gestures)
+        labelled(
+            self.empty,
+            text="A gesture is a movement that your program waits for, such as a wave. "
+            "Give it a name here, then make it five times: the program learns it."
+            if self._controller.editor is not None
+            else "Gestures belong to a project. Open one, or make a new one.",
+        )
         if self.current not in gestures:
             self.choose(next(iter(gestures), ""))
         self._show_states()
@@ -437,16 +427,6 @@ class Cards(QScrollArea):
         if card is not None:
             self._box.activate()
             QTimer.singleShot(0, card, lambda: self.ensureWidgetVisible(card))
-
-    def _show_empty(self) -> None:
-        self.empty.setVisible(not self._controller.gestures)
-        labelled(
-            self.empty,
-            text="A gesture is a movement that your program waits for, such as a wave. "
-            "Give it a name here, then make it five times: the program learns it."
-            if self._controller.editor is not None
-            else "Gestures belong to a project. Open one, or make a new one.",
-        )
 
     def _make_card(self, name: str) -> GestureCard:
         card = self.cards[name] = GestureCard(name, self._controller, self._canvas, self._pictures)

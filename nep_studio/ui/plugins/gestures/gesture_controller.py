@@ -26,8 +26,7 @@ from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.words import tr
 
-from .live import LiveStream, Samples
-from .packed_arrays import SampleShelf
+from .live import LiveStream, Samples, SampleShelf
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor

@@ -7,7 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from nep_core.wire.messages import Imu
-from nep_studio.blocks.own_gestures import Wrist
+from nep_studio.blocks.own_gestures import (
+    OwnRecording,
+    OwnTake,
+    Wrist,
+    packed_samples,
+    unpacked_samples,
+)
 from nep_studio.ui.ring import Floats, Ring
 
 KEPT_S = 30.0
@@ -99,7 +105,13 @@ class LiveStream:
         is_later = t > latest
         t, values = t[is_later], values[:, is_later]
         if len(t):
-            self._learn_rate(t, message.rate_hz)
+            told_hz = message.rate_hz
+            steps = np.diff(t)
+            if not self.rate_hz:
+                self.rate_hz = told_hz if told_hz > 0 else _FALLBACK_HZ
+            if len(steps):
+                measured_hz = 1 / max(float(np.median(steps)), _LEAST_STEP_S)
+                self.rate_hz += _LEARNING * (measured_hz - self.rate_hz)
             self._ring.append(np.vstack([t[None], values]))
             self._last_t = float(t[-1])
             self.has_rotation = message.gyr is not None
@@ -125,14 +137,6 @@ class LiveStream:
             waited_s = min(max(now_s - self.heard_s, 1 / (self.rate_hz or _FALLBACK_HZ)), KEPT_S)
             self._shift_s = self._last_t + waited_s - float(t[0])
 
-    def _learn_rate(self, t: Floats, told_hz: float) -> None:
-        steps = np.diff(t)
-        if not self.rate_hz:
-            self.rate_hz = told_hz if told_hz > 0 else _FALLBACK_HZ
-        if len(steps):
-            measured_hz = 1 / max(float(np.median(steps)), _LEAST_STEP_S)
-            self.rate_hz += _LEARNING * (measured_hz - self.rate_hz)
-
 
 def _whole(message: Imu) -> tuple[Floats, Floats]:
     """Times (n,) and values (6, n) of the samples in which each number is finite."""
@@ -154,3 +158,57 @@ def _samples(table: Floats) -> Samples:
     gyr = table[4:7].T
     has_rotation = bool(table.shape[1]) and bool(np.isfinite(gyr).all())
     return Samples(table[0], table[1:4].T, gyr if has_rotation else None)
+
+
+# Samples between the arrays of a computation and the text in a project's file.
+
+MOST_KEPT_HZ = 200.0
+"""More often no hand moves: of a faster sensor every second sample is kept, or every third."""
+_MOST_CACHED = 200
+
+
+def packed(samples: Samples) -> str:
+    """The text that a project keeps; times begin at 0 there."""
+    parts = [samples.t[:, None] - samples.t[0], samples.acc]
+    rows = np.hstack(parts if samples.gyr is None else [*parts, samples.gyr])
+    return packed_samples(rows.astype("<f4").tobytes())
+
+
+def unpacked(recording: OwnRecording) -> Samples:
+    """The samples of a recording; none when its text cannot be read."""
+    columns = 7 if recording.has_rotation else 4
+    try:
+        numbers = np.frombuffer(unpacked_samples(recording.samples), dtype="<f4")
+        rows = numbers.reshape(-1, columns).astype(float)
+    except ValueError:
+        return Samples.none()
+    return Samples(rows[:, 0], rows[:, 1:4], rows[:, 4:7] if recording.has_rotation else None)
+
+
+def thinned(samples: Samples) -> Samples:
+    """The same at no more than MOST_KEPT_HZ."""
+    step = max(1, int(np.ceil(samples.rate_hz / MOST_KEPT_HZ - 0.2)))
+    gyr = None if samples.gyr is None else samples.gyr[::step]
+    return Samples(samples.t[::step], samples.acc[::step], gyr)
+
+
+class SampleShelf:
+    """The samples of the recordings that were asked for; unpacked once."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, Samples] = {}
+
+    def samples(self, recording: OwnRecording) -> Samples:
+        """All samples of a recording."""
+        known = self._known.get(recording.samples)
+        if known is None:
+            if len(self._known) >= _MOST_CACHED:
+                del self._known[next(iter(self._known))]
+            known = self._known[recording.samples] = unpacked(recording)
+        return known
+
+    def take(self, recording: OwnRecording | None, take: OwnTake) -> Samples:
+        """The samples of one take; none when its recording is not there."""
+        if recording is None:
+            return Samples.none()
+        return self.samples(recording).between(take.start_s, take.end_s)

@@ -6,18 +6,18 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
+from PySide6.QtCore import QPoint
+from PySide6.QtWidgets import QMenu, QWidget
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import Message
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.forms import add_title
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards
-from .exchange import Imported, add_imported, read_csv, write_csv
-from .exchange_mcap import read_mcap, write_mcap
+from .exchange import Imported, add_imported, read_csv, read_mcap, write_csv, write_mcap
 from .gesture_controller import GestureController
 from .project_gestures import Keeping
 
@@ -131,26 +131,17 @@ class GestureFiles:
 
     def choose_file(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
         """Ask which file to import."""
-        dialog = QFileDialog(parent, tr("Import takes"), str(folder))
-        dialog.setNameFilters([tr("Recordings (*.csv *.mcap)"), tr("All files (*)")])
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        _open(dialog, on_chosen)
+        kinds = (tr("Recordings (*.csv *.mcap)"), tr("All files (*)"))
+        ask_for_path(parent, tr("Import takes"), folder, on_chosen, kinds=kinds)
 
     def choose_folder(self, parent: QWidget, folder: Path, words: str, on_chosen: OnChosen) -> None:
         """Ask for a folder of CSV files; ``words`` says what for."""
-        dialog = QFileDialog(parent, words, str(folder))
-        dialog.setFileMode(QFileDialog.FileMode.Directory)
-        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
-        _open(dialog, on_chosen)
+        ask_for_path(parent, words, folder, on_chosen, "folder")
 
     def choose_place(self, parent: QWidget, suggested: Path, on_chosen: OnChosen) -> None:
         """Ask where the MCAP file is to be."""
-        dialog = QFileDialog(parent, tr("Export"), str(suggested.parent))
-        dialog.setNameFilters([tr("MCAP files (*.mcap)"), tr("All files (*)")])
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix(MCAP_SUFFIX.removeprefix("."))
-        dialog.selectFile(suggested.name)
-        _open(dialog, on_chosen)
+        kinds = (tr("MCAP files (*.mcap)"), tr("All files (*)"))
+        ask_for_path(parent, tr("Export"), suggested, on_chosen, "save", kinds)
 
 
 class Exchange:
@@ -252,9 +243,3 @@ class Exchange:
 
     def _confirm(self, words: str) -> None:
         self._controller.messages.tell(Message("success", words, passes=True))
-
-
-def _open(dialog: QFileDialog, on_chosen: OnChosen) -> None:
-    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
-    dialog.open()

@@ -10,7 +10,6 @@ from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -28,6 +27,7 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import explained, follow_words
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.watch_view.status import WatchStatus
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import count_words, tr
 
 from .cards import Cards
@@ -47,8 +47,7 @@ from .recording import (
 from .results.training import Training
 from .results.try_out import TryOut
 from .results.view import ResultsView
-from .sample_view import TakeView
-from .strip import Strip
+from .strip import Strip, TakeView
 
 # How the parts of the page are arranged, by the room that there is for them.
 
@@ -87,7 +86,9 @@ def next_step(controller: GestureController) -> tuple[Step, str]:
     """The step, and the name of the gesture that it is about."""
     if controller.editor is None:
         return "project", ""
-    lacking = _lacking(controller)
+    # The first gesture with too few takes
+    few = (name for name, one in controller.gestures.items() if _used(one) < ENOUGH_TAKES)
+    lacking = next(few, "")
     if not controller.is_hearing and (lacking or len(controller.gestures) < 2):
         return "connect", ""
     if not controller.gestures:
@@ -136,12 +137,6 @@ def button_words(step: Step) -> str:
     }.get(step, "")
 
 
-def _lacking(controller: GestureController) -> str:
-    """The first gesture with too few takes."""
-    few = (name for name, one in controller.gestures.items() if _used(one) < ENOUGH_TAKES)
-    return next(few, "")
-
-
 def _used(gesture: OwnGesture) -> int:
     return sum(not take.left_out for take in gesture.takes)
 
@@ -159,8 +154,7 @@ class HintLine(QWidget):
     def __init__(self, controller: GestureController) -> None:
         super().__init__()
         self._controller = controller
-        self._sign, self.words, self.button = QLabel(), QLabel(), QPushButton()
-        self.words.setWordWrap(True)
+        self._sign, self.words, self.button = QLabel(), QLabel(wordWrap=True), QPushButton()
         self.words.setTextFormat(Qt.TextFormat.PlainText)
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.button.setAutoDefault(False)
@@ -217,14 +211,8 @@ class Head(QWidget):
         self.hint = HintLine(controller)
         explained(self.more, "Import, export and more")
         self.more.clicked.connect(self.more_asked)
-        row = QHBoxLayout()
-        row.addWidget(self.watch, 1)
-        row.addWidget(self.more)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(self.fontMetrics().height() // 3)
-        box.addLayout(row)
-        box.addWidget(self.hint)
+        row = in_row((self.watch, 1), self.more)
+        in_column(row, self.hint, of=self, margins=0, spacing=self.fontMetrics().height() // 3)
         controller.look.theme_changed.connect(self._dress)
         self._dress()
 
@@ -254,14 +242,7 @@ class TrainerPage(QWidget):
         self.exchange = Exchange(controller, self)
         self.results, self.trial = ResultsView(controller, training), TryOut(controller, training)
         self.beeps = False
-        self._lay_out()
-        self._connect()
-        self._on_current_changed(self.cards.current)
-        follow_words(self, self._name_tabs)
-
-    def _lay_out(self) -> None:
-        self.tabs = QTabWidget()
-        self.tabs.setDocumentMode(True)
+        self.tabs = QTabWidget(documentMode=True)
         self.tabs.addTab(self.trial, "")
         self.tabs.addTab(self.results, "")
         self.inner, self.outer = QSplitter(), QSplitter()
@@ -273,10 +254,11 @@ class TrainerPage(QWidget):
             for part in parts:
                 splitter.addWidget(part)
         self._shape: Shape | None = None
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self.outer)
+        in_column(self.outer, of=self, margins=0)
         fit_icons(self)
+        self._connect()
+        self._on_current_changed(self.cards.current)
+        follow_words(self, self._name_tabs)
 
     def _name_tabs(self) -> None:
         for part, words in (
@@ -295,11 +277,7 @@ class TrainerPage(QWidget):
         box.addWidget(self.head)
         box.addWidget(self.strip, 1)
         box.addWidget(self.bar)
-        area = QScrollArea()
-        area.setWidgetResizable(True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(top)
+        area = scrolled(top)
         area.setMinimumSize(line * 15, line * 4)
         return area
 
@@ -470,23 +448,20 @@ class TrainerPage(QWidget):
         shape = shape_for(self.width() / line, self.height() / line)
         if shape != self._shape:
             self._shape = shape
-            self._take_shape(shape)
-
-    def _take_shape(self, shape: Shape) -> None:
-        shown = self.tabs.currentWidget()
-        is_first = self.tabs.indexOf(self.inner) >= 0
-        if shape.is_tabbed and not is_first:
-            self.tabs.insertTab(0, self.inner, "")
-            self._name_tabs()
-            self.tabs.setCurrentIndex(0)
-        elif not shape.is_tabbed and is_first:
-            self.outer.insertWidget(0, self.inner)
-            self.inner.show()
-            self.tabs.setCurrentWidget(self.trial if shown is self.inner else shown)
-        across, down = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
-        self.outer.setOrientation(across if shape.is_beside else down)
-        self.inner.setOrientation(across if shape.has_cards_beside else down)
-        QTimer.singleShot(0, self, self._share_room)
+            shown = self.tabs.currentWidget()
+            is_first = self.tabs.indexOf(self.inner) >= 0
+            if shape.is_tabbed and not is_first:
+                self.tabs.insertTab(0, self.inner, "")
+                self._name_tabs()
+                self.tabs.setCurrentIndex(0)
+            elif not shape.is_tabbed and is_first:
+                self.outer.insertWidget(0, self.inner)
+                self.inner.show()
+                self.tabs.setCurrentWidget(self.trial if shown is self.inner else shown)
+            across, down = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
+            self.outer.setOrientation(across if shape.is_beside else down)
+            self.inner.setOrientation(across if shape.has_cards_beside else down)
+            QTimer.singleShot(0, self, self._share_room)
 
     def _share_room(self) -> None:
         """Give the parts their usual shares, once they have the room of the shape."""

@@ -19,8 +19,7 @@ from nep_studio.blocks.own_gestures import (
 )
 
 from .gesture_controller import GestureController
-from .live import Samples
-from .packed_arrays import packed, thinned
+from .live import Samples, packed, thinned
 
 Span = tuple[float, float]
 SHORTEST_TAKE_S, LONGEST_TAKE_S = 0.3, 7.9

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from PySide6.QtCore import QObject, QPoint, QSignalBlocker, QSize, Qt
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QMenu,
     QProgressBar,
@@ -24,25 +23,21 @@ from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
 
 from .gesture_controller import GestureController
 from .project_gestures import Keeping
 from .recording import TakeSession
-from .sample_view import TakeView
+from .strip import TakeView
 
 # Who wears the sensor, and where: chosen here before something is recorded.
 
 
 def wrist_words() -> dict[object, str]:
     """Where a sensor can be, in words."""
-    return {
-        "left": tr("Left wrist"),
-        "right": tr("Right wrist"),
-        "hand": tr("In the hand"),
-    }
+    return {"left": tr("Left wrist"), "right": tr("Right wrist"), "hand": tr("In the hand")}
 
 
 class WearerBox(QObject):
@@ -87,11 +82,7 @@ class WearerBox(QObject):
             box.setMinimumContentsLength(9)
         people, places = (self.sign, self.person, self.more), (self.wrist, self.source)
         for outer, widgets in ((self.who, people), (self.where, places)):
-            row = QHBoxLayout(outer)
-            row.setContentsMargins(0, 0, 0, 0)
-            row.setSpacing(outer.fontMetrics().height() // 3)
-            for widget in widgets:
-                row.addWidget(widget)
+            in_row(*widgets, of=outer, margins=0, spacing=outer.fontMetrics().height() // 3)
 
     def refresh(self) -> None:
         """Show who is there."""

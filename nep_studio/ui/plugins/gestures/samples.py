@@ -303,7 +303,11 @@ class TakesList(QWidget):
             return
         if (place - self._pressed).manhattanLength() >= QApplication.startDragDistance():
             self._pressed = None
-            self._carry()
+            drag, data = QDrag(self), QMimeData()
+            data.setData(TAKES_MIME, "\n".join(self.chosen).encode())
+            drag.setMimeData(data)
+            drag.setPixmap(self.grab(self.grid.rect(self.current)))
+            drag.exec(Qt.DropAction.MoveAction)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Look at what was clicked."""
@@ -321,13 +325,6 @@ class TakesList(QWidget):
             if event.reason() == QContextMenuEvent.Reason.Keyboard:
                 place = self.mapToGlobal(self.grid.rect(self.current).center())
             self.menu_asked.emit(place)
-
-    def _carry(self) -> None:
-        drag, data = QDrag(self), QMimeData()
-        data.setData(TAKES_MIME, "\n".join(self.chosen).encode())
-        drag.setMimeData(data)
-        drag.setPixmap(self.grab(self.grid.rect(self.current)))
-        drag.exec(Qt.DropAction.MoveAction)
 
     def event(self, event: QEvent) -> bool:
         """Tell of a take in a tool tip."""
@@ -362,11 +359,6 @@ class TakesList(QWidget):
         if self.current < 0 and self.takes:
             self.current = 0
         tell_current(self)
-        self.update()
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Show that the keyboard is elsewhere."""
-        super().focusOutEvent(event)
         self.update()
 
     def _go_to(self, number: int) -> None:

@@ -16,7 +16,7 @@ from PySide6.QtGui import (
     QTextOption,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTextBrowser, QWidget
+from PySide6.QtWidgets import QPushButton, QTextBrowser, QWidget
 
 from nep_studio.blocks.operations.copying import Clip, paste
 from nep_studio.blocks.program import PAGES
@@ -28,11 +28,11 @@ from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme, load_theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, code_font
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import is_right_to_left, language_code, tr
 from nep_studio.ui.workbench.placing import free_place
 
-from .pages import DRAG, EXAMPLE, PICTURE, sample_clip
-from .repository import Book, Page
+from .repository import DRAG, EXAMPLE, PICTURE, Book, Page, sample_clip
 
 # How pages of the help look: their style sheet, from the theme and the size of the text.
 
@@ -133,7 +133,7 @@ class HelpBrowser(QTextBrowser):
         theme = load_theme(PRINTED_THEME)
         look = replace(self.picture_look(theme), widest=widest, ratio=3.0)
         html = self.page.html if self.page is not None else ""
-        for address in _addresses(html):
+        for address in [part.partition('"')[0] for part in html.split('<img src="')[1:]]:
             picture = self._picture(QUrl(address), look)
             document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(address), picture)
         document.setDefaultTextOption(self._text_option())
@@ -256,11 +256,6 @@ class HelpBrowser(QTextBrowser):
             self.refresh()
 
 
-def _addresses(html: str) -> list[str]:
-    """The addresses of the pictures in a page."""
-    return [part.partition('"')[0] for part in html.split('<img src="')[1:]]
-
-
 # The buttons below a page that has an example: put it on the page, or try it.
 
 
@@ -283,10 +278,7 @@ class ExampleBar(QWidget):
         self.insert.clicked.connect(self.put_on_page)
         self.try_it.clicked.connect(self.ask_to_try)
         gap = self.fontMetrics().height() // 3
-        row = QHBoxLayout(self)
-        row.setContentsMargins(gap, gap, gap, gap)
-        row.addWidget(self.insert, 1)
-        row.addWidget(self.try_it, 1)
+        in_row((self.insert, 1), (self.try_it, 1), of=self, margins=gap)
         self.hide()
 
     def show_example(self, example: Example | None, title: str) -> None:
@@ -295,7 +287,13 @@ class ExampleBar(QWidget):
         self.setVisible(example is not None)
         self.insert.setVisible(self.can_insert)
         if example is not None:
-            told = self._spoken(example)
+            # The example's blocks as sentences
+            language = self._book().language
+            clip = example.clip(language, language_code())
+            blocks = (each for root in clip.roots for each in clip.project.within(root))
+            definitions = language.of(clip.project).definitions
+            steps = (block for block in blocks if not definitions[block.type].is_value)
+            told = ". ".join(sentence(clip.project, language, block.id) for block in steps)
             self.insert.setAccessibleDescription(told)
             self.try_it.setAccessibleDescription(told)
 
@@ -349,12 +347,3 @@ class ExampleBar(QWidget):
             canvas.show_page(page)
         where = free_place(canvas, clip)
         return paste(canvas.editor, clip, canvas.page, where.x(), where.y())
-
-    def _spoken(self, example: Example) -> str:
-        """The example's blocks as sentences."""
-        language = self._book().language
-        clip = example.clip(language, language_code())
-        blocks = (each for root in clip.roots for each in clip.project.within(root))
-        definitions = language.of(clip.project).definitions
-        steps = (block for block in blocks if not definitions[block.type].is_value)
-        return ". ".join(sentence(clip.project, language, block.id) for block in steps)

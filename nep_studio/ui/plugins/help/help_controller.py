@@ -6,15 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QObject, Qt, QUrl, Signal
 from PySide6.QtGui import QAction, QCursor, QDesktopServices, QKeyEvent, QKeySequence, QShortcut
-from PySide6.QtWidgets import (
-    QAbstractButton,
-    QApplication,
-    QDialog,
-    QMenu,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractButton, QApplication, QDialog, QMenu, QToolButton, QWidget
 
 from nep_studio.blocks.program import split_slot
 from nep_studio.help.texts import HOME, PROBLEMS, block_page, error_anchor, error_texts
@@ -24,6 +16,7 @@ from nep_studio.ui.canvas.fields.popup import FieldPopup
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import MessageCard
 from nep_studio.ui.messages import Message, Messages
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import language_code, tr
 from nep_studio.ui.workbench.help_card import BlockOpening
 from nep_studio.ui.workbench.palette.shelf import Shelf
@@ -189,9 +182,7 @@ class HelpWindow(QWidget):
         labelled(self, window_title="Help")
         self.setAttribute(Qt.WidgetAttribute.WA_QuitOnClose, False)  # the main window decides
         self.panel = panel
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(panel)
+        in_column(panel, of=self, margins=0)
         line = self.fontMetrics().height()
         self.resize(52 * line, 40 * line)
 

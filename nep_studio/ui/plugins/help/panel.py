@@ -22,7 +22,6 @@ from PySide6.QtWidgets import (
     QTreeWidget,
     QTreeWidgetItem,
     QTreeWidgetItemIterator,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -35,6 +34,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import UnknownIcon, icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .browser import ZOOM_STEP, ExampleBar, HelpBrowser
@@ -72,7 +72,9 @@ class ContentsView(QStackedWidget):
 
     def fill(self, contents: Iterable[Content], theme: Theme) -> None:
         """Show these contents."""
-        self._size_icons()
+        side = self.fontMetrics().height()
+        self.tree.setIconSize(QSize(side, side))
+        self.found.setIconSize(QSize(side, side))
         self.tree.clear()
         for content in contents:
             item = _item(content, theme)
@@ -118,11 +120,6 @@ class ContentsView(QStackedWidget):
         item = self.found.currentItem()
         if item is not None and item.data(PAGE):
             self.chosen.emit(item.data(PAGE))
-
-    def _size_icons(self) -> None:
-        side = self.fontMetrics().height()
-        self.tree.setIconSize(QSize(side, side))
-        self.found.setIconSize(QSize(side, side))
 
     def _marked(self) -> str:
         item = self.tree.currentItem()
@@ -190,12 +187,19 @@ class ToolRow(QWidget):
         self.smaller = explained(_button(), "Smaller text")
         self.larger = explained(_button(), "Larger text")
         self.print = explained(_button(), "Print this page…")
-        self.search = QLineEdit()
+        self.search = QLineEdit(clearButtonEnabled=True)
         labelled(self.search, placeholder="Search the help", name="Search the help")
-        self.search.setClearButtonEnabled(True)
         self._sign = QAction(self.search)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
-        self._arrange()
+        buttons = QHBoxLayout()
+        buttons.setSpacing(0)
+        for button in (self.back, self.forward, self.home, self.contents):
+            buttons.addWidget(button)
+        buttons.addStretch(1)
+        for button in (self.smaller, self.larger, self.print):
+            buttons.addWidget(button)
+        gap = self.fontMetrics().height() // 4
+        in_column(buttons, self.search, of=self, margins=gap, spacing=gap)
 
     def dress(self, theme: Theme) -> None:
         """Take the theme and the size of the text."""
@@ -217,26 +221,9 @@ class ToolRow(QWidget):
             button.setIconSize(QSize(side, side))
         self._sign.setIcon(icon("search", theme))
 
-    def _arrange(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.setSpacing(0)
-        for button in (self.back, self.forward, self.home, self.contents):
-            buttons.addWidget(button)
-        buttons.addStretch(1)
-        for button in (self.smaller, self.larger, self.print):
-            buttons.addWidget(button)
-        gap = self.fontMetrics().height() // 4
-        box = QVBoxLayout(self)
-        box.setContentsMargins(gap, gap, gap, gap)
-        box.setSpacing(gap)
-        box.addLayout(buttons)
-        box.addWidget(self.search)
-
 
 def _button() -> QToolButton:
-    button = QToolButton()
-    button.setAutoRaise(True)
-    return button
+    return QToolButton(autoRaise=True)
 
 
 # The pages that were read, to go back and forth between.
@@ -385,11 +372,13 @@ CONTENTS_LINES = 15
 """How wide the contents are at least then."""
 
 
-class HelpPanel(QWidget):
+class HelpPanel(InLines):
     """Shows the help. ``try_requested`` brings a project that a person wants to try.
 
     ``left`` says that the keyboard is to go on with the program.
     """
+
+    usual_lines = (24, 30)
 
     try_requested = Signal(object)
     page_shown = Signal(str)
@@ -414,8 +403,13 @@ class HelpPanel(QWidget):
         self.browser = HelpBrowser(canvas, look, lambda: self.book, self)
         self.example = ExampleBar(canvas, lambda: self.book, self)
         self.searching = Searching(lambda: self.book, self)
-        self.body = QSplitter(Qt.Orientation.Vertical)
-        self._arrange()
+        self.body = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
+        self.body.addWidget(self.contents)
+        self.body.addWidget(self.browser)
+        self.body.setStretchFactor(1, 1)
+        in_column(self.tools, (self.body, 1), self.example, of=self, margins=0, spacing=0)
+        self.tools.dress(self._look.theme)
+        self.example.dress(self._look.theme)
         self._connect()
         labelled(self, name="Help")
         self.setProperty("help_page", "howto/window#help")
@@ -482,11 +476,6 @@ class HelpPanel(QWidget):
 
         ask_to_print(self.browser, self)
 
-    def sizeHint(self) -> QSize:
-        """Room to read."""
-        line = self.fontMetrics().height()
-        return QSize(24 * line, 30 * line)
-
     def _step(self, step: Callable[[int], bool]) -> None:
         if step(self.browser.verticalScrollBar().value()):
             self._show(self.trail.current, self.trail.place)
@@ -507,20 +496,6 @@ class HelpPanel(QWidget):
         self.tools.forward.setEnabled(self.trail.can_go_forward)
 
     # Put together
-
-    def _arrange(self) -> None:
-        self.body.setChildrenCollapsible(False)
-        self.body.addWidget(self.contents)
-        self.body.addWidget(self.browser)
-        self.body.setStretchFactor(1, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(0)
-        box.addWidget(self.tools)
-        box.addWidget(self.body, 1)
-        box.addWidget(self.example)
-        self.tools.dress(self._look.theme)
-        self.example.dress(self._look.theme)
 
     def _connect(self) -> None:
         tools = self.tools

@@ -24,13 +24,14 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import count_words, tr
 from robots.body.body import Body, posture_name
 from robots.errors import ActionFailed
 
 from .motion_controller import MotionController, Player
+from .rehearsal import Fault
 from .timeline import Timeline
-from .timeline_painter import Fault
 
 
 class Header(QWidget):
@@ -44,15 +45,19 @@ class Header(QWidget):
     ) -> None:
         super().__init__(parent)
         self.controller = controller
-        self.title = QLineEdit()
-        self.title.setMaxLength(100)
+        self.title = QLineEdit(maxLength=100)
         labelled(self.title, placeholder="Name of the motion", name="Name of the motion")
         self.start = Choices(
             lambda: {"": tr("any posture"), **posture_words(language(), controller.body)}
         )
         labelled(self.start, name="Starts from")
         self.kind = labelled(Choices(kind_words), name="Used to")
-        self._lay_out()
+        row = in_row((self.title, 1), of=self, margins=0)
+        starts, used = labelled(QLabel(), text="Starts from"), labelled(QLabel(), text="Used to")
+        for label, field in ((starts, self.start), (used, self.kind)):
+            label.setBuddy(field)
+            row.addWidget(label)
+            row.addWidget(field)
         self.title.textEdited.connect(self._on_title_edited)
         self.title.editingFinished.connect(controller.seal)
         self.start.activated.connect(self._on_start_chosen)
@@ -67,16 +72,6 @@ class Header(QWidget):
             self.title.setText(motion.title)
         self.start.setCurrentIndex(max(0, self.start.findData(motion.starts_from)))
         self.kind.setCurrentIndex(max(0, self.kind.findData(motion.kind)))
-
-    def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.title, 1)
-        starts, used = labelled(QLabel(), text="Starts from"), labelled(QLabel(), text="Used to")
-        for label, field in ((starts, self.start), (used, self.kind)):
-            label.setBuddy(field)
-            row.addWidget(label)
-            row.addWidget(field)
 
     def _on_title_edited(self, title: str) -> None:
         self.controller.change(tr("name the motion"), merge="title", title=title)
@@ -124,14 +119,20 @@ class NotesBar(QFrame):
         super().__init__(parent)
         self.controller, self.look = controller, look
         self.faults: list[Fault] = []
-        self.sign, self.words = QLabel(), QLabel()
-        self.words.setWordWrap(True)
+        self.sign, self.words = QLabel(), QLabel(wordWrap=True)
         self.give_time = labelled(QPushButton(), text="Give it the time it needs")
         self.show_place = labelled(QPushButton(), text="Show the place")
         self.open = labelled(QPushButton(), text="Open one as a start…")
         for button in (self.give_time, self.show_place, self.open):
             button.setAutoDefault(False)
-        self._lay_out()
+        line = self.fontMetrics().height()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
+        row.addWidget(self.words, 1)
+        for button in (self.open, self.show_place, self.give_time):
+            row.addWidget(button)
+        self.setMinimumHeight(line * 2)
         self.give_time.clicked.connect(self.time_asked)
         self.open.clicked.connect(self.open_asked)
         self.show_place.clicked.connect(self._on_show_asked)
@@ -167,16 +168,6 @@ class NotesBar(QFrame):
             "Drag a hand, a foot or the head of the robot, or move a slider: that is the first "
             "key pose. Then choose a later moment on the timeline, and pose it again."
         )
-
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
-        row.addWidget(self.words, 1)
-        for button in (self.open, self.show_place, self.give_time):
-            row.addWidget(button)
-        self.setMinimumHeight(line * 2)
 
     def _say(self, sign: str, colour: str, words: str) -> None:
         line = self.fontMetrics().height()

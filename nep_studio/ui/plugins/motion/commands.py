@@ -53,7 +53,14 @@ class Commands:
 
     def __init__(self, window: MotionWindow) -> None:
         self.window, self.controller, self.player = window, window.controller, window.player
-        self._add_edit()
+        add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
+        controller = self.controller
+        add("undo_motion", "Undo", controller.undo, icon_name="undo-2", keys=keys.Undo)
+        add("redo_motion", "Redo", controller.redo, icon_name="redo-2", keys=(keys.Redo, "Ctrl+Y"))
+        add("add_pose", "Add a pose", self.add_pose, icon_name="plus")
+        add("copy_pose", "Copy the poses to here", self.copy, icon_name="copy-plus")
+        add("delete_pose", "Delete the poses", self.delete, icon_name="trash-2")
+        add("all_poses", "Choose all poses", self.choose_all, keys=keys.SelectAll)
         self._add_play()
         self._add_changes()
 
@@ -90,22 +97,6 @@ class Commands:
             return False
         self.window.actions_by_name[name].trigger()
         return True
-
-    def _add_edit(self) -> None:
-        add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
-        controller = self.controller
-        add("undo_motion", "Undo", controller.undo, icon_name="undo-2", keys=keys.Undo)
-        add(
-            "redo_motion",
-            "Redo",
-            controller.redo,
-            icon_name="redo-2",
-            keys=(keys.Redo, "Ctrl+Y"),
-        )
-        add("add_pose", "Add a pose", self.add_pose, icon_name="plus")
-        add("copy_pose", "Copy the poses to here", self.copy, icon_name="copy-plus")
-        add("delete_pose", "Delete the poses", self.delete, icon_name="trash-2")
-        add("all_poses", "Choose all poses", self.choose_all, keys=keys.SelectAll)
 
     def _add_play(self) -> None:
         add, begin = self.window.actions_by_name.add, lambda: self.controller.show(0.0)

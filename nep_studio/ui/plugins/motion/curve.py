@@ -7,17 +7,17 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QWidget
 
 from nep_studio.blocks.language import Language
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from . import editing
 from .motion_controller import MotionController, joint_words, limb_of_joint_words
-from .timeline import Timeline, shift_of
-from .timeline_painter import Scale, snapped
+from .timeline import Scale, Timeline, shift_of, snapped
 
 SMALL_STEP, LARGE_STEP = 1.0, 5.0
 """Degrees, or hundredths of a hand, for an arrow key."""
@@ -122,7 +122,14 @@ class CurveView(QWidget):
                 sign = 1.0 if event.key() == Qt.Key.Key_Up else -1.0
                 self._turn(sign * turn)
             case Qt.Key.Key_PageUp | Qt.Key.Key_PageDown:
-                self._next_key(is_later=event.key() == Qt.Key.Key_PageDown)
+                is_later = event.key() == Qt.Key.Key_PageDown
+                now, times = self.controller.cursor_s, [time for time, _ in self.keys]
+                later = [t for t in times if t > now + editing.SAME_S]
+                earlier = [t for t in times if t < now - editing.SAME_S]
+                found = min(later, default=None) if is_later else max(earlier, default=None)
+                if found is not None:
+                    self.key_s = found
+                    self.controller.show(found)
             case Qt.Key.Key_Delete | Qt.Key.Key_Backspace if self.key_s is not None:
                 motion = editing.without_key(self.controller.motion, self.joint, self.key_s)
                 self.key_s = None
@@ -133,15 +140,6 @@ class CurveView(QWidget):
                 )
             case _:
                 super().keyPressEvent(event)
-
-    def _next_key(self, *, is_later: bool) -> None:
-        now, times = self.controller.cursor_s, [time for time, _ in self.keys]
-        later = [t for t in times if t > now + editing.SAME_S]
-        earlier = [t for t in times if t < now - editing.SAME_S]
-        found = min(later, default=None) if is_later else max(earlier, default=None)
-        if found is not None:
-            self.key_s = found
-            self.controller.show(found)
 
     def _turn(self, change: float) -> None:
         if self.key_s is None:
@@ -266,10 +264,7 @@ class CurvePanel(QWidget):
         self.joint = QComboBox()
         labelled(self.joint, name="Joint")
         self._moving: tuple[str, ...] | None = None
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.joint)
-        box.addWidget(self.curve, 1)
+        in_column(self.joint, (self.curve, 1), of=self, margins=0)
         self.joint.currentIndexChanged.connect(self._on_chosen)
         controller.changed.connect(self.refresh)
         follow_words(self, self._say)

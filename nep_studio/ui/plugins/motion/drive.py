@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import ctypes
 import math
+import os
+import struct
+import sys
 import uuid
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
@@ -159,8 +164,8 @@ class Pilot(QObject):
 
     def _on_tick(self) -> None:
         way = HEAD_RAD_S * TICK_MS / 1000.0
-        yaw = _within(self._head[0] + self.drive.head_left * way, -FARTHEST_YAW, FARTHEST_YAW)
-        pitch = _within(self._head[1] - self.drive.head_up * way, HIGHEST_PITCH, LOWEST_PITCH)
+        yaw = min(max(self._head[0] + self.drive.head_left * way, -FARTHEST_YAW), FARTHEST_YAW)
+        pitch = min(max(self._head[1] - self.drive.head_up * way, HIGHEST_PITCH), LOWEST_PITCH)
         self._head = (yaw, pitch)
         self.set_angles({"HeadYaw": yaw, "HeadPitch": pitch})
 
@@ -173,10 +178,6 @@ class Pilot(QObject):
         )
         self._runner.send(m.ACTION_REQUEST, request)
         self.sent.emit(request)
-
-
-def _within(value: float, low: float, high: float) -> float:
-    return min(max(value, low), high)
 
 
 # A watch that is tilted drives a robot: forward and back to walk, to the sides to turn.
@@ -220,7 +221,14 @@ class Tilt:
                 ]
         self._heard_s += step_s * len(imu.acc)
         if self._gravity:
-            self._follow()
+            x, y, z = self._gravity
+            forward, aside = math.atan2(y, math.hypot(x, z)), math.atan2(x, math.hypot(y, z))
+            if self._middle is None:
+                if self._heard_s >= SETTLING_S:
+                    self._middle = forward, aside
+                return
+            self.forward_rad = forward - self._middle[0]
+            self.aside_rad = aside - self._middle[1]
 
     def drive(self) -> Drive:
         """What the tilt asks for."""
@@ -234,18 +242,187 @@ class Tilt:
             "RShoulderRoll": min(max(-0.15 - 1.2 * self.aside_rad, -1.3), 0.3),
         }
 
-    def _follow(self) -> None:
-        x, y, z = self._gravity
-        forward, aside = math.atan2(y, math.hypot(x, z)), math.atan2(x, math.hypot(y, z))
-        if self._middle is None:
-            if self._heard_s >= SETTLING_S:
-                self._middle = forward, aside
-            return
-        self.forward_rad = forward - self._middle[0]
-        self.aside_rad = aside - self._middle[1]
-
 
 def _share(angle: float) -> float:
     """A part of full speed for a tilt; a little tilt is none."""
     beyond = max(0.0, abs(angle) - DEAD_RAD) / (FULL_RAD - DEAD_RAD)
     return math.copysign(min(1.0, beyond), angle) if beyond else 0.0
+
+
+# A gamepad, read without a library: the joystick files of Linux, XInput of Windows.
+#
+# Qt has no gamepads any more, and a games library is larger than this program. On a Mac there is
+# no such simple way: there a gamepad is not offered.
+
+READ_MS = 20
+DEAD_PART = 0.15
+"""A stick that is let go is never quite in its middle."""
+AXIS, BUTTON, INITIAL = 0x02, 0x01, 0x80
+EVENT = struct.Struct("IhBB")
+MOST_EVENTS = 200
+FULL = 32767.0
+
+
+class Sticks:
+    """Where the sticks are (-1 to 1; right and down are above 0), and which buttons are pressed."""
+
+    def __init__(self) -> None:
+        self.axes = [0.0] * 8
+        self.pressed: set[int] = set()
+
+    def take(self, data: bytes) -> None:
+        """Take in what a joystick file of Linux says: events of 8 bytes."""
+        for _, value, kind, number in EVENT.iter_unpack(data[: len(data) // 8 * 8]):
+            kind &= ~INITIAL
+            if kind == AXIS and number < len(self.axes):
+                self.axes[number] = max(-1.0, value / FULL)
+            elif kind == BUTTON and value:
+                self.pressed.add(number)
+            elif kind == BUTTON:
+                self.pressed.discard(number)
+
+    def drive(self) -> Drive:
+        """Left stick: forward and turning; right stick: the head; shoulder buttons: sideways."""
+        if not any(map(_felt, self.axes[:5])) and not self.pressed & {4, 5}:
+            return STILL
+        aside = float(4 in self.pressed) - float(5 in self.pressed)
+        x, y, _, head_x, head_y = (_felt(axis) for axis in self.axes[:5])
+        return Drive(-y, aside, -x, -head_x, -head_y)
+
+    @property
+    def wants_stop(self) -> bool:
+        """Whether the button is pressed that stops all: B, or the circle."""
+        return 1 in self.pressed
+
+
+class Gamepad(QObject):
+    """The first gamepad there is. ``changed`` gives its Drive, ``stopped`` that all is to stop."""
+
+    changed = Signal(object)
+    stopped = Signal()
+    lost = Signal()
+
+    def __init__(self, parent: QObject | None = None, folder: Path = Path("/dev/input")) -> None:
+        super().__init__(parent)
+        self._folder = folder
+        self._file = -1
+        self._pad: _WindowsPad | None = None
+        self._last = STILL
+        self._did_stop = False
+        self.sticks = Sticks()
+        self._timer = QTimer(self, interval=READ_MS)
+        self._timer.timeout.connect(self._on_time)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether one is read."""
+        return self._timer.isActive()
+
+    def open(self) -> bool:
+        """Begin to read the first one; whether there is one."""
+        self.close()
+        self.sticks, self._last, self._did_stop = Sticks(), STILL, False
+        if sys.platform == "win32":
+            self._pad = _windows_pad()
+        else:
+            self._file = _first_file(self._folder)
+        if self._pad is not None or self._file >= 0:
+            self._timer.start()
+        return self.is_open
+
+    def close(self) -> None:
+        """Read no more."""
+        self._timer.stop()
+        self._pad = None
+        if self._file >= 0:
+            os.close(self._file)
+            self._file = -1
+
+    def _on_time(self) -> None:
+        try:
+            is_there = self._read()
+        except OSError:
+            is_there = False
+        if not is_there:
+            self.close()
+            self.changed.emit(STILL)
+            self.lost.emit()
+            return
+        if self.sticks.wants_stop and not self._did_stop:
+            self.stopped.emit()
+        self._did_stop = self.sticks.wants_stop
+        if (drive := self.sticks.drive()) != self._last:
+            self._last = drive
+            self.changed.emit(drive)
+
+    def _read(self) -> bool:
+        if self._pad is not None:
+            return self._pad.read(self.sticks)
+        try:
+            data = os.read(self._file, EVENT.size * MOST_EVENTS)
+        except BlockingIOError:
+            return True
+        self.sticks.take(data)
+        return bool(data)
+
+
+class _State(ctypes.Structure):
+    """XINPUT_STATE: https://learn.microsoft.com/windows/win32/api/xinput/ns-xinput-xinput_state."""
+
+    _fields_ = [
+        ("packet", ctypes.c_uint32),
+        ("buttons", ctypes.c_uint16),
+        ("left_trigger", ctypes.c_uint8),
+        ("right_trigger", ctypes.c_uint8),
+        ("left_x", ctypes.c_int16),
+        ("left_y", ctypes.c_int16),
+        ("right_x", ctypes.c_int16),
+        ("right_y", ctypes.c_int16),
+    ]
+
+
+LEFT_SHOULDER, RIGHT_SHOULDER, BUTTON_B = 0x0100, 0x0200, 0x2000
+
+
+class _WindowsPad:
+    """One gamepad of XInput."""
+
+    def __init__(self, library: ctypes.CDLL, number: int) -> None:
+        self._library, self._number = library, number
+
+    def read(self, sticks: Sticks) -> bool:
+        """Read it; False when it is gone."""
+        state = _State()
+        if self._library.XInputGetState(self._number, ctypes.byref(state)) != 0:
+            return False
+        sticks.axes[0], sticks.axes[1] = state.left_x / FULL, -state.left_y / FULL
+        sticks.axes[3], sticks.axes[4] = state.right_x / FULL, -state.right_y / FULL
+        masks = {4: LEFT_SHOULDER, 5: RIGHT_SHOULDER, 1: BUTTON_B}
+        sticks.pressed = {button for button, mask in masks.items() if state.buttons & mask}
+        return True
+
+
+def _windows_pad() -> _WindowsPad | None:
+    try:
+        library = ctypes.CDLL("xinput1_4.dll")
+    except OSError:
+        return None
+    found = (_WindowsPad(library, number) for number in range(4))
+    return next((pad for pad in found if pad.read(Sticks())), None)
+
+
+def _first_file(folder: Path) -> int:
+    for path in sorted(folder.glob("js*")):
+        try:
+            return os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
+        except OSError:
+            continue
+    return -1
+
+
+def _felt(axis: float) -> float:
+    """A stick's way without what its middle is off."""
+    if abs(axis) < DEAD_PART:
+        return 0.0
+    sign = 1.0 if axis > 0 else -1.0
+    return sign * min(1.0, (abs(axis) - DEAD_PART) / (1.0 - DEAD_PART))

@@ -5,18 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QDialog,
-    QFileDialog,
-    QHBoxLayout,
-    QLabel,
-    QPlainTextEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
+from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import tr
 from robots.body.body import Body
 from robots.body.choregraphe import KeyframesUnreadable, read_choregraphe
@@ -41,13 +34,23 @@ class ImportDialog(QDialog):
         self.text = QPlainTextEdit()
         self.text.setAccessibleName(tr("The exported text"))
         self.text.setPlaceholderText('names.append("HeadYaw")\ntimes.append([0.8, 1.6])\n…')
-        self.reason = QLabel()
-        self.reason.setWordWrap(True)
+        self.reason = QLabel(wordWrap=True)
         self.file_button = QPushButton(tr("From a file…"))
         self.use_button = QPushButton(tr("Use this motion"))
         self.cancel_button = QPushButton(tr("Cancel"))
         self._title = ""
-        self._lay_out()
+        line = self.fontMetrics().height()
+        how = QLabel(
+            tr(
+                "In Choregraphe, right-click in the timeline and choose “Export motion to "
+                "clipboard”, Python or C++. Paste it here."
+            )
+        )
+        how.setWordWrap(True)
+        self.use_button.setProperty("kind", "primary")
+        foot = in_row(self.file_button, 1, self.cancel_button, self.use_button)
+        in_column(how, (self.text, 1), self.reason, foot, of=self)
+        self.resize(line * 36, line * 24)
         self.text.textChanged.connect(self._on_text_changed)
         self.file_button.clicked.connect(self._on_file_asked)
         self.use_button.clicked.connect(self._on_use_clicked)
@@ -67,28 +70,6 @@ class ImportDialog(QDialog):
             return
         self.text.setPlainText(text)
         self._title = path.stem
-
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        how = QLabel(
-            tr(
-                "In Choregraphe, right-click in the timeline and choose “Export motion to "
-                "clipboard”, Python or C++. Paste it here."
-            )
-        )
-        how.setWordWrap(True)
-        self.use_button.setProperty("kind", "primary")
-        foot = QHBoxLayout()
-        foot.addWidget(self.file_button)
-        foot.addStretch(1)
-        foot.addWidget(self.cancel_button)
-        foot.addWidget(self.use_button)
-        box = QVBoxLayout(self)
-        box.addWidget(how)
-        box.addWidget(self.text, 1)
-        box.addWidget(self.reason)
-        box.addLayout(foot)
-        self.resize(line * 36, line * 24)
 
     def _motion(self) -> OwnAnimation | str:
         """The motion in the text, or why there is none."""
@@ -120,11 +101,7 @@ class ImportDialog(QDialog):
             self.reason.setText(motion)
 
     def _on_file_asked(self) -> None:
-        dialog = QFileDialog(self, tr("A file from Choregraphe"))
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.fileSelected.connect(lambda chosen: self.read_file(Path(chosen)))
-        dialog.open()
+        ask_for_path(self, tr("A file from Choregraphe"), Path(), self.read_file)
 
     def _on_use_clicked(self) -> None:
         motion = self._motion()

@@ -37,8 +37,7 @@ from robots.body.kinematics import Skeleton
 from robots.body.limbs import Limb
 
 from . import editing
-from .rehearsal import Rehearsal, TooFast, falling, given_time
-from .timeline_painter import Fault, limb_words
+from .rehearsal import Fault, Rehearsal, TooFast, falling, given_time, limb_words
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor
@@ -236,8 +235,7 @@ class MotionController(QObject):
             return
         seconds = max(seconds, SHORTEST_STEP_S - self.chosen[0])
         moves = {time: editing.usable(time + seconds) for time in self.chosen}
-        motion = editing.moved(self.motion, moves)
-        self.do(label, motion, merge=merge)
+        self.do(label, editing.moved(self.motion, moves), merge=merge)
         self.choose(set(moves.values()))
 
     def shift_after(self, time: float, seconds: float, label: str, *, merge: str = "") -> None:
@@ -543,10 +541,12 @@ class Faults(QObject):
             return
 
     def _fast(self, one: TooFast) -> Fault:
+        name = one.joint
+        limb = limb_of_joint_words(self.controller.body, name)
         words = tr(
             "Too fast at {time} s: {joint} would have to move {ratio} times as fast as it can.",
             time=f"{one.to_s:.2f}",
-            joint=self._joint(one.joint),
+            joint=f"{limb} ({joint_words(self._language(), self.controller.body, name)})",
             ratio=f"{one.ratio:.1f}",
         )
         return Fault("fast", one.from_s, one.to_s, words)
@@ -554,7 +554,3 @@ class Faults(QObject):
     def _fall(self, at_s: float) -> Fault:
         words = tr("The robot would fall at {time} s.", time=f"{at_s:.2f}")
         return Fault("fall", at_s, max(self.controller.motion.duration_s, at_s + 0.05), words)
-
-    def _joint(self, name: str) -> str:
-        limb = limb_of_joint_words(self.controller.body, name)
-        return f"{limb} ({joint_words(self._language(), self.controller.body, name)})"

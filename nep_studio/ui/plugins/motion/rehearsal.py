@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation
+from nep_studio.ui.words import tr
 from robots.body.body import Angles, Body, Posture
 from robots.body.keyframes import Track, ticks, track_angles
 from robots.body.kinematics import UPRIGHT, Skeleton, TorsoPose, pose_of
@@ -44,6 +46,26 @@ class TooFast:
     ratio: float
 
 
+@dataclass(frozen=True)
+class Fault:
+    """Where on the timeline something is wrong, and what, in words."""
+
+    kind: Literal["fast", "fall"]
+    from_s: float
+    to_s: float
+    words: str
+
+
+LIMBS = (Limb.HEAD, Limb.LEFT_ARM, Limb.RIGHT_ARM, Limb.LEGS)
+"""In the order of their rows on the timeline."""
+
+
+def limb_words() -> dict[Limb, str]:
+    """What the limbs are called, in the order of the rows."""
+    words = (tr("Head"), tr("Left arm"), tr("Right arm"), tr("Legs"))
+    return dict(zip(LIMBS, words, strict=True))
+
+
 class Rehearsal:
     """A motion as angles: ``times`` (n,) from 0 on, ``angles`` (n, joints) in the body's order."""
 
@@ -55,7 +77,24 @@ class Rehearsal:
         self.times: Angles = (
             np.append(0.0, ticks(duration_s, TICK_S)) if duration_s else np.zeros(1)
         )
-        self.wanted = self._sampled()
+        angles = np.repeat(self.start[None, :], len(self.times), axis=0)
+        for name, joint in self.motion.joints.items():
+            if name in self.body.index:
+                column = self.body.index[name]
+                start = float(self.start[column])
+                known = self._cached.get(name)
+                if (
+                    known is None
+                    or known[0] != joint
+                    or known[1] != start
+                    or len(known[2]) < len(self.times)
+                ):
+                    track = Track(joint.times, joint.keys, joint.handles)
+                    fastest = float(self.body.max_speed[self.body.index[name]])
+                    curve = np.append(start, track_angles(track, start, self.times[1:], fastest))
+                    known = self._cached[name] = joint, start, curve
+                angles[:, column] = known[2][: len(self.times)]
+        self.wanted = angles
         self.angles, self.clamped = body.clamped(self.wanted)
 
     def again(self, motion: OwnAnimation) -> Rehearsal:
@@ -93,28 +132,6 @@ class Rehearsal:
         ratios: Angles = np.abs(np.diff(self.angles, axis=0)) / steps_s / self.body.max_speed
         return ratios
 
-    def _sampled(self) -> Angles:
-        angles = np.repeat(self.start[None, :], len(self.times), axis=0)
-        for name, joint in self.motion.joints.items():
-            if name in self.body.index:
-                column = self.body.index[name]
-                angles[:, column] = self._curve(name, joint, float(self.start[column]))
-        return angles
-
-    def _curve(self, name: str, joint: JointKeys, start: float) -> Angles:
-        known = self._cached.get(name)
-        if (
-            known is None
-            or known[0] != joint
-            or known[1] != start
-            or len(known[2]) < len(self.times)
-        ):
-            track = Track(joint.times, joint.keys, joint.handles)
-            fastest = float(self.body.max_speed[self.body.index[name]])
-            curve = np.append(start, track_angles(track, start, self.times[1:], fastest))
-            known = self._cached[name] = joint, start, curve
-        return _as_long(known[2], len(self.times))
-
 
 def starting_posture(body: Body, motion: OwnAnimation) -> str:
     """The posture in which a motion begins; the usual one when it goes with any."""
@@ -144,10 +161,6 @@ def _slowed(motion: OwnAnimation, factors: Mapping[tuple[float, float], float]) 
         now += max(gap, SHORTEST_STEP_S)
         new[end] = now = float(np.ceil(round(now * 100, 3)) / 100) if factor > 1.0 else now
     return with_times(motion, new)
-
-
-def _as_long(curve: Angles, length: int) -> Angles:
-    return curve[:length]
 
 
 # How a robot stands in a pose, and whether it would fall while it plays a motion.

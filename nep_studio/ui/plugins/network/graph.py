@@ -233,7 +233,7 @@ def shapes_of(graph: Graph, line: float, *, is_mirrored: bool = False) -> Shapes
     ]
     found = [(a, b) for a, b in ways if a in rects and b in rects]
     curves = tuple(
-        _curve(a, b, rects, line, is_mirrored, _backward(spots[a], spots[b])) for a, b in found
+        _curve(a, b, rects, line, is_mirrored, spots[b].column <= spots[a].column) for a, b in found
     )
     return Shapes(rects, curves)
 
@@ -245,17 +245,8 @@ def _rect(key: Key, spot: Spot, line: float, is_mirrored: bool) -> QRectF:
     return QRectF(x, y - height * line / 2, WIDTH * line, height * line)
 
 
-def _backward(start: Spot, end: Spot) -> bool:
-    return end.column <= start.column
-
-
 def _curve(
-    a: Key,
-    b: Key,
-    rects: Mapping[Key, QRectF],
-    line: float,
-    is_mirrored: bool,
-    is_back: bool,
+    a: Key, b: Key, rects: Mapping[Key, QRectF], line: float, is_mirrored: bool, is_back: bool
 ) -> Curve:
     if is_back:
         return _back_curve(a, b, rects, line)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
@@ -18,7 +17,6 @@ from PySide6.QtWidgets import (
     QToolButton,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -26,24 +24,28 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, type_words
+from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .graph import Graph, Key, graph_of
 from .graph_view import ZOOM_STEP, GraphView
-from .topics import Talks, TopicPane
+from .topics import TopicPane
 
 Statuses = Callable[[], Mapping[str, NodeStatus]]
 
 
-class NetworkPanel(QWidget):
+class NetworkPanel(InLines):
     """Looks at the network while it is visible.
 
     ``run_asked`` asks to run the project, the first step where nothing is there to see;
     ``sharing_asked`` to show which other computers come in; ``node_chosen`` gives the name of a
     node, ``plot_requested`` a topic and a field.
     """
+
+    usual_lines = (40, 18)
 
     run_asked = Signal()
     sharing_asked = Signal()
@@ -55,7 +57,7 @@ class NetworkPanel(QWidget):
         self,
         feed: NetworkFeed,
         statuses: Statuses,
-        talks: Talks,
+        runner: Runner,
         look: Look,
         parent: QWidget | None = None,
     ) -> None:
@@ -63,7 +65,7 @@ class NetworkPanel(QWidget):
         self._feed, self._statuses, self._look = feed, statuses, look
         self.graph = GraphView(look)
         self.list = NetworkList()
-        self.pane = TopicPane(talks, look)
+        self.pane = TopicPane(runner, look)
         self.pane.hide()
         self.empty = _Empty()
         self.summary = QLabel()
@@ -83,29 +85,19 @@ class NetworkPanel(QWidget):
         follow_words(self, self._say)
 
     def _lay_out(self) -> None:
-        bar = QHBoxLayout()
-        bar.addWidget(self.summary, 1)
-        bar.addWidget(self.sharing_button)
         tools = (self.whole_button, self.list_button, self.smaller_button, self.larger_button)
-        for button in (*tools, self.fit_button):
-            bar.addWidget(button)
+        bar = in_row((self.summary, 1), self.sharing_button, *tools, self.fit_button)
         self.views = QStackedWidget()
         for widget in (self.empty, self.graph, self.list):
             self.views.addWidget(widget)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(bar)
-        column.addWidget(self.views, 1)
-        split = QSplitter(Qt.Orientation.Horizontal)
+        in_column(bar, (self.views, 1), of=left, margins=0)
+        split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         split.addWidget(left)
         split.addWidget(self.pane)
         split.setStretchFactor(0, 3)
         split.setStretchFactor(1, 2)
-        split.setChildrenCollapsible(False)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(split)
+        in_column(split, of=self, margins=0)
 
     def _connect(self) -> None:
         self._feed.changed.connect(self._on_changed)
@@ -145,11 +137,6 @@ class NetworkPanel(QWidget):
         """Show the messages of a topic."""
         self.pane.show_topic(topic, self._feed.seen.topics.get(topic))
         self.pane.show()
-
-    def sizeHint(self) -> QSize:
-        """Room for a small graph."""
-        line = self.fontMetrics().height()
-        return QSize(line * 40, line * 18)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Look at the network."""
@@ -209,21 +196,11 @@ class _Empty(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.words = QLabel()
-        self.words.setWordWrap(True)
-        self.words.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.words = QLabel(wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
         self.words.setProperty("role", "hint")
         self.run_button = labelled(QPushButton(), text="Run")
         self.run_button.setProperty("kind", "run")
-        row = QHBoxLayout()
-        row.addStretch(1)
-        row.addWidget(self.run_button)
-        row.addStretch(1)
-        box = QVBoxLayout(self)
-        box.addStretch(1)
-        box.addWidget(self.words)
-        box.addLayout(row)
-        box.addStretch(2)
+        in_column(1, self.words, in_row(1, self.run_button, 1), 2, of=self)
         self.tell(is_up=False)
         follow_words(self, self._say)
 

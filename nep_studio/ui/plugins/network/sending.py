@@ -8,15 +8,7 @@ from typing import Any
 import msgspec
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut, QTextCursor
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QPlainTextEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QLabel, QPlainTextEdit, QPushButton, QWidget
 
 from faults import FaultError, Words, text_of
 from nep_core.wire import messages as m
@@ -25,6 +17,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.node_style import one_line, pretty
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, base_point_size, code_font
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 # Messages to begin with when one is sent by hand, and the check of what was written.
@@ -128,18 +121,14 @@ class SendBox(QWidget):
         self._topic = ""
         self._sent: list[tuple[str, str]] = []
         self._drafts: dict[str, str] = {}
-        self.text = QPlainTextEdit()
+        self.text = QPlainTextEdit(tabChangesFocus=True)
         labelled(self.text, name="The message, as JSON")
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.text.setTabChangesFocus(True)
-        self.note = QLabel()
-        self.note.setWordWrap(True)
-        self.note.setTextFormat(Qt.TextFormat.PlainText)
-        self.history = QComboBox()
-        labelled(self.history, name="Messages that you have sent")
-        self.history.setSizeAdjustPolicy(
-            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        self.note = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.history = QComboBox(
+            sizeAdjustPolicy=QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
+        labelled(self.history, name="Messages that you have sent")
         self.history.setMinimumContentsLength(8)
         self.send_button = labelled(QPushButton(), text="Send")
         self.send_button.setProperty("kind", "primary")
@@ -147,7 +136,8 @@ class SendBox(QWidget):
         self.example_button = labelled(QPushButton(), text="Example")
         self.example_button.setProperty("kind", "quiet")
         labelled(self.example_button, tip="Write the example again")
-        self._lay_out()
+        row = in_row((self.history, 1), self.example_button, self.send_button)
+        in_column((self.text, 1), self.note, row, of=self, margins=0)
         self.send_button.clicked.connect(self.send_now)
         self.example_button.clicked.connect(self._on_example_clicked)
         self.history.activated.connect(self._on_history_activated)
@@ -157,17 +147,6 @@ class SendBox(QWidget):
         look.theme_changed.connect(self._on_theme_changed)
         self._on_theme_changed()
         follow_words(self, self._show_history)
-
-    def _lay_out(self) -> None:
-        row = QHBoxLayout()
-        row.addWidget(self.history, 1)
-        row.addWidget(self.example_button)
-        row.addWidget(self.send_button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.text, 1)
-        box.addWidget(self.note)
-        box.addLayout(row)
 
     def show_topic(self, topic: str, last: Any = None) -> None:
         """Write messages of this topic; what was begun for it before is there again."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import datetime
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import msgspec
 from PySide6.QtCore import (
@@ -22,7 +24,6 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QFileDialog,
     QHBoxLayout,
     QLabel,
     QLineEdit,
@@ -32,7 +33,6 @@ from PySide6.QtWidgets import (
     QSplitter,
     QTabWidget,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -40,14 +40,94 @@ from nep_core.wire.messages import BY_TOPIC
 from nep_studio.ui.labels import follow_words, labelled, labelled_items
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
-from nep_studio.ui.running.runner import Heard, Tap
+from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
 
-from .saving import number_fields, save
 from .sending import SendBox
+
+# Messages as files: JSON lines, or a table of their numbers and words as CSV.
+
+
+def as_json_lines(messages: Iterable[Heard]) -> str:
+    """One line a message: when, from whom, and the message."""
+    lines = (
+        msgspec.json.encode(
+            {"time": one.time_s, "sender": one.sender, "message": _json_safe(one.message)}
+        ).decode()
+        for one in messages
+    )
+    return "".join(f"{line}\n" for line in lines)
+
+
+def as_csv(messages: Iterable[Heard]) -> str:
+    """One row a message; a column for each value in it, named by its way: “joints.HeadYaw”."""
+    rows = [
+        {"time": _moment(one.time_s), "sender": one.sender, **dict(values_of(one.message))}
+        for one in messages
+    ]
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    out = io.StringIO()
+    writer = csv.DictWriter(out, columns, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return out.getvalue()
+
+
+def save(messages: Iterable[Heard], path: Path) -> None:
+    """Write messages as the ending of the file's name says; raises OSError."""
+    text = as_csv(messages) if path.suffix.lower() == ".csv" else as_json_lines(messages)
+    path.write_text(text, encoding="utf-8", newline="")
+
+
+def values_of(message: Any, way: str = "") -> Iterator[tuple[str, object]]:
+    """All single values in a message with the way to each; a list is one value, as JSON."""
+    data = msgspec.to_builtins(message) if isinstance(message, msgspec.Struct) else message
+    if isinstance(data, Mapping):
+        for key, value in data.items():
+            yield from values_of(value, f"{way}.{key}" if way else str(key))
+    elif isinstance(data, list | tuple | bytes):
+        yield way or "message", as_json(data)
+    else:
+        yield way or "message", data
+
+
+def number_fields(message: Any) -> list[str]:
+    """The ways to the numbers in a message, and to lists of numbers: what can be plotted."""
+    data = msgspec.to_builtins(message) if isinstance(message, msgspec.Struct) else message
+    return list(_numbers(data, "")) if isinstance(data, Mapping) else []
+
+
+def _numbers(data: Any, way: str) -> Iterator[str]:
+    if isinstance(data, Mapping):
+        for key, value in data.items():
+            yield from _numbers(value, f"{way}.{key}" if way else str(key))
+    elif _is_number(data) or _is_row(data):
+        yield way
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _is_row(value: object) -> bool:
+    """Whether it is a list of numbers, or of lists of numbers such as samples."""
+    if not isinstance(value, list | tuple) or not value:
+        return False
+    return all(_is_number(one) or (isinstance(one, list | tuple) and _is_row(one)) for one in value)
+
+
+def _json_safe(message: Any) -> Any:
+    return as_json(message) if isinstance(message, bytes) else message
+
+
+def _moment(time_s: float) -> str:
+    return datetime.fromtimestamp(time_s).isoformat(timespec="milliseconds")
+
 
 # The head of a topic's pane: its name, a filter, and what can be done with its messages.
 
@@ -70,26 +150,19 @@ class TopicBar(QWidget):
         self.plot_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.close_button = QToolButton()
         labelled(self.close_button, tip="Close", name="Close these messages")
-        self.filter = QLineEdit()
+        self.filter = QLineEdit(clearButtonEnabled=True)
         labelled(
             self.filter, placeholder="Show only messages with…", name="Show only messages with…"
         )
-        self.filter.setClearButtonEnabled(True)
-        self._lay_out()
-        look.theme_changed.connect(self._on_theme_changed)
-        self._on_theme_changed()
-
-    def _lay_out(self) -> None:
         first, second = QHBoxLayout(), QHBoxLayout()
         first.addWidget(self.title, 1)
         first.addWidget(self.close_button)
         for button in (self.pause_button, self.copy_button, self.save_button, self.plot_button):
             second.addWidget(button)
         second.addWidget(self.filter, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(first)
-        box.addLayout(second)
+        in_column(first, second, of=self, margins=0)
+        look.theme_changed.connect(self._on_theme_changed)
+        self._on_theme_changed()
 
     def show_topic(self, topic: str) -> None:
         """Say whose messages these are."""
@@ -185,27 +258,15 @@ SHOW_MS = 50
 """Twenty times a second is as fast as anybody can see."""
 
 
-class Talks(Protocol):
-    """Brings messages and sends them: a runner."""
-
-    def tap(
-        self, topic: str, *, kind: type[Any] | None = None, most: int = 2000, parent: Any
-    ) -> Tap:
-        """Hear a topic."""
-
-    def send(self, topic: str, message: msgspec.Struct | dict[str, Any]) -> bool:
-        """Send a message."""
-
-
 class TopicPane(QWidget):
     """Hears its topic while it is visible. ``plot_requested`` gives the topic and a field."""
 
     plot_requested = Signal(str, str)
     saving_failed = Signal(str, str)
 
-    def __init__(self, talks: Talks, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(self, runner: Runner, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._talks = talks
+        self._runner = runner
         self._tap: Tap | None = None
         self._is_paused = False
         self._seen: TopicSeen | None = None
@@ -213,19 +274,17 @@ class TopicPane(QWidget):
         self.folder = Path.home()
         self.heard = HeardList(self)
         self.bar = TopicBar(look)
-        self.about = QLabel()
-        self.about.setWordWrap(True)
+        self.about = QLabel(wordWrap=True)
         self.about.setProperty("role", "hint")
         self.list = QListView()
         self.list.setModel(self.heard)
         self.list.setUniformItemSizes(True)
         labelled(self.list, name="Messages, the newest first")
         self.list.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.full = QPlainTextEdit()
-        self.full.setReadOnly(True)
+        self.full = QPlainTextEdit(readOnly=True)
         labelled(self.full, name="The message in full")
         self.full.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.send_box = SendBox(talks.send, look)
+        self.send_box = SendBox(runner.send, look)
         self._later = QTimer(self, singleShot=True, interval=SHOW_MS)
         self._later.timeout.connect(self._on_later)
         self._lay_out()
@@ -237,19 +296,14 @@ class TopicPane(QWidget):
             self.tell(self._seen)
 
     def _lay_out(self) -> None:
-        split = QSplitter(Qt.Orientation.Vertical)
+        split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         split.addWidget(self.list)
         split.addWidget(self.full)
-        split.setChildrenCollapsible(False)
-        self.tabs = QTabWidget()
-        self.tabs.setDocumentMode(True)
+        self.tabs = QTabWidget(documentMode=True)
         self.tabs.addTab(split, "")
         self.tabs.addTab(self.send_box, "")
         labelled_items(self.tabs, "Messages", "Send by hand")
-        box = QVBoxLayout(self)
-        for widget in (self.bar, self.about):
-            box.addWidget(widget)
-        box.addWidget(self.tabs, 1)
+        in_column(self.bar, self.about, (self.tabs, 1), of=self)
 
     def _connect(self) -> None:
         bar = self.bar
@@ -325,7 +379,7 @@ class TopicPane(QWidget):
     def _start(self) -> None:
         if self.topic and self._tap is None:
             kind = BY_TOPIC.get(self.topic)
-            self._tap = self._talks.tap(self.topic, kind=kind, parent=self)
+            self._tap = self._runner.tap(self.topic, kind=kind, parent=self)
             self._tap.arrived.connect(self._on_arrived)
 
     def _stop(self) -> None:
@@ -374,17 +428,14 @@ class TopicPane(QWidget):
 
     def _on_save_clicked(self) -> None:
         name = self.topic.strip("/").replace("/", "_") or "messages"
-        dialog = QFileDialog(self, tr("Save messages"), str(self.folder / f"{name}.csv"))
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setNameFilters([tr("Table (*.csv)"), tr("JSON lines (*.jsonl)")])
+        place, kinds = (
+            self.folder / f"{name}.csv",
+            (tr("Table (*.csv)"), tr("JSON lines (*.jsonl)")),
+        )
+        dialog = ask_for_path(self, tr("Save messages"), place, self.save_to, "save", kinds)
         dialog.filterSelected.connect(
             lambda chosen: dialog.setDefaultSuffix("jsonl" if "jsonl" in chosen else "csv")
         )
-        dialog.setDefaultSuffix("csv")
-        dialog.selectFile(f"{name}.csv")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(lambda path: self.save_to(Path(path)))
-        dialog.open()
 
     def _on_plot_menu(self) -> None:
         menu: QMenu = self.bar.plot_menu

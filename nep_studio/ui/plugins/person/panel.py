@@ -10,7 +10,6 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -32,7 +31,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import Columns, FlowLayout
+from nep_studio.ui.widgets.layouts import Columns, FlowLayout, in_column, in_row
 from nep_studio.ui.words import language_code, tr
 
 from .person_box import OccurrenceButton, PersonBox, Section, WordsButton
@@ -64,13 +63,9 @@ class WaitingBoard(QWidget):
         self.buttons: list[OccurrenceButton] = []
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = QLabel(wordWrap=True)
         self.words.setProperty("role", "hint")
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self._rows)
-        box.addWidget(self.words)
+        in_column(self._rows, self.words, of=self, margins=0)
 
     def show_occurrences(self, occurrences: list[Occurrence], here: dict[str, str]) -> None:
         """Show these; ``here`` are the visitors that are there now, with their names."""
@@ -132,12 +127,6 @@ class HumanPanel(QScrollArea):
         self.told = QLabel()
         self.words, self.say_button = QLineEdit(), labelled(QPushButton(), text="Say")
         self.reset_button = WordsButton("Everything as at the start", self._look, "rotate-ccw")
-        self._make_boxes()
-        self._lay_out()
-        self._connect()
-        self._dress()
-
-    def _make_boxes(self) -> None:
         look, stimuli = self._look, self.stimuli
 
         def language() -> Language:
@@ -161,17 +150,14 @@ class HumanPanel(QScrollArea):
             Section("Sensors", self.sensors, look, is_open=False),
             Section("The body", self.body, look, is_open=False),
         ]
+        self._lay_out()
+        self._connect()
+        self._dress()
 
     def _say_row(self) -> QWidget:
         labelled(self.words, placeholder="Somebody says…", name="Words that somebody says")
         said = QWidget()
-        row = QHBoxLayout()
-        row.addWidget(self.words, 1)
-        row.addWidget(self.say_button)
-        box = QVBoxLayout(said)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(row)
-        box.addWidget(self.listening)
+        in_column(in_row((self.words, 1), self.say_button), self.listening, of=said, margins=0)
         return said
 
     def _lay_out(self) -> None:
@@ -183,14 +169,9 @@ class HumanPanel(QScrollArea):
             label.setTextFormat(Qt.TextFormat.PlainText)
         self.told.setProperty("role", "hint")
         self.told.hide()
-        top = QHBoxLayout()
-        top.addWidget(self.state, 1)
-        top.addWidget(self.run_button)
+        top = in_row((self.state, 1), self.run_button)
         self._which = QWidget()
-        which = QHBoxLayout(self._which)
-        which.setContentsMargins(0, 0, 0, 0)
-        which.addWidget(labelled(QLabel(), text="Before"))
-        which.addWidget(self.robot, 1)
+        in_row(labelled(QLabel(), text="Before"), (self.robot, 1), of=self._which, margins=0)
         inner, line = QWidget(self.viewport()), self.fontMetrics().height()
         box = QVBoxLayout(inner)
         box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
@@ -222,7 +203,14 @@ class HumanPanel(QScrollArea):
         """Show what the program waits for now, if somebody looks."""
         if not self.isVisible():
             return
-        self._show_robots()
+        robots = self.stimuli.robots
+        if robots != [self.robot.itemText(row) for row in range(self.robot.count())]:
+            before = self.stimuli.robot
+            self.robot.clear()
+            self.robot.addItems(robots)
+            self.robot.setCurrentText(before)
+        self.stimuli.robot = self.robot.currentText()
+        self._which.setVisible(len(robots) > 1)
         self._show_waiting()
         self._show_state()
 
@@ -245,16 +233,6 @@ class HumanPanel(QScrollArea):
         """Let all visitors go, and all sensors measure what they usually do."""
         self.visitors.go_all()
         self.sensors.rest()
-
-    def _show_robots(self) -> None:
-        robots = self.stimuli.robots
-        if robots != [self.robot.itemText(row) for row in range(self.robot.count())]:
-            before = self.stimuli.robot
-            self.robot.clear()
-            self.robot.addItems(robots)
-            self.robot.setCurrentText(before)
-        self.stimuli.robot = self.robot.currentText()
-        self._which.setVisible(len(robots) > 1)
 
     def _show_waiting(self) -> None:
         if not self.isVisible():

@@ -10,7 +10,6 @@ from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -32,7 +31,7 @@ from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import tr
 
 from .stimuli import DISTANCES_M, ICONS, Stimuli, words_of
@@ -48,12 +47,10 @@ class PersonBox(QWidget):
         super().__init__()
         self._stimuli, self._language = stimuli, language
         self.is_there = labelled(QCheckBox(), text="Somebody is there")
-        self.name = QComboBox()
-        self.name.setEditable(True)
+        self.name = QComboBox(editable=True, insertPolicy=QComboBox.InsertPolicy.NoInsert)
         line_edit = self.name.lineEdit() or QLineEdit()
         labelled(line_edit, placeholder="anybody")
         line_edit.setMaxLength(LONGEST_NAME)
-        self.name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.name.setMinimumContentsLength(6)
         labelled(self.name, name="Whose face it is")
         self.way = QSlider(Qt.Orientation.Horizontal)
@@ -78,12 +75,8 @@ class PersonBox(QWidget):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        named = QHBoxLayout()
-        named.addWidget(labelled(QLabel(), text="Face of"))
-        named.addWidget(self.name, 1)
-        far = QHBoxLayout()
-        far.addWidget(self.way, 1)
-        far.addWidget(self.way_words)
+        named = in_row(labelled(QLabel(), text="Face of"), (self.name, 1))
+        far = in_row((self.way, 1), self.way_words)
         looks = QWidget()
         flow = FlowLayout(looks, line // 3)
         for button in self.looks:
@@ -127,12 +120,10 @@ class PersonBox(QWidget):
                     self.name.setEditText(person.name)
         for widget in (self.way, self.way_words, self.before):
             widget.setEnabled(person is not None)
-        self.way_words.setText(self._way_words(self.way.value() / 100))
-
-    def _way_words(self, way_m: float) -> str:
+        way_m = self.way.value() / 100
         which = "close" if way_m < CLOSE_M else "middle" if way_m < MIDDLE_M else "far"
         label = self._language().choices.get("distances", dict.fromkeys(DISTANCES_M, ""))[which]
-        return tr("{m} m: {distance}", m=f"{way_m:.1f}", distance=label)
+        self.way_words.setText(tr("{m} m: {distance}", m=f"{way_m:.1f}", distance=label))
 
     def _come(self) -> None:
         name = self.name.currentText().strip()
@@ -279,16 +270,11 @@ class Section(QWidget):
         self.heading.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.body = QWidget()
-        self.box = QVBoxLayout(self.body)
         line = self.fontMetrics().height()
-        self.box.setContentsMargins(line // 2, 0, 0, line // 2)
-        self.box.setSpacing(line // 3)
-        self.box.addWidget(held)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(line // 6)
-        outer.addWidget(self.heading)
-        outer.addWidget(self.body)
+        self.box = in_column(
+            held, of=self.body, margins=(line // 2, 0, 0, line // 2), spacing=line // 3
+        )
+        in_column(self.heading, self.body, of=self, margins=0, spacing=line // 6)
         self.heading.clicked.connect(lambda: self.open(not self.is_open))
         look.theme_changed.connect(self._dress)
         self.open(is_open)

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QSlider,
     QSpinBox,
@@ -26,7 +25,7 @@ from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
@@ -67,10 +66,7 @@ class SensorBox(QWidget):
         flow = FlowLayout(others, self.fontMetrics().height() // 3)
         for widget in (self.other, self.value, self.measure):
             flow.addWidget(widget)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(self._grid)
-        box.addWidget(others)
+        in_column(self._grid, others, of=self, margins=0)
         follow_words(self, self._say)
 
     def _names(self) -> Mapping[str, str]:
@@ -96,9 +92,8 @@ class SensorBox(QWidget):
         slider.setRange(low, high)
         slider.setValue(usual)
         slider.setPageStep(25)
-        title, value = QLabel(), QLabel(str(usual))
+        title, value = QLabel(wordWrap=True), QLabel(str(usual))
         self._titles[sensor] = title
-        title.setWordWrap(True)
         value.setMinimumWidth(self.fontMetrics().horizontalAdvance("000"))
         self._values[sensor] = value
         self._grid.addWidget(title, row, 0, 1, 2)
@@ -134,11 +129,14 @@ class BodyBox(QWidget):
         self.take = WordsButton("Let it take this posture", look, "person-standing")
         self.joint = Choices(lambda: _joints(language()))
         for box in (labelled(self.posture, name="Posture"), self.joint):
-            _fit(box)
+            # Let a list of long words be as narrow as there is room
+            box.setSizeAdjustPolicy(
+                QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+            )
+            box.setMinimumContentsLength(10)
         labelled(self.joint, name="Joint")
-        self.angle = QDoubleSpinBox()
+        self.angle = QDoubleSpinBox(decimals=0)
         self.angle.setRange(-180.0, 180.0)
-        self.angle.setDecimals(0)
         self.angle.setSuffix("°")
         labelled(self.angle, name="Angle")
         self.turn = WordsButton("Turn it", look, "rotate-ccw")
@@ -183,12 +181,6 @@ def _joints(language: Language) -> dict[object, str]:
     }
 
 
-def _fit(box: QComboBox) -> None:
-    """Let a list of long words be as narrow as there is room."""
-    box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-    box.setMinimumContentsLength(10)
-
-
 # A ball, a mark and sounds, which a robot notices.
 
 
@@ -218,10 +210,6 @@ class ThingsBox(QWidget):
         self.refresh()
 
     def _lay_out(self) -> None:
-        marked = QHBoxLayout()
-        marked.addWidget(self.mark)
-        marked.addWidget(self.number)
-        marked.addStretch(1)
         sounds = QWidget()
         flow = FlowLayout(sounds, self.fontMetrics().height() // 3)
         for button in self.sounds.values():
@@ -229,12 +217,7 @@ class ThingsBox(QWidget):
         hint = labelled(QLabel(), text="Other things are placed in the scene of the robots.")
         hint.setWordWrap(True)
         hint.setProperty("role", "hint")
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.ball)
-        box.addLayout(marked)
-        box.addWidget(sounds)
-        box.addWidget(hint)
+        in_column(self.ball, in_row(self.mark, self.number, 1), sounds, hint, of=self, margins=0)
 
     def refresh(self) -> None:
         """Show what is there."""
@@ -292,8 +275,7 @@ class GestureBox(QWidget):
         self._shown: dict[str, str] | None = None
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
-        self.how = QLabel()
-        self.how.setWordWrap(True)
+        self.how = QLabel(wordWrap=True)
         self.how.setProperty("role", "hint")
         self.certainty = QSpinBox()
         self.certainty.setRange(1, 100)
@@ -301,16 +283,8 @@ class GestureBox(QWidget):
         labelled(self.certainty, name="How certain the gesture is")
         self.certainty.valueChanged.connect(self._on_certainty_changed)
         self._certain = QWidget()
-        row = QHBoxLayout(self._certain)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(labelled(QLabel(), text="Certainty"))
-        row.addWidget(self.certainty)
-        row.addStretch(1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self._rows)
-        box.addWidget(self.how)
-        box.addWidget(self._certain)
+        in_row(labelled(QLabel(), text="Certainty"), self.certainty, 1, of=self._certain, margins=0)
+        in_column(self._rows, self.how, self._certain, of=self, margins=0)
         self.show_gestures([], language().choices.get("gestures", {}))
         follow_words(self, self._say)
 
@@ -323,7 +297,20 @@ class GestureBox(QWidget):
         offered = {**wanted, **known}
         if offered != self._shown:
             self._shown = offered
-            self._make_buttons(offered)
+            for button in self.buttons:
+                self._flow.removeWidget(button)
+                button.hide()
+                button.deleteLater()
+            self.buttons = [
+                OccurrenceButton(
+                    Occurrence("gesture", name), self._look, self._stimuli.begin, self._stimuli.end
+                )
+                for name in offered
+            ]
+            call(self.buttons, offered)
+            for button in self.buttons:
+                self._flow.addWidget(button)
+                button.show()
         self.refresh()
 
     def refresh(self) -> None:
@@ -336,22 +323,6 @@ class GestureBox(QWidget):
             else "No watch runs: the program is told by hand that the gesture was made.",
         )
         self._certain.setVisible(not is_moved)
-
-    def _make_buttons(self, gestures: dict[str, str]) -> None:
-        for button in self.buttons:
-            self._flow.removeWidget(button)
-            button.hide()
-            button.deleteLater()
-        self.buttons = [
-            OccurrenceButton(
-                Occurrence("gesture", name), self._look, self._stimuli.begin, self._stimuli.end
-            )
-            for name in gestures
-        ]
-        call(self.buttons, gestures)
-        for button in self.buttons:
-            self._flow.addWidget(button)
-            button.show()
 
     def _on_certainty_changed(self, percent: int) -> None:
         self._stimuli.certainty = percent / 100.0

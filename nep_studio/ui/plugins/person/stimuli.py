@@ -273,7 +273,17 @@ class Stimuli(QObject):
         if occurrence.kind in ("emotion", "state"):
             return self._tell(state_of(occurrence), SOURCE, occurrence)
         if not robot:
-            return self._without_robot(occurrence)
+            # Tell the program what a robot would have noticed; what is measured cannot be told
+            if occurrence.kind in TOLD_BY_HAND:
+                source = SOURCE if occurrence.robot in (ALL_ROBOTS, "") else occurrence.robot
+                return self._tell(state_of(occurrence), source, occurrence)
+            named = occurrence.robot if occurrence.robot != ALL_ROBOTS else self.robot
+            sentence = tr(
+                "{robot} is not on this screen, so that this has to happen to the robot itself.",
+                robot=named or tr("The robot"),
+            )
+            self.refused.emit(sentence)
+            return False
         self._let(robot, occurrence)
         return True
 
@@ -317,10 +327,6 @@ class Stimuli(QObject):
         """Ask a robot to take a posture."""
         return self._ask(robot, "do", {"posture": posture})
 
-    def can_move_watch(self, gesture: str) -> bool:
-        """Whether the watch on the screen is there, and knows a gesture."""
-        return self.has_watch and gesture in self._watch_gestures()
-
     # How things happen
 
     def _on_changed(self, _what: object) -> None:
@@ -356,27 +362,13 @@ class Stimuli(QObject):
         self._sense(robot, TOUCHES.get(part, (part,))[0], value)
 
     def _gesture(self, occurrence: Occurrence) -> bool:
-        if self.can_move_watch(occurrence.value):
+        if self.has_watch and occurrence.value in self._watch_gestures():
             is_sent = self._runner.send(
                 m.GESTURE_REQUEST, m.GestureRequest(gesture=occurrence.value)
             )
             self.told.emit(tr("The watch moves: {gesture}", gesture=occurrence.words))
             return is_sent
         return self._tell(state_of(occurrence), SOURCE, occurrence)
-
-    def _without_robot(self, occurrence: Occurrence) -> bool:
-        """Tell the program what a robot would have noticed; what is measured cannot be told."""
-        if occurrence.kind in TOLD_BY_HAND:
-            source = SOURCE if occurrence.robot in (ALL_ROBOTS, "") else occurrence.robot
-            return self._tell(state_of(occurrence), source, occurrence)
-        named = occurrence.robot if occurrence.robot != ALL_ROBOTS else self.robot
-        self.refused.emit(
-            tr(
-                "{robot} is not on this screen, so that this has to happen to the robot itself.",
-                robot=named or tr("The robot"),
-            )
-        )
-        return False
 
     def _tell(self, state: str, source: str, occurrence: Occurrence) -> bool:
         told = m.HumanBehavior(human_state=state, source=source, certainty=self.certainty)

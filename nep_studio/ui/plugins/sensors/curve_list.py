@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QTreeView,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -25,6 +24,7 @@ from nep_core.wire.messages import IMU
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .curves import Curve, CurveKey, icon_size
@@ -139,17 +139,14 @@ class CurveList(QTreeWidget):
 
     def _size_columns(self) -> None:
         metrics = QFontMetricsF(self.font())
-        self.setColumnWidth(0, self._names_width(metrics))
+        # Room for box, line and name of every curve; the headings go over all columns
+        names = [curve.name for curve in self._plots.curves.values()]
+        widest = max((metrics.horizontalAdvance(name) for name in names), default=0.0)
+        self.setColumnWidth(0, round(widest + self.iconSize().width() + 3 * metrics.height()))
         for at in range(1, self.columnCount()):
             title = self.headerItem().text(at)
             words = max(metrics.horizontalAdvance(title), metrics.horizontalAdvance("-0.0000000"))
             self.setColumnWidth(at, round(words + metrics.height() * 1.6))
-
-    def _names_width(self, metrics: QFontMetricsF) -> int:
-        """Room for box, line and name of every curve; the headings go over all columns."""
-        names = [curve.name for curve in self._plots.curves.values()]
-        widest = max((metrics.horizontalAdvance(name) for name in names), default=0.0)
-        return round(widest + self.iconSize().width() + 3 * metrics.height())
 
     def _item(
         self, heading: QTreeWidgetItem, curve: Curve, metrics: QFontMetricsF
@@ -215,25 +212,11 @@ class FieldChooser(QDialog):
         self._items: dict[Field, QStandardItem] = {}
         self._topics: dict[str, QStandardItem] = {}
         labelled(self, window_title="Choose what is plotted")
-        self.search = QLineEdit()
+        self.search = QLineEdit(clearButtonEnabled=True)
         labelled(self.search, placeholder="Find a number")
-        self.search.setClearButtonEnabled(True)
         self.hint = labelled(QLabel(), text="Numbers appear here as soon as a node sends some.")
         self.hint.setProperty("role", "hint")
         self.hint.setWordWrap(True)
-        self._make_tree()
-        buttons = QDialogButtonBox()
-        close = labelled(QPushButton(), text="Close")
-        close.clicked.connect(self.accept)
-        buttons.addButton(close, QDialogButtonBox.ButtonRole.AcceptRole)
-        box = QVBoxLayout(self)
-        for widget in (self.search, self.hint, self.tree, buttons):
-            box.addWidget(widget)
-        line = self.fontMetrics().height()
-        self.resize(line * _WIDTH_LINES, line * _HEIGHT_LINES)
-        network.changed.connect(self._on_changed)
-
-    def _make_tree(self) -> None:
         self.model = QStandardItemModel(0, 2, self)
         follow_words(self, self._name_columns)
         self.model.itemChanged.connect(self._on_item_changed)
@@ -243,11 +226,18 @@ class FieldChooser(QDialog):
         self._found.setAutoAcceptChildRows(True)
         self._found.setFilterCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.search.textChanged.connect(self._on_search_changed)
-        self.tree = QTreeView()
+        self.tree = QTreeView(uniformRowHeights=True)
         self.tree.setModel(self._found)
         self.tree.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         labelled(self.tree, name="Numbers that nodes send")
-        self.tree.setUniformRowHeights(True)
+        buttons = QDialogButtonBox()
+        close = labelled(QPushButton(), text="Close")
+        close.clicked.connect(self.accept)
+        buttons.addButton(close, QDialogButtonBox.ButtonRole.AcceptRole)
+        in_column(self.search, self.hint, self.tree, buttons, of=self)
+        line = self.fontMetrics().height()
+        self.resize(line * _WIDTH_LINES, line * _HEIGHT_LINES)
+        network.changed.connect(self._on_changed)
 
     def _name_columns(self) -> None:
         self.model.setHorizontalHeaderLabels([tr("Number"), tr("Last value")])

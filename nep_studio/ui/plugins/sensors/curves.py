@@ -188,20 +188,16 @@ class ValueRange:
         least = _least_height(low, high)
         if is_inside and max(high - low, least) >= _EMPTY * self.height:
             return self
-        return _round_range(low, high, least)
+        middle, height = (low + high) / 2, max(high - low, least)
+        step = _round_step(height / 8)
+        first = math.floor((middle - height * (0.5 + _ROOM)) / step) * step
+        last = math.ceil((middle + height * (0.5 + _ROOM)) / step) * step
+        return ValueRange(first, last)
 
 
 def _least_height(low: float, high: float) -> float:
     """A curve that does not change is a line in the middle, not noise of its last digit."""
     return max(abs(low), abs(high), 1e-6) * 1e-3
-
-
-def _round_range(low: float, high: float, least: float) -> ValueRange:
-    middle, height = (low + high) / 2, max(high - low, least)
-    step = _round_step(height / 8)
-    first = math.floor((middle - height * (0.5 + _ROOM)) / step) * step
-    last = math.ceil((middle + height * (0.5 + _ROOM)) / step) * step
-    return ValueRange(first, last)
 
 
 def _round_step(height: float) -> float:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QPixmap, QPolygonF
 from PySide6.QtWidgets import QWidget
@@ -15,7 +15,7 @@ from nep_studio.ui.ring import Floats, Ring
 from nep_studio.ui.theme.colours import Theme, load_theme
 from nep_studio.ui.widgets.curves import polygon
 
-from .curves import ValueRange, mixed
+from .curves import Curve, CurveKey, ValueRange, mixed
 from .feed import Mark
 from .streams import Samples, Stream
 
@@ -84,7 +84,14 @@ class LiveColumns:
         columns = columns_of(self._stream.samples(new), self.width_s)
         table = np.vstack([columns.number, columns.low, columns.high])
         if len(self._ring) and self._ring.newest(1)[0, 0] == table[0, 0]:
-            self._ring.replace_last(self._joined(table[:, 0]))
+            # The newest column and more samples of it
+            column = table[:, 0]
+            last = self._ring.newest(1)[:, 0]
+            low, high = slice(1, 1 + self._channels), slice(1 + self._channels, None)
+            joined = column.copy()
+            joined[low] = np.fmin(last[low], column[low])
+            joined[high] = np.fmax(last[high], column[high])
+            self._ring.replace_last(joined)
             table = table[:, 1:]
         self._ring.append(table)
 
@@ -94,15 +101,6 @@ class LiveColumns:
         return Columns(
             self.width_s, table[0], table[1 : 1 + self._channels], table[1 + self._channels :]
         )
-
-    def _joined(self, column: Floats) -> NDArray[np.float64]:
-        """The newest column and more samples of it."""
-        last = self._ring.newest(1)[:, 0]
-        low, high = slice(1, 1 + self._channels), slice(1 + self._channels, None)
-        joined = column.copy()
-        joined[low] = np.fmin(last[low], column[low])
-        joined[high] = np.fmax(last[high], column[high])
-        return joined
 
 
 # Columns of a curve as lines on the screen, made by numpy without a loop over points.
@@ -157,10 +155,6 @@ def lines(columns: Columns, channel: int, frame: Frame) -> list[Floats]:
     points[1::2, 1] = np.where(is_falling, low, high)
     points[:, 1] = (frame.values.high - points[:, 1]) * scale
     np.clip(points[:, 1], -_FAR * frame.height, (1 + _FAR) * frame.height, out=points[:, 1])
-    return _between_gaps(points)
-
-
-def _between_gaps(points: Floats) -> list[Floats]:
     is_gap = np.isnan(points[:, 1])
     if not is_gap.any():
         return [points]
@@ -227,7 +221,12 @@ class CurvesView(QWidget):
         painter.fillRect(self.rect(), self._ground)
         picture = self.picture
         if picture is not None:
-            self._draw_grid(painter, picture)
+            # Lines one pixel wide, which are quicker to fill than to draw
+            frame = picture.frame
+            for time_s in picture.grid_s:
+                painter.fillRect(QRectF(round(frame.x(time_s)), 0, 1, frame.height), self._grid)
+            for value in picture.grid_values:
+                painter.fillRect(QRectF(0, round(frame.y(value)), frame.width, 1), self._grid)
             if picture.layer is not None:
                 painter.drawPixmap(QPointF(picture.layer[1], 0), picture.layer[0])
             for pen, polygons in picture.curves:
@@ -235,18 +234,18 @@ class CurvesView(QWidget):
                 for polygon in polygons:
                     painter.drawPolyline(polygon)
             self._draw_marks(painter, picture)
-            self._draw_cursors(painter, picture)
+            frame = picture.frame
+            for name, time_s in zip("AB", picture.cursors, strict=False):
+                x = frame.x(time_s)
+                pen = QPen(self._cursor, 2)
+                pen.setStyle(Qt.PenStyle.SolidLine if name == "A" else Qt.PenStyle.DashLine)
+                painter.setPen(pen)
+                painter.drawLine(QPointF(x, 0), QPointF(x, frame.height))
+                if picture.has_words:
+                    self._draw_words(painter, x, 0, name, is_marked=True)
             if picture.title:
                 self._draw_words(painter, 0, 0, picture.title, is_marked=False)
         painter.end()
-
-    def _draw_grid(self, painter: QPainter, picture: Picture) -> None:
-        """Lines one pixel wide, which are quicker to fill than to draw."""
-        frame = picture.frame
-        for time_s in picture.grid_s:
-            painter.fillRect(QRectF(round(frame.x(time_s)), 0, 1, frame.height), self._grid)
-        for value in picture.grid_values:
-            painter.fillRect(QRectF(0, round(frame.y(value)), frame.width, 1), self._grid)
 
     def _draw_marks(self, painter: QPainter, picture: Picture) -> None:
         frame = picture.frame
@@ -258,17 +257,6 @@ class CurvesView(QWidget):
             line = next((at for at, end in enumerate(ends) if x >= end), None)
             if picture.has_words and line is not None:
                 ends[line] = self._draw_words(painter, x, line + 1, mark.words, is_marked=True)
-
-    def _draw_cursors(self, painter: QPainter, picture: Picture) -> None:
-        frame = picture.frame
-        for name, time_s in zip("AB", picture.cursors, strict=False):
-            x = frame.x(time_s)
-            pen = QPen(self._cursor, 2)
-            pen.setStyle(Qt.PenStyle.SolidLine if name == "A" else Qt.PenStyle.DashLine)
-            painter.setPen(pen)
-            painter.drawLine(QPointF(x, 0), QPointF(x, frame.height))
-            if picture.has_words:
-                self._draw_words(painter, x, 0, name, is_marked=True)
 
     def _draw_words(
         self, painter: QPainter, x: float, line: int, words: str, *, is_marked: bool
@@ -290,4 +278,179 @@ def marks_between(marks: Iterable[Mark], start_s: float, end_s: float) -> list[M
     """The marks that are shown, the oldest first."""
     return sorted(
         (mark for mark in marks if start_s <= mark.time_s <= end_s), key=lambda one: one.time_s
+    )
+
+
+# Keeps the part of live curves that does not change any more as a picture that moves left.
+
+_SPARE = 64
+"""The picture has room for so many columns more than are seen: it is scrolled seldom."""
+
+_AT_ONCE = 16
+"""So many columns are added to the picture at once."""
+
+_LATE_S = 0.4
+"""Samples that come later than those of other streams are still drawn."""
+
+Pairs = Sequence[tuple[Curve, Columns]]
+Line = tuple[QPen, list[QPolygonF]]
+
+
+@dataclass(frozen=True)
+class _State:
+    """What the picture was drawn for; when something of it changes, it is drawn anew."""
+
+    keys: tuple[CurveKey, ...]
+    column_s: float
+    columns: int
+    pixels: int
+    ratio: float
+    height: float
+    values: ValueRange
+    looks: int
+
+
+_NOTHING = _State((), 1.0, 0, 1, 1.0, 0.0, ValueRange(), 0)
+
+
+class LiveLayer:
+    """The picture of one plot. Only columns that have come since the last frame are drawn.
+
+    Every column is a whole number of the screen's pixels wide, and the picture moves by whole
+    pixels: it looks as if all was drawn anew.
+    """
+
+    def __init__(self) -> None:
+        self._state = _NOTHING
+        self._pixmap = QPixmap()
+        self._left = self._edge = 0  # the first column of the picture, the last that is drawn
+
+        self._lengths: dict[CurveKey, float] = {}
+        """How long each line is by now: where its dashes go on."""
+
+    def refresh(
+        self,
+        pairs: Pairs,
+        frame: Frame,
+        pens: Mapping[CurveKey, QPen],
+        *,
+        pixels: int,
+        ratio: float,
+    ) -> tuple[QPixmap, float, list[Line]]:
+        """The picture, where it begins, and the lines that follow it, which change still."""
+        if not pairs:
+            return QPixmap(), 0.0, []
+        column_s = pairs[0][1].width_s
+        count = round(frame.length_s / column_s)
+        keys = tuple(curve.key for curve, _ in pairs)
+        looks = hash(tuple((pens[key].color().rgba(), pens[key].widthF()) for key in keys))
+        state = _State(keys, column_s, count, pixels, ratio, frame.height, frame.values, looks)
+        # The column up to which nothing changes any more
+        ends = [int(one.number[-1]) for _, one in pairs if len(one.number)]
+        edge = max(ends, default=self._edge) - math.ceil(_LATE_S / column_s)
+        if state != self._state or edge > self._left + 2 * (count + 2 * _SPARE):
+            self._start(state, frame, edge)
+        if edge >= self._edge + _AT_ONCE:
+            self._draw(pairs, pens, edge)
+        x = round((self._left * column_s - frame.start_s) / frame.length_s * frame.width * ratio)
+        return self._pixmap, x / ratio, self._tails(pairs, pens, x / ratio)
+
+    def _start(self, state: _State, frame: Frame, edge: int) -> None:
+        self._state = state
+        width = (state.columns + 2 * _SPARE) * state.pixels
+        self._pixmap = QPixmap(width, round(frame.height * state.ratio))
+        self._pixmap.setDevicePixelRatio(state.ratio)
+        self._pixmap.fill(Qt.GlobalColor.transparent)
+        first = int(frame.start_s / state.column_s) - 2
+        self._left, self._edge = first, first
+        self._lengths = dict.fromkeys(state.keys, 0.0)
+
+    def _frame(self) -> Frame:
+        """What is where in the picture."""
+        state = self._state
+        count = state.columns + 2 * _SPARE
+        return Frame(
+            self._left * state.column_s,
+            count * state.column_s,
+            state.values,
+            count * state.pixels / state.ratio,
+            state.height,
+        )
+
+    def _draw(self, pairs: Pairs, pens: Mapping[CurveKey, QPen], edge: int) -> None:
+        """Draw the columns after the last one drawn, up to ``edge``."""
+        self._make_room(edge)
+        painter = QPainter(self._pixmap)
+        frame = self._frame()
+        for curve, columns in pairs:
+            part = _part(columns, self._edge, edge)
+            if not len(part.number) or part.number[-1] <= self._edge:
+                continue
+            for pen, polygons in self._lines(curve, part, frame, pens[curve.key], is_kept=True):
+                painter.setPen(pen)
+                for one in polygons:
+                    painter.drawPolyline(one)
+        painter.end()
+        self._edge = edge
+
+    def _make_room(self, edge: int) -> None:
+        state = self._state
+        over = edge + 2 - (self._left + state.columns + 2 * _SPARE)
+        if over <= 0:
+            return
+        moved = over + _SPARE
+        self._left += moved
+        width, height = self._pixmap.width(), self._pixmap.height()
+        self._pixmap.scroll(-moved * state.pixels, 0, self._pixmap.rect())
+        painter = QPainter(self._pixmap)
+        painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_Source)
+        free = moved * state.pixels
+        ratio = state.ratio
+        empty = QRectF((width - free) / ratio, 0, free / ratio, height / ratio)
+        painter.fillRect(empty, Qt.GlobalColor.transparent)
+        painter.end()
+
+    def _tails(self, pairs: Pairs, pens: Mapping[CurveKey, QPen], x: float) -> list[Line]:
+        """The lines from the picture's last column to the newest."""
+        frame, tails = self._frame(), []
+        for curve, columns in pairs:
+            part = _part(columns, self._edge, None)
+            if not len(part.number) or part.number[-1] <= self._edge:
+                continue
+            made = self._lines(curve, part, frame, pens[curve.key], is_kept=False)
+            for _, polygons in made:
+                for one in polygons:
+                    one.translate(x, 0)
+            tails += made
+        return tails
+
+    def _lines(
+        self, curve: Curve, columns: Columns, frame: Frame, pen: QPen, *, is_kept: bool
+    ) -> list[Line]:
+        """The lines through some columns, whose dashes go on from those before."""
+        channel = curve.key.channel
+        parts = lines(columns, channel, frame)
+        if not parts:
+            return []
+        if columns.number[0] <= self._edge and not np.isnan(columns.low[channel, 0]):
+            parts[0] = parts[0][1:]  # the line goes on from the end of the column drawn last
+        used = QPen(pen)
+        length = self._lengths[curve.key]
+        if used.dashPattern():
+            used.setDashOffset(length / used.widthF())
+        if is_kept:
+            steps = np.diff(np.concatenate(parts), axis=0)
+            self._lengths[curve.key] = (length + float(np.hypot(*steps.T).sum())) % 1e6
+        return [(used, [polygon(one) for one in parts])]
+
+
+def _part(columns: Columns, first: int, last: int | None) -> Columns:
+    """The columns from ``first`` to ``last``, both included; to the end without ``last``."""
+    start = int(np.searchsorted(columns.number, first, side="right")) - 1
+    end = len(columns.number)
+    if last is not None:
+        end = int(np.searchsorted(columns.number, last, side="right"))
+    part = slice(max(0, start), end)
+    return Columns(
+        columns.width_s, columns.number[part], columns.low[:, part], columns.high[:, part]
     )

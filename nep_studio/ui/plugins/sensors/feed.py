@@ -251,7 +251,11 @@ class SensorFeed(QObject):
         for heard in batch:
             self._take_apart(topic, heard.message)
             for path in [field.path for field in self.fields if field.topic == topic]:
-                stream = self._stream(StreamKey(topic, _who(heard), path))
+                # The robot that a message tells of, else the node that sent it
+                robot = heard.message.get("robot") if isinstance(heard.message, dict) else None
+                stream = self._stream(
+                    StreamKey(topic, robot if isinstance(robot, str) else heard.sender, path)
+                )
                 if isinstance(stream, FieldStream):
                     stream.hear(heard.message, _moment(heard))
         self._tell_change()
@@ -317,12 +321,6 @@ def _moment(heard: Heard) -> float:
     """When a message was sent, by this computer's clock."""
     now_s = time.time()
     return heard.time_s if 0 <= now_s - heard.time_s < _LATEST_S else now_s
-
-
-def _who(heard: Heard) -> str:
-    """The robot that a message tells of, else the node that sent it."""
-    robot = heard.message.get("robot") if isinstance(heard.message, dict) else None
-    return robot if isinstance(robot, str) else heard.sender
 
 
 def _mark(message: HumanBehavior, time_s: float) -> Mark:

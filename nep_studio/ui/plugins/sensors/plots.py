@@ -11,11 +11,12 @@ import numpy as np
 import pyqtgraph
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHideEvent, QPen, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QScrollArea, QWidget
 
 from nep_studio.ui.labels import follow_words
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 
 from .curves import Curve, CurveKey, Row, ValueRange, curves_of, rows_of
 from .curves_view import (
@@ -23,13 +24,13 @@ from .curves_view import (
     CurvesView,
     Frame,
     LiveColumns,
+    LiveLayer,
     Picture,
     columns_of,
     marks_between,
     polygons,
 )
 from .feed import Mark, SensorFeed
-from .live_layer import LiveLayer
 from .measuring import TimeView, fitting_length
 from .streams import Samples, StreamKey
 
@@ -65,24 +66,18 @@ class Plots(QWidget):
         self._zero_s = 0.0
         self._live: dict[StreamKey, LiveColumns] = {}
         self._frozen: dict[StreamKey, Samples] = {}
-        self._make_canvas()
+        self.canvas = new_canvas()
+        self._scroll = QScrollArea(widgetResizable=True)
+        self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._scroll.setWidget(self.canvas)
+        in_column(self._scroll, of=self, margins=0)
+        self.setMinimumWidth(self.fontMetrics().height() * _LEAST_WIDTH_LINES)
         self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.draw)
         feed.streams_changed.connect(self._on_streams_changed)
         look.theme_changed.connect(self._on_theme_changed)
         self._fit_rows()
         follow_words(self, self._say)
-
-    def _make_canvas(self) -> None:
-        self.canvas = new_canvas()
-        self._scroll = QScrollArea()
-        self._scroll.setWidgetResizable(True)
-        self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._scroll.setWidget(self.canvas)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self._scroll)
-        self.setMinimumWidth(self.fontMetrics().height() * _LEAST_WIDTH_LINES)
 
     # What is shown
 

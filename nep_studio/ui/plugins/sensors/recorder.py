@@ -139,7 +139,10 @@ class Recording:
 
     def add(self, batch: Imu) -> None:
         """Write a batch; one whose rows do not fit its times is left out."""
-        if not _is_whole(batch):
+        count = len(batch.t)
+        if not (
+            count > 0 and len(batch.acc) == count and (batch.gyr is None or len(batch.gyr) == count)
+        ):
             return
         try:
             part = self._part(batch)
@@ -186,11 +189,6 @@ class Recording:
             if not path.exists():
                 return path
             number += 1
-
-
-def _is_whole(batch: Imu) -> bool:
-    count = len(batch.t)
-    return count > 0 and len(batch.acc) == count and (batch.gyr is None or len(batch.gyr) == count)
 
 
 def _kind(batch: Imu) -> tuple[bool, bool, bool]:
@@ -320,7 +318,13 @@ class Recorder(QObject):
     def _run(self, recording: Recording, waiting: queue.Queue[Imu | None]) -> None:
         failure: RecordingError | None = None
         try:
-            _write_all(recording, waiting)
+            # Write until None comes; raises RecordingError
+            next_keep_s = time.monotonic() + _KEEP_S
+            while (batch := waiting.get()) is not None:
+                recording.add(batch)
+                if time.monotonic() >= next_keep_s:
+                    recording.keep()
+                    next_keep_s = time.monotonic() + _KEEP_S
         except RecordingError as error:
             failure = error
         self._over.emit(recording.close(), failure)
@@ -331,16 +335,6 @@ class Recorder(QObject):
         if failure is not None:
             self.failed.emit(failure)
         self.stopped.emit(paths)
-
-
-def _write_all(recording: Recording, waiting: queue.Queue[Imu | None]) -> None:
-    """Write until None comes; raises RecordingError."""
-    next_keep_s = time.monotonic() + _KEEP_S
-    while (batch := waiting.get()) is not None:
-        recording.add(batch)
-        if time.monotonic() >= next_keep_s:
-            recording.keep()
-            next_keep_s = time.monotonic() + _KEEP_S
 
 
 # Says how a recording goes on, and lets it be stopped.
@@ -439,7 +433,11 @@ class ReplayBar(QWidget):
         self.button = QPushButton()
         self.close_button = QToolButton()
         labelled(self.close_button, tip="Close", name="Close")
-        self._lay_out()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(*[self.fontMetrics().height() // 4] * 4)
+        row.addWidget(self.words, 1)
+        for widget in (self.speed, self.again, self.button, self.close_button):
+            row.addWidget(widget)
         self.button.clicked.connect(self.toggle)
         self.close_button.clicked.connect(self._on_close)
         self.speed.currentIndexChanged.connect(self._on_speed_changed)
@@ -447,13 +445,6 @@ class ReplayBar(QWidget):
         self._dress()
         follow_words(self, self._show_state)
         self.hide()
-
-    def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(*[self.fontMetrics().height() // 4] * 4)
-        row.addWidget(self.words, 1)
-        for widget in (self.speed, self.again, self.button, self.close_button):
-            row.addWidget(widget)
 
     def choose(self, path: Path) -> None:
         """Play this file, or this folder of files."""

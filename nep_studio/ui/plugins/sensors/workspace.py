@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QUrl, Signal
-from PySide6.QtGui import QDesktopServices, QHideEvent, QResizeEvent, QShowEvent
+import numpy as np
+from PySide6.QtCore import QPoint, Qt, QUrl, Signal
+from PySide6.QtGui import QDesktopServices, QHideEvent, QPixmap, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -19,6 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults import reason_of
 from nep_core.errors import NepError, RecordingError
 from nep_core.wire.messages import IMU
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
@@ -27,15 +29,137 @@ from nep_studio.ui.messages import Answer, Messages
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
+from nodes.recordings import Recording, write_recording
 
 from .curve_list import CurveList, FieldChooser
-from .exporting import SensorFiles, export_csv, export_picture
+from .curves import Curve, CurveKey
 from .feed import Field, SensorFeed
 from .plots import Plots
-from .pointing import Hand
 from .recorder import RECORDING, RecordBar, Recorder, ReplayBar
-from .tools import Tools
+from .streams import ImuStream, Samples, StreamKey
+from .tools import Hand, Tools
+
+# Keeps what the plots show: as CSV files that can be replayed, and as a picture.
+
+_MAY_WRITE = (
+    "Choose a folder that you may write into, such as one in your home folder.",
+    "Is there room on the disk?",
+)
+_SHARPNESS = 2.0
+
+
+def export_csv(path: Path, plots: Plots) -> list[Path]:
+    """Write the time that is shown, of each stream with a curve that is shown.
+
+    What a sensor measured is written as a recording, with all its axes; numbers of topics as
+    t_s and the number. The first file is called ``path``, the others after it. Raises
+    RecordingError; "too few samples" when there is nothing to write.
+    """
+    shown = [curve for curve in plots.curves.values() if curve.key not in plots.hidden]
+    keys = list(dict.fromkeys(curve.key.stream for curve in shown))
+    start_s, end_s = plots.shown_s
+    written: list[Path] = []
+    for key in keys:
+        samples = plots.samples(key).between(start_s, end_s)
+        kept = np.isfinite(samples.values[0])
+        samples = Samples(samples.t[kept], samples.values[:, kept])
+        if len(samples.t) >= 2:
+            written.append(_named(path, len(written)))
+            _write(written[-1], plots, key, samples)
+    if not written:
+        raise RecordingError(
+            "The time that is shown has too few samples to keep.",
+            checklist=("Show a time in which something was measured, then export again.",),
+        )
+    return written
+
+
+def export_picture(path: Path, widget: QWidget) -> None:
+    """Write a picture of the plots, twice as sharp as a usual screen; raises RecordingError."""
+    ratio = max(_SHARPNESS, widget.devicePixelRatioF())
+    pixmap = QPixmap(widget.size() * ratio)
+    pixmap.setDevicePixelRatio(ratio)
+    widget.render(pixmap, QPoint())
+    if not pixmap.save(str(path), "PNG"):
+        raise RecordingError(
+            "The picture {path} cannot be written.", checklist=_MAY_WRITE, path=path
+        )
+
+
+def _write(path: Path, plots: Plots, key: StreamKey, samples: Samples) -> None:
+    stream = plots.feed.streams.get(key)
+    if key.path:
+        _write_numbers(path, plots.curves[CurveKey(key, 0)], samples)
+        return
+    is_imu = isinstance(stream, ImuStream)
+    values = samples.values
+    has_rotation = bool(np.isfinite(values[4:7]).all())
+    recording = Recording(
+        source=key.sender,
+        t=samples.t - samples.t[0],
+        acc=values[:3].T,
+        gyr=values[4:7].T if has_rotation else None,
+        labels=None,
+        gravity_included=stream.gravity_included if isinstance(stream, ImuStream) else True,
+        simulated=stream.simulated if is_imu and isinstance(stream, ImuStream) else False,
+    )
+    write_recording(path, recording)
+
+
+def _write_numbers(path: Path, curve: Curve, samples: Samples) -> None:
+    """Write a file that spreadsheets read; it is whole or not there."""
+    key = curve.key.stream
+    lines = [f"# topic: {key.topic}\n# sender: {key.sender}\nt_s,{key.path}\n"]
+    times = samples.t - samples.t[0]
+    pairs = zip(times, samples.values[0], strict=True)
+    lines += [f"{time_s:.6f},{value:.9g}\n" for time_s, value in pairs]
+    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
+    try:
+        unfinished.write_text("".join(lines), encoding="utf-8", newline="\n")
+        unfinished.replace(path)
+    except OSError as error:
+        unfinished.unlink(missing_ok=True)
+        raise RecordingError(
+            "{path} cannot be written: {reason}.",
+            checklist=_MAY_WRITE,
+            details=str(error),
+            path=path,
+            reason=reason_of(error),
+        ) from error
+
+
+def _named(path: Path, number: int) -> Path:
+    return path if number == 0 else path.with_name(f"{path.stem}_{number + 1}{path.suffix}")
+
+
+# Asks for files: recordings to play, places for what is exported.
+
+OnChosen = Callable[[Path], object]
+
+
+class SensorFiles:
+    """Asks with the system's dialogs; nothing is called when the person thinks better of it."""
+
+    def choose_recording(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
+        """Ask which recording to play."""
+        kinds = (tr("Recordings (*.csv)"), tr("All files (*)"))
+        ask_for_path(parent, tr("Replay a recording"), folder, on_chosen, kinds=kinds)
+
+    def choose_place(
+        self, parent: QWidget, suggested: Path, kind: str, on_chosen: OnChosen
+    ) -> None:
+        """Ask where a file is to be kept; ``kind`` says in words what it is."""
+        kinds = (f"{kind} (*{suggested.suffix})", tr("All files (*)"))
+        ask_for_path(parent, tr("Export"), suggested, on_chosen, "save", kinds)
+
+    def choose_folder(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
+        """Ask for the folder of recordings."""
+        title = tr("Choose a folder for recordings")
+        ask_for_path(parent, title, folder, on_chosen, "folder")
+
 
 # What the panel says while nothing is measured: what belongs there, and the first steps.
 
@@ -53,8 +177,7 @@ class EmptyPage(QScrollArea):
         super().__init__(parent)
         self.setWidgetResizable(True)
         inside = QWidget()
-        box = QVBoxLayout(inside)
-        box.addStretch(1)
+        box = in_column(1, of=inside)
         title = labelled(QLabel(), text="What sensors measure is drawn here as curves.")
         title.setProperty("role", "heading")
         hint = labelled(
@@ -71,7 +194,8 @@ class EmptyPage(QScrollArea):
         self.watch_button.setProperty("kind", "primary")
         self.replay_button = labelled(QPushButton(), text="Replay a recording…")
         self.choose_button = labelled(QPushButton(), text="Choose numbers…")
-        box.addLayout(self._buttons())
+        row = in_row(1, self.watch_button, self.replay_button, self.choose_button, 1)
+        box.addLayout(row)
         box.addStretch(1)
         self.setWidget(inside)
         self.watch_button.clicked.connect(self.watch_asked)
@@ -85,14 +209,6 @@ class EmptyPage(QScrollArea):
             text="The virtual watch starts…" if is_starting else "Start the virtual watch",
         )
         self.watch_button.setEnabled(not is_starting)
-
-    def _buttons(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.addStretch(1)
-        for button in (self.watch_button, self.replay_button, self.choose_button):
-            row.addWidget(button)
-        row.addStretch(1)
-        return row
 
 
 WATCH = "virtual_watch"
@@ -133,18 +249,14 @@ class Workspace(QWidget):
 
     def _lay_out(self) -> None:
         side = QWidget()
-        column = QVBoxLayout(side)
-        column.setContentsMargins(0, 0, 0, 0)
         line = self.fontMetrics().height()
         self.measured.setContentsMargins(line // 2, line // 4, line // 2, line // 4)
         self.measured.setWordWrap(True)
-        column.addWidget(self.measured)
-        column.addWidget(self.list, 1)
-        self.split = QSplitter(Qt.Orientation.Horizontal)
+        in_column(self.measured, (self.list, 1), of=side, margins=0)
+        self.split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         self.split.addWidget(self.plots)
         self.split.addWidget(side)
         self.split.setStretchFactor(0, 1)
-        self.split.setChildrenCollapsible(False)
         self.pages = QStackedWidget()
         self.pages.addWidget(self.empty)
         self.pages.addWidget(self.split)

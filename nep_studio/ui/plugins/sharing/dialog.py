@@ -9,7 +9,6 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QDialog,
     QFrame,
-    QHBoxLayout,
     QPushButton,
     QScrollArea,
     QStackedWidget,
@@ -25,7 +24,7 @@ from nep_studio.ui.messages import Message, announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import fit_on_screen, room_around
-from nep_studio.ui.widgets.layouts import scrolled
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
 from .pages import ClosedPage, JoinedPage, JoinPage, OpenPage, restart_words, words_label
@@ -94,19 +93,10 @@ class SharingDialog(QDialog):
         within.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
         self.problem.hide()
         self.main_button.setProperty("kind", "primary")
-        foot = QHBoxLayout()
         for button in (self.other_button, self.done_button, self.main_button):
             button.setAutoDefault(False)
-        foot.addWidget(self.other_button)
-        foot.addStretch(1)
-        foot.addWidget(self.done_button)
-        foot.addWidget(self.main_button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(self.problem)
-        box.addWidget(self.pages, 1)
-        box.addLayout(foot)
+        foot = in_row(self.other_button, 1, self.done_button, self.main_button)
+        in_column(self.problem, (self.pages, 1), foot, of=self, margins=line, spacing=line // 2)
         fit_on_screen(self, LINES_WIDE, LINES_HIGH)
 
     def minimumSizeHint(self) -> QSize:
@@ -160,22 +150,6 @@ class SharingDialog(QDialog):
         self.open_page.keep.setChecked(bool(self._settings.kept_open_at))
         if self._sharing.joined is not None:
             self.joined_page.show_network(self._sharing.joined)
-        self._show_buttons(page)
-        if is_new:
-            self._on_turned(page)
-
-    def show_error(self, error: NepError) -> None:
-        """Say what did not go, and what to try."""
-        self._clear_problem()
-        steps = tuple(map(tr, error.checklist))
-        message = Message("error", tr(error.title), tr(error.sentence), steps, error.details)
-        box = self.problem.layout()
-        assert box is not None
-        box.addWidget(MessageText(message))
-        self.problem.show()
-        announce(self, message.spoken)
-
-    def _show_buttons(self, page: PageName) -> None:
         words: dict[PageName, tuple[str, str]] = {
             "closed": (tr("Open the network"), tr("Join another computer…")),
             "join": (tr("Join"), tr("Back")),
@@ -189,6 +163,19 @@ class SharingDialog(QDialog):
             button.setVisible(bool(said))
         may_open = page != "closed" or bool(self.closed_page.address)
         self.main_button.setEnabled(may_open and (page != "join" or self.join_page.is_complete))
+        if is_new:
+            self._on_turned(page)
+
+    def show_error(self, error: NepError) -> None:
+        """Say what did not go, and what to try."""
+        self._clear_problem()
+        steps = tuple(map(tr, error.checklist))
+        message = Message("error", tr(error.title), tr(error.sentence), steps, error.details)
+        box = self.problem.layout()
+        assert box is not None
+        box.addWidget(MessageText(message))
+        self.problem.show()
+        announce(self, message.spoken)
 
     def _on_turned(self, page: PageName) -> None:
         """Another page: what belonged to the last one goes; the next one begins."""

@@ -117,9 +117,7 @@ def restart_words(nodes: int, *, is_program_running: bool) -> str:
 
 def words_label(words: str, role: str = "") -> QLabel:
     """Words over several lines."""
-    label = QLabel(words)
-    label.setWordWrap(True)
-    label.setTextFormat(Qt.TextFormat.PlainText)
+    label = QLabel(words, wordWrap=True, textFormat=Qt.TextFormat.PlainText)
     if role:
         label.setProperty("role", role)
     return label
@@ -183,8 +181,7 @@ class JoinPage(QWidget):
         self.networks = QListWidget()
         self.told = hint("")
         self.progress = QProgressBar()
-        self.again = QPushButton(tr("Look again"))
-        self.again.setAutoDefault(False)
+        self.again = QPushButton(tr("Look again"), autoDefault=False)
         self.address, self.code = QLineEdit(), QLineEdit()
         self.restart_told = words_label("")
         self._lay_out()
@@ -218,16 +215,13 @@ class JoinPage(QWidget):
                 )
             )
         )
-        self._add_search(box)
+        for widget in (self.networks, self.progress, self.told, self.again):
+            box.addWidget(widget)
+        box.setAlignment(self.again, Qt.AlignmentFlag.AlignLeading)
         box.addWidget(labelled(tr("Address of the other computer"), self.address))
         box.addWidget(labelled(tr("Code"), self.code))
         box.addWidget(self.restart_told)
         box.addStretch(1)
-
-    def _add_search(self, box: QVBoxLayout) -> None:
-        for widget in (self.networks, self.progress, self.told, self.again):
-            box.addWidget(widget)
-        box.setAlignment(self.again, Qt.AlignmentFlag.AlignLeading)
 
     def begin(self) -> None:
         """Look for networks, unless some have been found."""
@@ -381,16 +375,7 @@ class CodeView(QFrame):
         self.line = CopyLine(look, tr("Copy the code"))
         self.line.text.setAccessibleName(tr("Code"))
         self.left = hint("")
-        self.new_button = QPushButton(tr("New code"))
-        self.new_button.setAutoDefault(False)
-        self._lay_out()
-        self._looking = QTimer(self, interval=LOOK_MS)
-        self._looking.timeout.connect(self.refresh)
-        self.new_button.clicked.connect(sharing.new_code)
-        sharing.changed.connect(self.refresh)
-        self.refresh()
-
-    def _lay_out(self) -> None:
+        self.new_button = QPushButton(tr("New code"), autoDefault=False)
         font = QFont(self.font())
         font.setPixelSize(round(self.fontMetrics().height() * TIMES_LARGER * 0.75))
         font.setBold(True)
@@ -403,6 +388,11 @@ class CodeView(QFrame):
         for widget in (self.line, self.left, self.new_button):
             box.addWidget(widget)
         box.setAlignment(self.new_button, Qt.AlignmentFlag.AlignLeading)
+        self._looking = QTimer(self, interval=LOOK_MS)
+        self._looking.timeout.connect(self.refresh)
+        self.new_button.clicked.connect(sharing.new_code)
+        sharing.changed.connect(self.refresh)
+        self.refresh()
 
     def refresh(self) -> None:
         """Show the code that holds now, and how long it still does."""
@@ -452,8 +442,7 @@ class OpenPage(QWidget):
         self.found_by = words_label("")
         self.computers, self.refused = ComputersList(), RefusedList()
         self.removed = words_label("")
-        self.anew_button = QPushButton(tr("Start everything anew"))
-        self.anew_button.setAutoDefault(False)
+        self.anew_button = QPushButton(tr("Start everything anew"), autoDefault=False)
         self.keep = QCheckBox(tr("Open it again whenever NEP Studio starts"))
         self._lay_out()
         self.computers.remove_asked.connect(self._on_remove)

@@ -16,16 +16,15 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.ui.messages import announce
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -94,12 +93,9 @@ class HoldBar(QFrame):
         super().__init__(parent)
         self._over = parent
         self.setProperty("kind", "card")
-        self.bar = QProgressBar()
+        self.bar = QProgressBar(textVisible=False)
         self.bar.setRange(0, 100)
-        self.bar.setTextVisible(False)
-        row = QHBoxLayout(self)
-        row.addWidget(QLabel(tr("Keep holding to leave the show")))
-        row.addWidget(self.bar, 1)
+        in_row(QLabel(tr("Keep holding to leave the show")), (self.bar, 1), of=self)
         self.hide()
 
     def show_progress(self, progress: float) -> None:
@@ -124,8 +120,7 @@ class PinQuestion(QFrame):
         self._over = parent
         self._is_pin = is_pin
         self.setProperty("kind", "card")
-        self.line = QLineEdit()
-        self.line.setEchoMode(QLineEdit.EchoMode.Password)
+        self.line = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
         self.line.setAccessibleName(tr("PIN"))
         self.words = QLabel(tr("The PIN to leave the show"))
         self.leave_button = QPushButton(tr("Leave"))
@@ -133,14 +128,18 @@ class PinQuestion(QFrame):
         self.back_button = QPushButton(tr("Back to the show"))
         self._going = QTimer(self, singleShot=True, interval=PIN_STAYS_MS)
         self._going.timeout.connect(self.hide)
-        box = QVBoxLayout(self)
-        box.addWidget(self.words)
-        box.addWidget(self.line)
-        box.addWidget(self._digits())
-        row = QHBoxLayout()
-        row.addWidget(self.back_button)
-        row.addWidget(self.leave_button)
-        box.addLayout(row)
+        digits = QWidget()
+        digits.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every telephone
+        grid = QGridLayout(digits)
+        grid.setContentsMargins(0, 0, 0, 0)
+        for number, digit in enumerate("123456789⌫0"):
+            button = QPushButton(digit)
+            button.setMinimumHeight(self.fontMetrics().height() * 3)
+            button.setAccessibleName(tr("Delete") if digit == "⌫" else digit)
+            button.clicked.connect(lambda _=False, digit=digit: self._on_digit(digit))
+            grid.addWidget(button, number // 3, number % 3)
+        box = in_column(self.words, self.line, digits, of=self)
+        box.addLayout(in_row(self.back_button, self.leave_button))
         self.line.returnPressed.connect(self._on_given)
         self.line.textEdited.connect(lambda: self._going.start())
         self.leave_button.clicked.connect(self._on_given)
@@ -158,19 +157,6 @@ class PinQuestion(QFrame):
         self.raise_()
         self.line.setFocus()
         self._going.start()
-
-    def _digits(self) -> QWidget:
-        digits = QWidget()
-        digits.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as on every telephone
-        grid = QGridLayout(digits)
-        grid.setContentsMargins(0, 0, 0, 0)
-        for number, digit in enumerate("123456789⌫0"):
-            button = QPushButton(digit)
-            button.setMinimumHeight(self.fontMetrics().height() * 3)
-            button.setAccessibleName(tr("Delete") if digit == "⌫" else digit)
-            button.clicked.connect(lambda _=False, digit=digit: self._on_digit(digit))
-            grid.addWidget(button, number // 3, number % 3)
-        return digits
 
     def _on_digit(self, digit: str) -> None:
         self._going.start()

@@ -22,7 +22,6 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QPushButton,
@@ -42,6 +41,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look, code_font
 from nep_studio.ui.widgets.forms import ElidedLabel, screen_around
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .leaving import HoldBar, Holding, PinQuestion, StayingAwake
@@ -56,8 +56,10 @@ if TYPE_CHECKING:
 _FLAGS = Qt.TextFlag.TextWordWrap.value | Qt.AlignmentFlag.AlignCenter.value
 
 
-class StageWords(QWidget):
+class StageWords(InLines):
     """A text that fills its room, with the lines before it, smaller, above."""
+
+    usual_lines = (20, 8)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -69,11 +71,6 @@ class StageWords(QWidget):
         self.lines = lines
         self.setAccessibleName(lines[-1] if lines else "")
         self.update()
-
-    def sizeHint(self) -> QSize:
-        """A few lines."""
-        line = self.fontMetrics().height()
-        return QSize(line * 20, line * 8)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the lines."""
@@ -132,11 +129,7 @@ class AttentionPage(QScrollArea):
         inside = QWidget()
         inside.setObjectName("inside")
         inside.setStyleSheet("#inside { background: transparent; }")
-        box = QVBoxLayout(inside)
-        box.addStretch(1)
-        box.addWidget(self.headline)
-        box.addWidget(self.text)
-        box.addStretch(1)
+        in_column(1, self.headline, self.text, 1, of=inside)
         self.setWidget(inside)
         self.viewport().setAutoFillBackground(False)
 
@@ -164,9 +157,7 @@ class AttentionPage(QScrollArea):
 
 
 def _words() -> QLabel:
-    label = QLabel()
-    label.setTextFormat(Qt.TextFormat.PlainText)
-    label.setWordWrap(True)
+    label = QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True)
     label.setAlignment(Qt.AlignmentFlag.AlignCenter)
     return label
 
@@ -199,8 +190,7 @@ class ShowWindow(QWidget):
         self.title = ElidedLabel()
         self.title.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.title.setTextFormat(Qt.TextFormat.PlainText)
-        self.state_sign, self.state_words = QLabel(), QLabel()
-        self.state_words.setTextFormat(Qt.TextFormat.PlainText)
+        self.state_sign, self.state_words = QLabel(), QLabel(textFormat=Qt.TextFormat.PlainText)
         self.words = StageWords()
         self.attention = AttentionPage(host.services.look, self)
         self.middle = QStackedWidget()
@@ -213,7 +203,12 @@ class ShowWindow(QWidget):
         self.holding = Holding(self, self.title)
         self.hold_bar = HoldBar(self)
         self.pin = PinQuestion(host.services.settings.is_pin, self)
-        self._lay_out()
+        head = in_row(1, self.state_sign, self.state_words, 1)
+        buttons = in_row(1, (self.run_button, 2), (self.stop_button, 2), 1)
+        self._box = in_column(self.title, head, (self.middle, 3), of=self)
+        if self.cues is not None:
+            self._box.addWidget(self.cues, 5)
+        self._box.addLayout(buttons)
         self._connect()
         self._dress()
         self.refresh()
@@ -267,25 +262,6 @@ class ShowWindow(QWidget):
         """All is measured by the screen, which may be another one now."""
         super().resizeEvent(event)
         self._dress()
-
-    def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.addStretch(1)
-        head.addWidget(self.state_sign)
-        head.addWidget(self.state_words)
-        head.addStretch(1)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(self.run_button, 2)
-        buttons.addWidget(self.stop_button, 2)
-        buttons.addStretch(1)
-        self._box = QVBoxLayout(self)
-        self._box.addWidget(self.title)
-        self._box.addLayout(head)
-        self._box.addWidget(self.middle, 3)
-        if self.cues is not None:
-            self._box.addWidget(self.cues, 5)
-        self._box.addLayout(buttons)
 
     def _connect(self) -> None:
         self.performance.changed.connect(self.refresh)
@@ -401,12 +377,9 @@ class StartupDialog(QDialog):
         self.runs_at_once = QCheckBox(tr("Run at once, without anybody pressing Run"))
         self.runs_at_once.setChecked(True)
         self.has_cues = QCheckBox(tr("With the cue buttons, for an operator"))
-        self.state = QLabel()
-        self.state.setWordWrap(True)
-        self.text = QPlainTextEdit()
-        self.text.setReadOnly(True)
+        self.state = QLabel(wordWrap=True)
+        self.text = QPlainTextEdit(readOnly=True, lineWrapMode=QPlainTextEdit.LineWrapMode.NoWrap)
         self.text.setAccessibleName(tr("What is written, and where"))
-        self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.text.setFont(code_font(self.font().pointSizeF()))
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.write_button = QPushButton(tr("Write these files"))
@@ -455,11 +428,7 @@ class StartupDialog(QDialog):
             )
         )
         about.setWordWrap(True)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.remove_button)
-        buttons.addStretch(1)
-        buttons.addWidget(self.close_button)
-        buttons.addWidget(self.write_button)
+        buttons = in_row(self.remove_button, 1, self.close_button, self.write_button)
         box = QVBoxLayout(self)
         box.setContentsMargins(line, line, line, line)
         for widget in (about, self.runs_at_once, self.has_cues, self.state):

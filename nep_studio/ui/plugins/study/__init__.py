@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QPushButton, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QWidget
 
 from nep_studio.study.records import Reply, Sitting, write_events, write_replies
 from nep_studio.ui.host import Host, Parts, Plugin
@@ -16,13 +16,14 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import count_words, tr
 
 from .start import StudyRecorder
 
 if TYPE_CHECKING:
-    from .results import ResultsDialog
+    from .form import ResultsDialog
 
 
 # The sign that is in the window as long as a study is recorded.
@@ -38,11 +39,7 @@ class StudySign(QFrame):
         self.dot, self.words = QLabel(), ElidedLabel()
         self.form_button = labelled(QPushButton(), text="Fill in the questionnaire")
         self.stop_button = labelled(QPushButton(), text="Stop the study")
-        row = QHBoxLayout(self)
-        row.addWidget(self.dot)
-        row.addWidget(self.words, 1)
-        row.addWidget(self.form_button)
-        row.addWidget(self.stop_button)
+        in_row(self.dot, (self.words, 1), self.form_button, self.stop_button, of=self)
         recorder.changed.connect(self.refresh)
         look.theme_changed.connect(self.refresh)
         follow_words(self, self.refresh)
@@ -91,7 +88,11 @@ class StudyKit(QObject):
         """Make the menu."""
         add, theme = self._host.actions.add, self._host.services.look.theme
         help_menu = self._host.menus["help"]
-        self._follow_help(help_menu)
+        # Note which pages of the help are shown, and what else its menu opens
+        self._host.ask("help.follow", self._on_page_shown)
+        for action in help_menu.actions():
+            if action.iconText() and not action.objectName().startswith(HELP_PAGES):
+                action.triggered.connect(self._note_help(action.iconText()))
         menu = labelled(help_menu.addMenu(icon("graduation-cap", theme), ""), title="Study")
         stop, recorded = self._recorder.stop, self.tell_what
         menu.addAction(add("study_start", "Start a study…", self.start, icon_name="play"))
@@ -138,7 +139,7 @@ class StudyKit(QObject):
 
     def show_results(self) -> None:
         """Show what was answered."""
-        from .results import ResultsDialog
+        from .form import ResultsDialog
 
         dialog = ResultsDialog(self._folder, self._host.widget)
         dialog.answers_asked.connect(lambda: self._save_answers(dialog))
@@ -206,13 +207,6 @@ class StudyKit(QObject):
             self._host.services.messages.tell(Message("error", title, "", (words,), str(error)))
             return
         self._host.services.messages.confirm(tr("All answers and events are deleted"))
-
-    def _follow_help(self, menu: QMenu) -> None:
-        """Note which pages of the help are shown, and what else its menu opens."""
-        self._host.ask("help.follow", self._on_page_shown)
-        for action in menu.actions():
-            if action.iconText() and not action.objectName().startswith(HELP_PAGES):
-                action.triggered.connect(self._note_help(action.iconText()))
 
     def _on_page_shown(self, panel: QWidget, page: str) -> None:
         if panel.isVisible() and page != self._page:  # the same one is drawn again, as for a theme

@@ -14,11 +14,9 @@ from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -26,11 +24,19 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.editor import History
 from nep_studio.blocks.program import Changes
 from nep_studio.run.session import Ending
-from nep_studio.study.records import Event, Sitting, StudyFolder, What
-from nep_studio.study.sus import conditions_for, next_code, participant_number
+from nep_studio.study.records import (
+    Event,
+    Sitting,
+    StudyFolder,
+    What,
+    conditions_for,
+    next_code,
+    participant_number,
+)
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Message, Told
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -56,23 +62,21 @@ class ParticipantFields(QWidget):
         self.conditions = QLineEdit(", ".join(folder.conditions()))
         self.conditions.setPlaceholderText(tr("Such as: blocks, text"))
         self.condition = QComboBox()
-        self.order = QLabel()
-        self._lay_out(may_change_conditions)
-        self.code.textChanged.connect(self._on_changed)
-        self.conditions.textChanged.connect(self._on_changed)
-        self._on_changed()
-
-    def _lay_out(self, may_change_conditions: bool) -> None:
+        self.order = QLabel(wordWrap=True)
         self._form = QFormLayout(self)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._form.addRow(tr("Participant"), self.code)
-        self._form.addRow("", _hint(tr("A code, not a name. Its number decides the order.")))
+        label = QLabel(tr("A code, not a name. Its number decides the order."), wordWrap=True)
+        label.setProperty("role", "hint")
+        self._form.addRow("", label)
         if may_change_conditions:
             self._form.addRow(tr("Conditions"), self.conditions)
         self._form.addRow(tr("Condition now"), self.condition)
         self.order.setProperty("role", "hint")
-        self.order.setWordWrap(True)
         self._form.addRow("", self.order)
+        self.code.textChanged.connect(self._on_changed)
+        self.conditions.textChanged.connect(self._on_changed)
+        self._on_changed()
 
     @property
     def participant(self) -> str:
@@ -120,13 +124,6 @@ class ParticipantFields(QWidget):
         return tr("The order for {participant}: {order}", participant=self.participant, order=order)
 
 
-def _hint(words: str) -> QLabel:
-    label = QLabel(words)
-    label.setProperty("role", "hint")
-    label.setWordWrap(True)
-    return label
-
-
 class StartDialog(QDialog):
     """Nothing is recorded before Start is pressed; ``started`` gives the Sitting."""
 
@@ -159,27 +156,10 @@ class StartDialog(QDialog):
             told.addWidget(label)
         self.start_button.setDefault(True)
         self.start_button.setProperty("kind", "primary")
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        foot.addWidget(self.cancel_button)
-        foot.addWidget(self.start_button)
+        foot = in_row(1, self.cancel_button, self.start_button)
         page = QWidget()
-        inner = QVBoxLayout(page)
-        inner.setContentsMargins(0, 0, 0, 0)
-        inner.setSpacing(line)
-        inner.addWidget(self.participant_fields)
-        inner.addWidget(card)
-        inner.addStretch(1)
-        area = QScrollArea()
-        area.setWidgetResizable(True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(page)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line)
-        box.addWidget(area, 1)
-        box.addLayout(foot)
+        in_column(self.participant_fields, card, 1, of=page, margins=0, spacing=line)
+        in_column((scrolled(page), 1), foot, of=self, margins=line, spacing=line)
         room = room_around(self).size()
         self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
 
@@ -338,15 +318,12 @@ class StudyRecorder(QObject):
         elif state == "running" and not self._run_started_s:
             self._run_started_s = time.time()
             self.note("run_started")
-            self._note_first_run()
+            # How long it took until the program ran for the first time
+            if self.sitting is not None and not self._has_run:
+                self._has_run = True
+                self.note("first_run", number=round(time.time() - self.sitting.started_s, 3))
         elif state == "stopping":
             self.note("stop_pressed")
-
-    def _note_first_run(self) -> None:
-        """How long it took until the program ran for the first time."""
-        if self.sitting is not None and not self._has_run:
-            self._has_run = True
-            self.note("first_run", number=round(time.time() - self.sitting.started_s, 3))
 
     def _has_run_before(self) -> bool:
         if self.sitting is None:

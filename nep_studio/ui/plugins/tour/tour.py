@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QSize, Qt, QTimer, Signal
@@ -9,25 +11,177 @@ from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
-    QHBoxLayout,
     QLineEdit,
     QPlainTextEdit,
     QPushButton,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
 from faults import text_of
+from nep_studio import paths
+from nep_studio.blocks.places import InStack
+from nep_studio.blocks.program import Block, Stack
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import ReadingLabel
-
-from .steps import FIRST_STEPS, PROJECT, Step, steps
+from nep_studio.ui.widgets.layouts import ReadingLabel, in_row
+from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
     from nep_studio.ui.host import Host
+
+# The steps of the tour as data: what is said, what is shown, and what a person does there.
+
+FIRST_STEPS = paths.resources() / "tour" / "first_steps.nep"
+"""The project of the tour: a “when” block that waits for others, and a robot on the screen."""
+
+PROJECT = "First steps"
+"""What that project is called."""
+
+START, SAY = "event.started", "robot.say"
+
+
+def _nothing(_host: Host) -> None:
+    """Nothing has to be prepared, or done."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step. ``target`` is the place in the window that is shown, empty where there is none.
+
+    ``prepare`` lets it be seen. A step with ``is_done`` goes on by itself when that becomes true;
+    ``do`` does it in place of a person who goes on without.
+    """
+
+    title: str
+    text: str
+    target: Callable[[Host], QRect]
+    prepare: Callable[[Host], object] = _nothing
+    is_done: Callable[[Host], bool] | None = None
+    do: Callable[[Host], object] = _nothing
+
+
+def steps() -> list[Step]:
+    """The five steps in the language in use."""
+    return [
+        Step(
+            tr("Here are the blocks"),
+            tr("Each block is a sentence: something a robot does, or when it does it."),
+            lambda host: place_of(host, host.workbench.helpers.palette),
+            show_blocks,
+        ),
+        Step(
+            tr("Drag a block"),
+            tr("Drag “NAO says” to the page, and let it go under “when the program starts”."),
+            _palette_and_page,
+            _show_say,
+            lambda host: say_block(host) is not None,
+            add_say,
+        ),
+        Step(
+            tr("Say it in your words"),
+            tr("Click the white field of the new block, type a sentence, and press Enter."),
+            _say_place,
+            show_blocks,
+            _has_own_words,
+        ),
+        Step(
+            tr("Press Run"),
+            tr("The program checks your blocks, starts the robot on the screen, and begins."),
+            _run_button,
+            is_done=_is_running,
+        ),
+        Step(
+            tr("See it happen"),
+            tr(
+                "The block that runs glows, and NAO says your sentence. To know more of a block,"
+                " click it and press F1."
+            ),
+            _say_place,
+        ),
+    ]
+
+
+def place_of(host: Host, widget: QWidget | None) -> QRect:
+    """Where a widget is in the window; empty when it is not to be seen."""
+    if widget is None or not widget.isVisible():
+        return QRect()
+    return QRect(widget.mapTo(host.widget, QPoint(0, 0)), widget.size())
+
+
+def started_stack(host: Host) -> Stack | None:
+    """The stack that runs when the program starts."""
+    project = host.workbench.canvas.editor.project
+    stacks = project.stacks.values()
+    return next((s for s in stacks if project.blocks[s.body[0]].type == START), None)
+
+
+def say_block(host: Host) -> Block | None:
+    """The first block in that stack by which a robot says something."""
+    stack = started_stack(host)
+    project = host.workbench.canvas.editor.project
+    found = (project.blocks[block] for block in (stack.body if stack else ()))
+    return next((block for block in found if block.type == SAY), None)
+
+
+def show_blocks(host: Host) -> None:
+    """Show the page and the palette, whatever was hidden."""
+    workbench = host.workbench
+    palette = workbench.helpers.palette
+    workbench.panels.show(palette)
+    palette.set_narrow(False)
+    workbench.canvas.show_page("behaviour")
+
+
+def add_say(host: Host) -> None:
+    """Put the block there for a person who goes on without."""
+    stack, canvas = started_stack(host), host.workbench.canvas
+    if stack is not None and say_block(host) is None:
+        canvas.attempt(lambda: canvas.editor.create(SAY, InStack(stack.id, 1)))
+
+
+def _show_say(host: Host) -> None:
+    show_blocks(host)
+    host.workbench.canvas.sight.show_beginning()
+    host.workbench.helpers.palette.open_drawer("robot")
+
+
+def _palette_and_page(host: Host) -> QRect:
+    workbench = host.workbench
+    page = place_of(host, workbench.canvas)
+    return place_of(host, workbench.helpers.palette).united(page)
+
+
+def _say_place(host: Host) -> QRect:
+    """Where the block is on the page; the page where it is out of sight."""
+    canvas, block = host.workbench.canvas, say_block(host)
+    page = place_of(host, canvas.viewport())
+    rect = canvas.sight.view_rect_of(block.id) if block is not None else None
+    if rect is None:
+        return page
+    seen = rect.toAlignedRect().translated(page.topLeft()).intersected(page)
+    return seen if seen.height() >= rect.height() / 2 else page
+
+
+def _has_own_words(host: Host) -> bool:
+    canvas, block = host.workbench.canvas, say_block(host)
+    if block is None or canvas.fields.widget is not None:
+        return False
+    usual = canvas.editor.language.definitions[SAY].defaults["text"]
+    return "text" in block.inputs or block.fields.get("text", usual) != usual
+
+
+def _run_button(host: Host) -> QRect:
+    run = host.actions["run"]
+    buttons = host.widget.findChildren(QToolButton)
+    return place_of(host, next((one for one in buttons if one.defaultAction() is run), None))
+
+
+def _is_running(host: Host) -> bool:
+    return host.services.runner.state != "idle"
 
 
 # The bubble of the tour: what a step says, where one is, and the buttons to go on.
@@ -88,25 +242,13 @@ class Bubble(QFrame):
         self._dots = Dots(look, self)
         self.next_button, self.back_button = QPushButton(), QPushButton()
         self.leave_button = QPushButton()
-        self._arrange()
-        self.next_button.clicked.connect(self.forth)
-        self.back_button.clicked.connect(self.back)
-        self.leave_button.clicked.connect(self.left)
-        self.hide()
-
-    def _arrange(self) -> None:
         line = self.fontMetrics().height()
         self._title.setProperty("role", "title")
         for label in (self._title, self._text):
             label.setWordWrap(True)
         self.next_button.setProperty("kind", "primary")
         self.leave_button.setProperty("kind", "quiet")
-        row = QHBoxLayout()
-        row.setSpacing(line // 3)
-        row.addWidget(self.leave_button)
-        row.addStretch(1)
-        row.addWidget(self.back_button)
-        row.addWidget(self.next_button)
+        row = in_row(self.leave_button, 1, self.back_button, self.next_button, spacing=line // 3)
         self._box = QVBoxLayout(self)
         self._box.setSpacing(line // 2)
         self._box.setContentsMargins(line, line * 3 // 4, line, line * 3 // 4)
@@ -114,6 +256,10 @@ class Bubble(QFrame):
         self._box.addWidget(self._text)
         self._box.addWidget(self._dots)
         self._box.addLayout(row)
+        self.next_button.clicked.connect(self.forth)
+        self.back_button.clicked.connect(self.back)
+        self.leave_button.clicked.connect(self.left)
+        self.hide()
 
     def say(self, step: Step, number: int, count: int) -> None:
         """Show a step, ``number`` of ``count`` from 0."""
@@ -310,7 +456,10 @@ class Tour(QObject):
             self.veil.setGeometry(room)
             self.veil.show_hole(place)
             self.bubble.sit_beside(place, room)
-        over = _parts_of(self._host.widget)[-2:]
+        # What lies in a window, the lowest first; its dialogs are windows of their own
+        window = self._host.widget
+        parts = (part for part in window.children() if isinstance(part, QWidget))
+        over = [part for part in parts if not part.isWindow()][-2:]
         if over != [self.veil, self.bubble] or self.bubble.isHidden():
             for part in (self.veil, self.bubble):
                 part.show()
@@ -373,9 +522,3 @@ class Tour(QObject):
             or canvas.pointing.gesture is not None
             or canvas.fields.widget is not None
         )
-
-
-def _parts_of(window: QWidget) -> list[QWidget]:
-    """What lies in a window, the lowest first; its dialogs are windows of their own."""
-    parts = (part for part in window.children() if isinstance(part, QWidget))
-    return [part for part in parts if not part.isWindow()]

@@ -23,8 +23,6 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.blocks.editor import Editor
-
     from .dialog import Plan, WatchDialog
 
 
@@ -109,7 +107,7 @@ class WatchKit(QObject):
         """What the project says of its watch."""
         from .dialog import Plan
 
-        editor = self._editor
+        editor = self._host.workbench.canvas.editor
         folder = self._host.services.settings.last_folder / RECORDINGS
         blank = Plan(
             free_watch_name(editor),
@@ -130,17 +128,13 @@ class WatchKit(QObject):
         """What a simulated person is to make: what the program waits for, as far as it is known."""
         from nodes.sensory.arm.gestures import GESTURES
 
-        editor = self._editor
+        editor = self._host.workbench.canvas.editor
         own = own_gestures(editor.project)
         used = gestures_used(editor.project, editor.language)
         offered = editor.language.choices.get("gestures", {})
         known = {name for name, one in own.items() if one.takes} | set(GESTURES)
         wanted = [name for name in used if name in known]
         return ", ".join(wanted or [name for name in offered if name in known][:MOST_GESTURES])
-
-    @property
-    def _editor(self) -> Editor:
-        return self._host.workbench.canvas.editor
 
     def _is_in_use(self, name: str) -> bool:
         """Whether a real watch of this name sends now."""
@@ -157,7 +151,7 @@ class WatchKit(QObject):
             return
         try:
             block = use_watch(
-                self._editor,
+                self._host.workbench.canvas.editor,
                 planned.parameters,
                 tr("connect a watch"),
                 node=planned.node,
@@ -168,7 +162,11 @@ class WatchKit(QObject):
             host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
         runner = host.services.runner
-        for name in self._stand_ins(runner.local.planned):
+        # The virtual watches that run, and that the project does not ask for any more
+        started = runner.local.planned
+        wanted = {node.name for node in self._host.services.runner.planned()}
+        virtual = [one.name for one in started.values() if one.node == VIRTUAL_WATCH]
+        for name in [name for name in virtual if name not in wanted]:
             runner.stop_node(name)
         dialog.trial.keep(self._planned_of(block))
         if not self._stays:
@@ -178,12 +176,6 @@ class WatchKit(QObject):
     def _planned_of(self, block: str) -> PlannedNode | None:
         planned = self._host.services.runner.planned()
         return next((node for node in planned if node.block_id == block), None)
-
-    def _stand_ins(self, started: dict[str, PlannedNode]) -> list[str]:
-        """The virtual watches that run, and that the project does not ask for any more."""
-        wanted = {node.name for node in self._host.services.runner.planned()}
-        virtual = [one.name for one in started.values() if one.node == VIRTUAL_WATCH]
-        return [name for name in virtual if name not in wanted]
 
     def _on_finished(self) -> None:
         self.dialog = None

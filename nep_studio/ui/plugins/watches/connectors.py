@@ -8,18 +8,14 @@ from typing import Literal
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QPainter, QPaintEvent
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QLabel,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from nep_core.errors import NepError
 from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import UNKNOWN, CopyLine
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 OWN_PROFILE = "six_int16"
@@ -193,12 +189,7 @@ def _lines(place: Place) -> list[Step]:
     )
     write = tr("Write this address as where it sends to (IP, host or target):")
     port = tr("And this port; then start sending:")
-    return [
-        _same_network(),
-        Step(choose),
-        Step(write, place.address),
-        Step(port, str(place.port)),
-    ]
+    return [_same_network(), Step(choose), Step(write, place.address), Step(port, str(place.port))]
 
 
 def _paper_watch(place: Place) -> list[Step]:
@@ -323,7 +314,19 @@ class StepsList(QWidget):
             if len(steps) > 1:
                 badge = StepNumber(number + 1, look)
                 grid.addWidget(badge, number, 0, Qt.AlignmentFlag.AlignTop)
-            grid.addLayout(self._column(step, extras.get(step.extra)), number, 1)
+            extra = extras.get(step.extra)
+            label = QLabel(wordWrap=True)
+            column = in_column(label, spacing=self.fontMetrics().height() // 3)
+            self.words.append(label)
+            is_address = step.copied.startswith("http") or "." in step.copied
+            words = tr("Copy the address") if is_address else tr("Copy")
+            is_long = len(step.copied) > MOST_LETTERS
+            copy_line = CopyLine(self._look, words, is_long) if step.copied else None
+            self.copy_lines.append(copy_line)
+            for below in (copy_line, extra):
+                if below is not None:
+                    column.addWidget(below)
+            grid.addLayout(column, number, 1)
         self.fill(steps)
 
     def fill(self, steps: Sequence[Step]) -> None:
@@ -332,20 +335,3 @@ class StepsList(QWidget):
             label.setText(step.words)
             if copy_line is not None:
                 copy_line.show_text(step.copied)
-
-    def _column(self, step: Step, extra: QWidget | None) -> QVBoxLayout:
-        column = QVBoxLayout()
-        column.setSpacing(self.fontMetrics().height() // 3)
-        label = QLabel()
-        label.setWordWrap(True)
-        column.addWidget(label)
-        self.words.append(label)
-        is_address = step.copied.startswith("http") or "." in step.copied
-        words = tr("Copy the address") if is_address else tr("Copy")
-        is_long = len(step.copied) > MOST_LETTERS
-        copy_line = CopyLine(self._look, words, is_long) if step.copied else None
-        self.copy_lines.append(copy_line)
-        for below in (copy_line, extra):
-            if below is not None:
-                column.addWidget(below)
-        return column

@@ -174,8 +174,7 @@ class WarningHelp(QWidget):
         super().__init__(parent)
         self._look = look
         self.buttons = {"android": QPushButton("Android"), "ios": QPushButton("iPhone")}
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = QLabel(wordWrap=True)
         self.picture = Picture()
         self._group = QButtonGroup(self)
         row = QWidget()

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from nep_core.wire.messages import Imu
 from nep_studio.ui.plugins.sensors.feed import SensorFeed
 from nep_studio.ui.plugins.sensors.plots import Plots
-from nep_studio.ui.plugins.sensors.pointing import Hand
+from nep_studio.ui.plugins.sensors.tools import Hand
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.look import Look
 

@@ -7,9 +7,9 @@ import pytest
 from PySide6.QtGui import QImage
 
 from nep_core.errors import RecordingError
-from nep_studio.ui.plugins.sensors.exporting import export_csv, export_picture
 from nep_studio.ui.plugins.sensors.feed import Field
 from nep_studio.ui.plugins.sensors.plots import Plots
+from nep_studio.ui.plugins.sensors.workspace import export_csv, export_picture
 from nep_studio.ui.running.runner import Heard
 from nodes.recordings import read_recording
 from tests.ui.panels.sensors.conftest import hear

@@ -42,12 +42,12 @@ def test_the_panel_is_hidden_at_first_and_its_place_has_room(
     karate: MainWindow, qtbot: QtBot
 ) -> None:
     panel = panel_of(karate)
-    assert panel.workspace is None
+    assert panel.page is None
 
     karate.workbench.panels.show(panel)
 
-    assert panel.workspace is not None
-    qtbot.waitUntil(panel.workspace.empty.isVisible)
+    assert panel.page is not None
+    qtbot.waitUntil(panel.page.empty.isVisible)
     above, below = karate.workbench.panels.column.sizes()
     assert below >= 0.3 * (above + below)
     karate.running.close()

@@ -96,7 +96,7 @@ def test_a_closed_panel_has_loaded_nothing(qtbot: QtBot) -> None:
     panel = SensorsPanel(lambda: pytest.fail("made too early"))
     qtbot.addWidget(panel)
 
-    assert panel.workspace is None
+    assert panel.page is None
     assert panel.sizeHint().height() > 0
 
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .findings import HOUR_S, NOTHING, Findings, LeftOut, id_of_take
@@ -401,9 +401,7 @@ class AdviceList(QWidget):
         self.more = QPushButton()
         self.more.setProperty("kind", "quiet")
         self.more.clicked.connect(self._on_more)
-        self._box = QVBoxLayout(self)
-        self._box.setContentsMargins(0, 0, 0, 0)
-        self._box.addWidget(self.more, 0, Qt.AlignmentFlag.AlignLeading)
+        self._box = in_column((self.more, 0, Qt.AlignmentFlag.AlignLeading), of=self, margins=0)
         self.more.hide()
 
     def show_advice(self, advice: Sequence[Advice]) -> None:
@@ -452,14 +450,8 @@ class AdviceRow(QWidget):
         self.show_takes.setAccessibleDescription(advice.words)
         self.show_takes.clicked.connect(lambda: of.takes_asked.emit(advice.takes))
         self.show_takes.setVisible(bool(advice.takes) and advice.what != "takes")
-        words = QVBoxLayout()
-        words.setSpacing(0)
-        words.addWidget(self.words)
         buttons = FlowLayout()
         buttons.addWidget(self.button)
         buttons.addWidget(self.show_takes)
-        words.addLayout(buttons)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addLayout(words, 1)
+        words = in_column(self.words, buttons, spacing=0)
+        in_row((sign, 0, Qt.AlignmentFlag.AlignTop), (words, 1), of=self, margins=0)

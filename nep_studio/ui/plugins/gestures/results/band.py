@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.labels import follow_words, labelled
@@ -17,6 +17,7 @@ from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.features import POINTS, Detection, Integers, Singles, cut_windows
 from nodes.perceptual.recognition.gmr import Gmr
@@ -179,8 +180,13 @@ LINES_HIGH = 3.6
 _AXES = "xyz"
 
 
-class BandView(QWidget):
+class BandView(InLines):
     """Three strips, one for each axis, over the duration of the movement."""
+
+    usual_lines, least_lines = (
+        (16, LINES_HIGH * len(_AXES) + 1.5),
+        (9, LINES_HIGH * len(_AXES) + 1.5),
+    )
 
     def __init__(self, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -197,15 +203,6 @@ class BandView(QWidget):
         self.band, self.kind = band, kind
         self.setAccessibleDescription(words)
         self.update()
-
-    def sizeHint(self) -> QSize:
-        """Three strips and the legend."""
-        line = self.fontMetrics().height()
-        return QSize(line * 16, round(line * (LINES_HIGH * len(_AXES) + 1.5)))
-
-    def minimumSizeHint(self) -> QSize:
-        """Rather narrow, and as high."""
-        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
 
     def strip(self, number: int) -> QRectF:
         """Where the strip of an axis is."""
@@ -233,7 +230,14 @@ class BandView(QWidget):
             painter.setPen(theme.colour("muted"))
             room = QRectF(0, strip.top(), strip.left(), strip.height())
             painter.drawText(room, Qt.AlignmentFlag.AlignCenter, axis)
-        self._paint_legend(painter, theme)
+        line, metrics = self.fontMetrics().height(), self.fontMetrics()
+        x, middle = self.strip(0).left(), line * 0.7
+        for colour, words in (("plot_1", tr("expected")), ("plot_2", tr("yours"))):
+            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
+            painter.drawLine(QPointF(x, middle), QPointF(x + line * 1.6, middle))
+            painter.setPen(theme.colour("text"))
+            painter.drawText(QPointF(x + line * 1.9, middle + metrics.ascent() * 0.4), words)
+            x += line * 2.9 + metrics.horizontalAdvance(words)
         painter.end()
 
     def _paint_strip(
@@ -259,16 +263,6 @@ class BandView(QWidget):
         if band.live is not None:
             painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
             painter.drawPolyline(QPolygonF(line_of(band.live[:, column])))
-
-    def _paint_legend(self, painter: QPainter, theme: Theme) -> None:
-        line, metrics = self.fontMetrics().height(), self.fontMetrics()
-        x, middle = self.strip(0).left(), line * 0.7
-        for colour, words in (("plot_1", tr("expected")), ("plot_2", tr("yours"))):
-            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
-            painter.drawLine(QPointF(x, middle), QPointF(x + line * 1.6, middle))
-            painter.setPen(theme.colour("text"))
-            painter.drawText(QPointF(x + line * 1.9, middle + metrics.ascent() * 0.4), words)
-            x += line * 2.9 + metrics.horizontalAdvance(words)
 
     def _pen(self, theme: Theme, colour: str, *, is_dashed: bool = False) -> QPen:
         pen = QPen(theme.colour(colour), max(2.0, self.fontMetrics().height() / 9))
@@ -315,7 +309,11 @@ class BandPanel(QWidget):
         labelled(self.kind, name="What is drawn")
         self.view = BandView(controller.look)
         self.sentence = Words()
-        self._lay_out()
+        row = QHBoxLayout()
+        for box in (self.gesture, self.kind):
+            box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+            row.addWidget(box, 1)
+        in_column(row, self.view, self.sentence, of=self, margins=0)
         self.gesture.currentIndexChanged.connect(self._on_chosen)
         self.kind.currentIndexChanged.connect(self._show)
         self.use_model(None)
@@ -326,17 +324,6 @@ class BandPanel(QWidget):
         for at in range(self.kind.count()):
             self.kind.setItemText(at, kind_words(self.kind.itemData(at)))
         self._show()
-
-    def _lay_out(self) -> None:
-        row = QHBoxLayout()
-        for box in (self.gesture, self.kind):
-            box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-            row.addWidget(box, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(row)
-        column.addWidget(self.view)
-        column.addWidget(self.sentence)
 
     def use_model(self, model: Model | None) -> None:
         """Show the curves of this model."""

@@ -308,19 +308,16 @@ class _Cell(QStyledItemDelegate):
         painter.drawRect(rect)
         painter.setPen(legible(fill, theme.colour("text"), theme.colour("field")))
         if share > 0 and not is_right:
-            self._mark(painter, rect)
+            # A corner, so that a mistake is not told by its colour alone
+            size = max(4, rect.height() // 5)
+            corner = rect.topRight()
+            painter.save()
+            painter.setBrush(painter.pen().color())
+            painter.drawPolygon([corner, corner - QPoint(size, 0), corner + QPoint(0, size)])
+            painter.restore()
         painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, str(index.data() or ""))
         if self._view.hasFocus() and self._view.currentIndex() == index:
             wide = max(2, self._view.fontMetrics().height() // 8)
             painter.setPen(QPen(theme.colour("focus"), wide))
             painter.drawRect(rect.adjusted(1, 1, -1, -1))
-        painter.restore()
-
-    def _mark(self, painter: QPainter, rect: QRect) -> None:
-        """A corner, so that a mistake is not told by its colour alone."""
-        size = max(4, rect.height() // 5)
-        corner = rect.topRight()
-        painter.save()
-        painter.setBrush(painter.pen().color())
-        painter.drawPolygon([corner, corner - QPoint(size, 0), corner + QPoint(0, size)])
         painter.restore()

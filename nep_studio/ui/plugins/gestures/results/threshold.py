@@ -6,26 +6,17 @@ import math
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QSizePolicy,
-    QSlider,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QSizePolicy, QSlider, QWidget
 
 from faults import text_of
 from nep_studio.blocks.own_gestures import TRIGGER
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
-from .findings import Findings, Point, between
-from .tuning import HIGHEST, LOWEST, Tuning
+from .findings import HIGHEST, LOWEST, Findings, Point, Tuning, between
 
 # What a recognition point of a gesture means, in one sentence with both of its sides.
 
@@ -70,11 +61,13 @@ _LEAST_RATE = 1.0
 """The scale of false triggers an hour goes up to this at least: one false one looks small."""
 
 
-class PointCurve(QWidget):
+class PointCurve(InLines):
     """Two curves over the certainty, and the place where the recognition point is.
 
     ``dragged`` gives the certainty that the mouse is at, ``let_go`` that it was let go.
     """
+
+    usual_lines, least_lines = (16, LINES_HIGH), (9, LINES_HIGH)
 
     dragged = Signal(float)
     let_go = Signal()
@@ -93,15 +86,6 @@ class PointCurve(QWidget):
         """Show the curves of a gesture and its recognition point."""
         self.points, self.certainty = points, certainty
         self.update()
-
-    def sizeHint(self) -> QSize:
-        """As wide as there is room, some lines high."""
-        line = self.fontMetrics().height()
-        return QSize(line * 16, round(line * LINES_HIGH))
-
-    def minimumSizeHint(self) -> QSize:
-        """Rather narrow, and as high."""
-        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
 
     # The mouse
 
@@ -157,27 +141,24 @@ class PointCurve(QWidget):
         painter.setPen(QPen(theme.colour("line"), 1))
         painter.drawRect(area)
         if self.points:
-            self._paint_curves(painter, theme)
+            most = self.most_per_hour
+            caught = [self._place(point.certainty, point.caught) for point in self.points]
+            false = [self._place(p.certainty, _height(p.false_per_hour, most)) for p in self.points]
+            pale = QColor(theme.colour("plot_1"))
+            pale.setAlphaF(0.15)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(pale)
+            bottom = self.area().bottom()
+            ends = [QPointF(caught[-1].x(), bottom), QPointF(caught[0].x(), bottom)]
+            painter.drawPolygon(QPolygonF([*caught, *ends]))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
+            painter.drawPolyline(QPolygonF(false))
+            painter.setPen(self._pen(theme, "plot_1"))
+            painter.drawPolyline(QPolygonF(caught))
+            self._paint_legend(painter, theme)
         self._paint_place(painter, theme)
         painter.end()
-
-    def _paint_curves(self, painter: QPainter, theme: Theme) -> None:
-        most = self.most_per_hour
-        caught = [self._place(point.certainty, point.caught) for point in self.points]
-        false = [self._place(p.certainty, _height(p.false_per_hour, most)) for p in self.points]
-        pale = QColor(theme.colour("plot_1"))
-        pale.setAlphaF(0.15)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(pale)
-        bottom = self.area().bottom()
-        ends = [QPointF(caught[-1].x(), bottom), QPointF(caught[0].x(), bottom)]
-        painter.drawPolygon(QPolygonF([*caught, *ends]))
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
-        painter.drawPolyline(QPolygonF(false))
-        painter.setPen(self._pen(theme, "plot_1"))
-        painter.drawPolyline(QPolygonF(caught))
-        self._paint_legend(painter, theme)
 
     def _paint_legend(self, painter: QPainter, theme: Theme) -> None:
         """Above the curves, each word with a piece of its line."""
@@ -243,15 +224,15 @@ class PointPanel(QWidget):
         self.gesture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.curve = PointCurve(look)
         self.slider = PointSlider(tuning)
-        self.sentence = QLabel()
-        self.sentence.setWordWrap(True)
+        self.sentence = QLabel(wordWrap=True)
         self.reset = labelled(
             QPushButton(),
             text="Usual",
             tip=text_of("Set the recognition point to {percent} %", percent=75),
         )
         self.reset.setProperty("kind", "quiet")
-        self._lay_out()
+        row = in_row((self.gesture, 1), self.reset)
+        in_column(row, self.curve, self.slider, self.sentence, of=self, margins=0)
         self.gesture.currentIndexChanged.connect(self.refresh)
         self.curve.dragged.connect(lambda certainty: tuning.preview(self.name, certainty))
         self.curve.let_go.connect(lambda: tuning.keep(self.name))
@@ -260,17 +241,6 @@ class PointPanel(QWidget):
         tuning.method_changed.connect(self.refresh)
         self.fill()
         follow_words(self, self.refresh)
-
-    def _lay_out(self) -> None:
-        row = QHBoxLayout()
-        row.addWidget(self.gesture, 1)
-        row.addWidget(self.reset)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(row)
-        box.addWidget(self.curve)
-        box.addWidget(self.slider)
-        box.addWidget(self.sentence)
 
     @property
     def name(self) -> str:

@@ -12,19 +12,22 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import count_words, tr
 from nodes.perceptual.recognition.features import Detection
 
 from .certainties import KEPT_S, Looks
+from .findings import Tuning
 from .threshold import PointSlider
-from .tuning import Tuning
 
 LINES_HIGH = 6.0
 _EVERY_S = 5.0
 
 
-class TriggerTimeline(QWidget):
+class TriggerTimeline(InLines):
     """Now is at the right. A flag with a name is a gesture that would count as made."""
+
+    usual_lines, least_lines = (16, LINES_HIGH), (9, LINES_HIGH)
 
     def __init__(
         self, title: Callable[[str], str], look: Look, parent: QWidget | None = None
@@ -53,15 +56,6 @@ class TriggerTimeline(QWidget):
             count, "1 gesture would count as made", "{n} gestures would count as made"
         )
         self.setAccessibleDescription(words if count else "")
-
-    def sizeHint(self) -> QSize:
-        """Some lines high."""
-        line = self.fontMetrics().height()
-        return QSize(line * 16, round(line * LINES_HIGH))
-
-    def minimumSizeHint(self) -> QSize:
-        """Rather narrow, and as high."""
-        return QSize(self.fontMetrics().height() * 9, self.sizeHint().height())
 
     def area(self) -> QRectF:
         """Where the curve is."""

@@ -19,11 +19,11 @@ from nep_studio.blocks.own_gestures import OwnRecogniser, OwnRecording, keep_rec
 from nep_studio.problems import Problem
 from nep_studio.project.kept_files import EVERYDAY, Gestures, Span, labels_of, spans_of
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
-from nep_studio.ui.plugins.gestures.packed_arrays import unpacked
+from nep_studio.ui.plugins.gestures.live import unpacked
 from nep_studio.ui.words import tr
 from nodes.recordings import Recording, write_recording
 
-from .tuning import Tuning
+from .findings import Tuning
 from .worker import Done, Ended, Failed, Progress, Worker, order
 
 # What can go wrong while gestures are learned, as problems with a checklist.
@@ -114,17 +114,14 @@ class TrainingFolder:
             content = (recording, spans_of(key, recording, gestures))
             if self._written.get(key) != content:
                 self._forget(key)
-                write_recording(self._place(key, recording), labelled(key, *content))
+                folder = self.recordings / EVERYDAY if recording.everyday else self.recordings
+                write_recording(folder / f"{key}.csv", labelled(key, *content))
                 self._written[key] = content
             yield (number + 1) / len(recordings)
 
     def close(self) -> None:
         """Delete it; that is done at the end too if nobody asks for it."""
         self._delete()
-
-    def _place(self, key: str, recording: OwnRecording) -> Path:
-        folder = self.recordings / EVERYDAY if recording.everyday else self.recordings
-        return folder / f"{key}.csv"
 
     def _forget(self, key: str) -> None:
         self._written.pop(key, None)
@@ -239,7 +236,8 @@ class Training(QObject):
         """What is missing before it can train; empty when nothing is."""
         if not self.controller.gestures:
             return tr("Add a gesture, and record it a few times.")
-        if not self._takes():
+        gestures = self.controller.gestures.values()
+        if not sum(not take.left_out for gesture in gestures for take in gesture.takes):
             return tr("Record the gesture a few times: five are better than three.")
         return ""
 
@@ -296,10 +294,6 @@ class Training(QObject):
             self._folder = None
 
     # How it goes on
-
-    def _takes(self) -> int:
-        gestures = self.controller.gestures.values()
-        return sum(not take.left_out for gesture in gestures for take in gesture.takes)
 
     def _write_on(self) -> None:
         """Write one file more; after the last one the process is asked."""

@@ -7,7 +7,7 @@ from functools import partial
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMenu, QPushButton, QVBoxLayout, QWidget
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.labels import follow_words, labelled
@@ -15,7 +15,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.plugins.gestures.project_gestures import Keeping
-from nep_studio.ui.widgets.layouts import FlowLayout, Halves, scrolled
+from nep_studio.ui.widgets.layouts import FlowLayout, Halves, in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.features import Detection
 from nodes.perceptual.recognition.model import Model
@@ -167,7 +167,18 @@ class TryOut(QWidget):
         self._moved = ""
         """The gesture whose recognition point was moved last."""
         self._make()
-        self._lay_out()
+        inner = QWidget()
+        head = in_row((self.sign, 0, Qt.AlignmentFlag.AlignVCenter), (self.said, 1))
+        self._bars_box = QVBoxLayout()
+        self._bars_box.setSpacing(0)
+        self.live = Halves(WIDE_LINES)
+        self.live.first.addLayout(self._bars_box)
+        self.live.add(self.meaning, self.timeline, self.corrections)
+        self.live.add_beside(labelled(Words(role="heading"), text="Expected curve"), self.band)
+        in_column(head, self.steps, self.live, 1, of=inner)
+        self.area = scrolled(inner)
+        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        in_column(self.area, of=self, margins=0)
         self._connect()
         self._fill_bars()
         self.meaning.hide()
@@ -186,28 +197,6 @@ class TryOut(QWidget):
         self._flash_over = QTimer(self, singleShot=True, interval=FLASH_MS)
         self._say_soon = QTimer(self, singleShot=True, interval=ANNOUNCE_MS)
         self._is_heard = QTimer(self, interval=_HEARING_MS)
-
-    def _lay_out(self) -> None:
-        inner = QWidget()
-        box = QVBoxLayout(inner)
-        head = QHBoxLayout()
-        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
-        head.addWidget(self.said, 1)
-        box.addLayout(head)
-        box.addWidget(self.steps)
-        self._bars_box = QVBoxLayout()
-        self._bars_box.setSpacing(0)
-        self.live = Halves(WIDE_LINES)
-        self.live.first.addLayout(self._bars_box)
-        self.live.add(self.meaning, self.timeline, self.corrections)
-        self.live.add_beside(labelled(Words(role="heading"), text="Expected curve"), self.band)
-        box.addWidget(self.live)
-        box.addStretch(1)
-        self.area = scrolled(inner)
-        self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self.area)
 
     def _connect(self) -> None:
         self.controller.heard.connect(self._on_heard)
@@ -291,7 +280,11 @@ class TryOut(QWidget):
         last = self.looks.triggers[-1] if self.looks.triggers else None
         if last is not None and last.t_end > self._told_s:
             self._told_s = last.t_end
-            self._flash(last)
+            self._flashing = last
+            self._flash_over.start()
+            self._say_soon.start()
+            self._show_state()
+            self.recognised.emit(last)
         self._show_looks()
         self.band.follow(self.looks)
 
@@ -301,13 +294,6 @@ class TryOut(QWidget):
         for name, bar in self.bars.items():
             bar.show_certainty(certainties.get(name, 0.0), is_flashing=name == flashing)
         self.timeline.show_looks(self.looks, tuple(self.looks.triggers))
-
-    def _flash(self, found: Detection) -> None:
-        self._flashing = found
-        self._flash_over.start()
-        self._say_soon.start()
-        self._show_state()
-        self.recognised.emit(found)
 
     def _on_flash_over(self) -> None:
         self._flashing = None

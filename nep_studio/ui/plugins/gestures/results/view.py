@@ -2,25 +2,139 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QProgressBar,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.message_cards import MessageText
-from nep_studio.ui.messages import Message
+from nep_studio.ui.messages import Message, announce
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
+from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.layouts import Halves, scrolled
+from nep_studio.ui.widgets.layouts import Halves, in_column, in_row, scrolled
 from nep_studio.ui.words import language_code, tr
 
 from .advice import Advice, AdviceList, Known, advice_on, false_triggers, headline, takes_of_pair
 from .confusion import ConfusionView
-from .labels import Words, card
+from .findings import METHODS, method_words
+from .labels import Sign, Words, card
 from .threshold import PointPanel
-from .train_bar import TrainBar
-from .training import Training
-from .tuning import METHODS, method_words
+from .training import QUICK_S, Training
+
+# The button that trains, how far it is, and whether what was learned is up to date.
+
+BAR_WIDE_LINES = 30
+"""So many lines of text wide, the button and what is told have room beside each other."""
+
+
+class TrainBar(QWidget):
+    """Follows a training."""
+
+    def __init__(self, training: Training, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.training, self._look = training, look
+        self.button = labelled(QPushButton(), text="Train")
+        self.button.setProperty("kind", "primary")
+        self.cancel = labelled(
+            QPushButton(), text="Cancel", tip="Stop the training; what was learned before stays"
+        )
+        self.progress = QProgressBar(textVisible=False)
+        self.progress.setRange(0, 100)
+        labelled(self.progress, name="Progress of the training")
+        self.progress.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.sign = Sign(look)
+        self.status = Words()
+        self.by_itself = labelled(
+            QCheckBox(),
+            text="Train after each change",
+            tip="Learn again by itself, as long as it takes only a moment",
+        )
+        self._lay_out()
+        self.button.clicked.connect(training.train)
+        self.cancel.clicked.connect(training.cancel)
+        self.by_itself.toggled.connect(training.set_by_itself)
+        training.changed.connect(self.refresh)
+        training.trained.connect(lambda: announce(self, self.status.text()))
+        look.theme_changed.connect(self._dress)
+        self._dress()
+        follow_words(self, self.refresh)
+
+    def _lay_out(self) -> None:
+        buttons = in_row(self.button, self.cancel, (self.progress, 1), 0)
+        status = in_row(self.sign, (self.status, 1))
+        halves = Halves(BAR_WIDE_LINES)
+        halves.first.addLayout(buttons)
+        halves.second.addLayout(status)
+        halves.second.addWidget(self.by_itself)
+        in_column(halves, of=self, margins=0)
+
+    def refresh(self) -> None:
+        """Show how it stands."""
+        training = self.training
+        is_busy, why_not = training.is_training, training.why_not
+        had_focus = self.button.hasFocus() or self.cancel.hasFocus()
+        self.button.setVisible(not is_busy)
+        self.button.setEnabled(not why_not)
+        has_learned = training.controller.recogniser is not None
+        labelled(self.button, text="Train again" if has_learned else "Train")
+        self.cancel.setVisible(is_busy)
+        self.progress.setVisible(is_busy)
+        self.progress.setValue(round(training.progress * 100))
+        if had_focus:  # the button that takes the other's place goes on
+            (self.cancel if is_busy else self.button).setFocus()
+        self.by_itself.setChecked(training.trains_by_itself)
+        name, colour, words = self._status()
+        self.sign.show_icon(name, colour)
+        self.status.setText(words)
+
+    def _status(self) -> tuple[str, str, str]:
+        """Icon, its colour, and words."""
+        training = self.training
+        if training.is_training:
+            return "hourglass", "info", training.step or tr("Getting ready to learn…")
+        if training.why_not:
+            return "info", "info", training.why_not
+        if training.is_stale:
+            return "refresh-cw", "warning", self._stale_words()
+        if training.controller.recogniser is None:
+            return (
+                "info",
+                "info",
+                tr("Train, and it is told how well your gestures are told apart."),
+            )
+        if training.seconds:
+            seconds = f"{training.seconds:.1f}"
+            return "circle-check", "success", tr("Learned in {seconds} s", seconds=seconds)
+        return "circle-check", "success", tr("Learned, and up to date")
+
+    def _stale_words(self) -> str:
+        training = self.training
+        if training.trains_by_itself and not training.is_quick:
+            return tr(
+                "Something has changed: train again. It took longer than {seconds} s, so it is not"
+                " done by itself.",
+                seconds=round(QUICK_S),
+            )
+        return tr("Something has changed: train again.")
+
+    def _dress(self, _theme: object = None) -> None:
+        theme, line = self._look.theme, self.fontMetrics().height()
+        for button in (self.button, self.cancel):
+            button.setIconSize(QSize(line, line))
+        self.button.setIcon(icon("brain", theme.colour("accent_text")))
+        self.cancel.setIcon(icon("x", theme))
+
+
+# What came of a training: in words first, then what was taken for what, then the points.
 
 _FEW_TAKES = "few_takes"
 """A remark of the training that the advice tells too, with more."""
@@ -64,7 +178,6 @@ class ResultsView(QWidget):
 
     def _lay_out(self) -> None:
         inner = QWidget()
-        box = QVBoxLayout(inner)
         labelled(self.method, name="Recogniser")
         self.method.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.found = Halves(WIDE_LINES)
@@ -87,14 +200,10 @@ class ResultsView(QWidget):
             labelled(Words(role="heading"), text="Recogniser"),
             self.method,
         )
-        for widget in (self.bar, self.failure, self.found):
-            box.addWidget(widget)
-        box.addStretch(1)
+        in_column(self.bar, self.failure, self.found, 1, of=inner)
         self.area = scrolled(inner)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self.area)
+        in_column(self.area, of=self, margins=0)
         QVBoxLayout(self.failure)
 
     def _connect(self) -> None:
