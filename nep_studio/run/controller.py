@@ -19,7 +19,7 @@ from typing import Literal
 from faults import reason_of, text_of
 from nep_core.errors import NepError
 from nep_core.wire import messages as m
-from nep_studio.blocks.checks.problem import Problem as BlockProblem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import ProgramGenerator
@@ -87,7 +87,7 @@ class StateChanged:
 class Checked:
     """The checks are over; where it ``can_run``, it goes on by itself."""
 
-    problems: list[BlockProblem]
+    problems: list[Diagnostic]
     can_run: bool
 
 
@@ -151,7 +151,7 @@ class RunController:
         """Whether the blocks have changed since then."""
         self._prepared: Subject | None = None
         self._is_shown = True
-        self._checks: Sliced[list[BlockProblem]] | None = None
+        self._checks: Sliced[list[Diagnostic]] | None = None
         self._generator: ProgramGenerator | None = None
         self._code: Sliced[Code] | None = None
         self._session: Session | None = None
@@ -204,7 +204,7 @@ class RunController:
         self._checks = Sliced(problem_steps(project, language, subject.folder))
         self._set_state("checking")
 
-    def _on_checked(self, problems: list[BlockProblem]) -> None:
+    def _on_checked(self, problems: list[Diagnostic]) -> None:
         subject, self._checks = self._prepared, None
         assert subject is not None
         has_rules = next(rules(subject.project, subject.language), None) is not None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from faults import Words
-from nep_studio.blocks.checks.problem import Fix, Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic, Fix
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NODE_BLOCK,
@@ -25,7 +25,7 @@ Data = Mapping[str, str]
 WAIT, POSTURE = "control.wait", "robot.do"
 
 
-def apply_fix(editor: Editor, problem: Problem) -> str:
+def apply_fix(editor: Editor, problem: Diagnostic) -> str:
     """Carry out the fix of a problem; gives the block that it made or changed, to be shown.
 
     Raises EditRefused when there is no fix, or when the program has changed too much for it.

@@ -12,7 +12,7 @@ from sound_programs import WAIT, kinds, sound
 
 from nep_studio.blocks import checks
 from nep_studio.blocks.checks import check
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
 from nep_studio.blocks.errors import EditRefused
@@ -117,7 +117,7 @@ def faulty(language):
     }
 
 
-def problem_of(editor, language, name) -> Problem:
+def problem_of(editor, language, name) -> Diagnostic:
     return next(p for p in check(editor.project, language) if p.fix and p.fix.name == name)
 
 
@@ -153,7 +153,7 @@ def test_a_problem_without_a_fix_is_refused(language):
     editor = karate(language)
 
     with pytest.raises(EditRefused, match="by itself"):
-        apply_fix(editor, Problem("error", "x", "behaviour", "", "Something."))
+        apply_fix(editor, Diagnostic("error", "x", "behaviour", "", "Something."))
 
 
 def test_selected_blocks_are_copied_as_python(language):
