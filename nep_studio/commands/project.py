@@ -75,14 +75,6 @@ def describe(problem: Diagnostic, project: Project, language: Language) -> str:
     return str(Problem(sentence, checklist=problem.checklist, place=place))
 
 
-def tell_errors(project: Project, language: Language, folder: Path) -> bool:
-    """Print the problems that keep a program from running; whether there are any."""
-    errors = [p for p in all_problems(project, language, folder) if p.severity == "error"]
-    for problem in errors:
-        print(describe(problem, project, language), file=sys.stderr)
-    return bool(errors)
-
-
 # ``nep-studio code FILE.nep``: the Python that the blocks make.
 
 
