@@ -65,7 +65,7 @@ class MasterClient:
     ) -> None:
         self.master = master
         self._on_computers = on_computers
-        self._told = told
+        self._registration = told
         self._on_publishers = on_publishers
         self._on_stop_asked = on_stop_asked
         self._io = io
@@ -118,7 +118,7 @@ class MasterClient:
             raise NetworkError(
                 "The network of {node} is closed.",
                 checklist=("Start it again.",),
-                node=self._told.node,
+                node=self._registration.node,
             )
         if not answered or answer is None:
             raise no_master(self.master)
@@ -146,11 +146,11 @@ class MasterClient:
         if self._sent_version < self._version:
             self._tell()
         elif self._epoch and now_s >= self._next_beat_s:
-            self._say(says.Alive(instance=self._told.instance))
+            self._say(says.Alive(instance=self._registration.instance))
 
     def close(self) -> None:
         """Say good-bye; after the I/O thread has ended."""
-        self._say(says.Bye(instance=self._told.instance))
+        self._say(says.Bye(instance=self._registration.instance))
         self._socket.close()
         with self._changed:
             self._closed = True
@@ -158,12 +158,12 @@ class MasterClient:
 
     def _edit(self, edit: Callable[[Registration], None], topic: str = "") -> int:
         """Change a copy, since the I/O thread may be sending the other; the new version."""
-        old = self._told
+        old = self._registration
         told = msgspec.structs.replace(
             old, publishes=list(old.publishes), subscribes=dict(old.subscribes)
         )
         edit(told)
-        self._told = told
+        self._registration = told
         self._version += 1
         self._asked.add(topic)
         return self._version
@@ -240,7 +240,7 @@ class MasterClient:
     def _tell(self) -> None:
         """Say what has changed, or all when the master knows nothing of us."""
         with self._changed:
-            version, told, asked = self._version, self._told, self._asked
+            version, told, asked = self._version, self._registration, self._asked
             self._asked = set()
         request: says.Request
         if self._sent is None:
@@ -311,7 +311,7 @@ class MasterFeed:
         trust = security.trust_in_master()
         self.is_answered = False
         self._on_change = on_change
-        self._told: dict[str, Registration] = {}
+        self._registrations: dict[str, Registration] = {}
         self._epoch, self._number = "", 0
         self._heard_s = self._asked_s = 0.0
         self._is_closed = False
@@ -330,7 +330,7 @@ class MasterFeed:
     @property
     def registrations(self) -> list[Registration]:
         """What was registered when the master was last heard."""
-        return list(self._told.values())
+        return list(self._registrations.values())
 
     def close(self) -> None:
         """Follow no more; waits for a callback that is running, unless it is the caller."""
@@ -350,11 +350,11 @@ class MasterFeed:
         poller.register(self._socket, zmq.POLLIN)
         poller.register(self._wake.fileno(), zmq.POLLIN)
         while not self._is_closed:
-            before = self._told, self.is_answered
+            before = self._registrations, self.is_answered
             self._ask()
             poller.poll(LOOK_MS)
             self._hear()
-            if not self._is_closed and (self._told, self.is_answered) != before:
+            if not self._is_closed and (self._registrations, self.is_answered) != before:
                 self._tell()
         self._context.destroy(linger=0)
         self._wake.close()
@@ -392,13 +392,15 @@ class MasterFeed:
         match answer:
             case says.Listing():
                 self._epoch, self._number = answer.epoch, answer.number
-                self._told = {told.instance: told for told in answer.registrations}
+                self._registrations = {told.instance: told for told in answer.registrations}
             case says.Changed() if answer.epoch == self._epoch:
                 if answer.number > self._number + 1:
                     self._asked_s = 0.0  # one was missed: ask at once
                     return
                 self._number = max(answer.number, self._number)
                 came = {told.instance: told for told in answer.came}
-                self._told = {
-                    i: told for i, told in {**self._told, **came}.items() if i not in answer.gone
+                self._registrations = {
+                    i: told
+                    for i, told in {**self._registrations, **came}.items()
+                    if i not in answer.gone
                 }

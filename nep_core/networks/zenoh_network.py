@@ -411,7 +411,7 @@ class ZenohFeed:
         self._session = open_client(routers)
         atexit.register(self.close)  # zenoh's threads must end before the interpreter does
         self._tokens: set[str] = set()
-        self._told: list[Registration] = []
+        self._registrations: list[Registration] = []
         self.is_answered = True
         self._changes = self._session.liveliness().declare_subscriber(ALL_TOKENS, history=True)
         self._thread = threading.Thread(target=self._run, name="nep-zenoh-feed", daemon=True)
@@ -420,7 +420,7 @@ class ZenohFeed:
     @property
     def registrations(self) -> list[Registration]:
         """Who is there, or was when the router was last heard."""
-        return self._told
+        return self._registrations
 
     def close(self) -> None:
         """Follow no more; waits for a callback that is running, unless it is the caller."""
@@ -445,7 +445,7 @@ class ZenohFeed:
                     self._take_in(more)
                 self.is_answered = bool(self._session.info.routers_zid())
                 if self.is_answered:
-                    self._told = registrations_of(self._tokens, self._router)
+                    self._registrations = registrations_of(self._tokens, self._router)
                 self._tell()
 
     def _take_in(self, change: zenoh.Sample) -> None:

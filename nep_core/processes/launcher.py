@@ -54,7 +54,7 @@ class LaunchedNode:
     ready: threading.Event = field(default_factory=threading.Event)
     ended: threading.Event = field(default_factory=threading.Event)
     said_end: threading.Event = field(default_factory=threading.Event)
-    told: threading.Event = field(default_factory=threading.Event)
+    end_reported: threading.Event = field(default_factory=threading.Event)
     """Set when whoever wants to know has been told of its end."""
 
     @property
@@ -273,7 +273,7 @@ class Launcher:
         """Stop every node, all at once."""
         self.stop_all(list(self.nodes))
         for launched in list(self.nodes.values()):
-            launched.told.wait(TOLD_S)
+            launched.end_reported.wait(TOLD_S)
         self.leave()
 
     def leave(self) -> None:
@@ -304,7 +304,7 @@ class Launcher:
                 self._start_process(launched)
             except BaseException:
                 launched.ended.set()  # its name is free again
-                launched.told.set()
+                launched.end_reported.set()
                 raise
         return launched
 
@@ -338,7 +338,7 @@ class Launcher:
         if self._on_end is not None:
             self._on_end(launched, outcome, again)
         if not again:
-            launched.told.set()
+            launched.end_reported.set()
 
     def _restart(self, launched: LaunchedNode, outcome: Outcome) -> None:
         launched.ended.wait(FIRST_PAUSE_S * 2**launched.restarts)  # unless it is stopped meanwhile

@@ -103,7 +103,7 @@ class Node:
         self._well_again = ""
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
         self._next_measures_s = -math.inf
-        self._told: tuple[NodeEvent, Fault] | None = None
+        self._last_state: tuple[NodeEvent, Fault] | None = None
         try:
             self._states = Publisher(NODE_STATE, network=self.network)
         except BaseException:
@@ -157,9 +157,9 @@ class Node:
         node likes.
         """
         fault = fault_of(words, code=code, checklist=checklist, **values)
-        if measures is not None and (event == "alive" or self._told == (event, fault)):
+        if measures is not None and (event == "alive" or self._last_state == (event, fault)):
             return self._measure(measures)
-        self._told = (_check(event, NodeEvent, "state"), fault)
+        self._last_state = (_check(event, NodeEvent, "state"), fault)
         self._states.send(self._state(event, fault, measures))
         return True
 

@@ -109,11 +109,11 @@ class Report:
 def report_of(text: bytes | str) -> Report:
     """The report that ``json`` gave; raises msgspec.MsgspecError (a ValueError)."""
 
-    class Told(msgspec.Struct):
+    class Kept(msgspec.Struct):
         made: str
         parts: tuple[Part, ...]
 
-    told = msgspec.json.decode(text, type=Told)
+    told = msgspec.json.decode(text, type=Kept)
     return Report(told.parts, told.made)
 
 
@@ -125,7 +125,7 @@ def _without_names(part: Part, anonymous: Anonymous) -> Part:
             Finding(
                 hide(one.about),
                 one.state,
-                hide(one.told),
+                hide(one.sentence),
                 tuple(map(hide, one.steps)),
             )
             for one in part.findings

@@ -85,13 +85,13 @@ class UpdateChoice:
         self._values.setValue("updates/address", "" if chosen == ADDRESS else chosen)
 
     @property
-    def told(self) -> str:
+    def announced(self) -> str:
         """The version of which the person has been told."""
-        return self._text("told")
+        return self._text("announced")
 
-    @told.setter
-    def told(self, version: str) -> None:
-        self._values.setValue("updates/told", version)
+    @announced.setter
+    def announced(self, version: str) -> None:
+        self._values.setValue("updates/announced", version)
 
     def is_due(self, now_s: float) -> bool:
         """Whether it is wanted, and was not asked within a day; a clock that went back counts."""

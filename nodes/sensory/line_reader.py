@@ -54,7 +54,7 @@ class Layout:
     gravity_included: bool = True
 
     @property
-    def told(self) -> str:
+    def words(self) -> str:
         """The columns for a person: "t (ms), ax, ay, az (m/s²), gx, gy, gz (rad/s)"."""
         units = {"t": self.time_unit, "az": self.acc_unit, "gz": self.gyr_unit}
         names = [f"{role} ({units[role]})" if units.get(role) else role for role in self.roles]
@@ -330,7 +330,7 @@ class Fault:
 
     line: str
 
-    def told(self, sender: str) -> Text:
+    def sentence(self, sender: str) -> Text:
         """What is wrong, as a sentence."""
         if _HTTP.match(self.line):
             return text_of(
@@ -438,9 +438,9 @@ class LineReader:
         self._forms: dict[object, _Form] = {}
 
     @property
-    def told(self) -> str:
+    def columns(self) -> str:
         """How the columns are read; "" before that is known, and for formats that say it."""
-        return " | ".join(form.layout.told for form in self._forms.values() if form.layout)
+        return " | ".join(form.layout.words for form in self._forms.values() if form.layout)
 
     def read(self, lines: Sequence[bytes], now_s: float) -> Read:
         """The readings of some lines that arrived together."""
@@ -583,5 +583,5 @@ class LineSenders:
         if len(self._readers) > _MOST_SENDERS:
             del self._readers[next(iter(self._readers))]
         read = reader.read(lines, now_s)
-        trouble = read.fault.told(sender) if read.fault else ""
-        return Arrived(sender, read.readings, now_s, trouble, reader.told)
+        trouble = read.fault.sentence(sender) if read.fault else ""
+        return Arrived(sender, read.readings, now_s, trouble, reader.columns)

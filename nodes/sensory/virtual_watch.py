@@ -522,7 +522,7 @@ class _Watch:
         self._rate_hz = rate_hz
         self._seed = seed
         self._wearer = Wearer(person, rate_hz, seed)
-        self._told = ""
+        self._announced = ""
 
     def hear(self, request: GestureRequest) -> None:
         """Let the wearer, or the person asked for, make a gesture."""
@@ -564,7 +564,7 @@ class _Watch:
         self._node.state("running", "simulated person {person} puts the watch on", person=person)
 
     def _tell(self, gesture: str) -> None:
-        if gesture != self._told:
+        if gesture != self._announced:
             makes = fault_of(
                 "makes the gesture {gesture} (simulated person {number})",
                 code=MAKES_GESTURE,
@@ -572,4 +572,4 @@ class _Watch:
                 number=self._wearer.number,
             )
             self._node.state("running", makes if gesture else "goes on with everyday movement")
-        self._told = gesture
+        self._announced = gesture

@@ -84,7 +84,7 @@ def test_the_messages_of_all_rooms_are_listed() -> None:
         ("EditRefused", "There is something on this page: empty it first."),
         ("Problem", "“{name}” does not answer | _silent(name)"),
         ("refuse", "There is no project to run."),
-        ("Told", "A number was divided by zero."),
+        ("Explanation", "A number was divided by zero."),
         ("confirm", "The program has ended."),
     } <= found
 

@@ -157,7 +157,7 @@ class Request:
 
 def read_request(frame: bytes, old: bool) -> Request:
     """Take a request in; raises BadMessage. Only the topic must be there."""
-    told = _told(frame)
+    told = _decoded(frame)
     topic = told.get("topic")
     if not isinstance(topic, str):
         raise BadMessage('The request has no "topic".')
@@ -202,14 +202,14 @@ def refused(frame: bytes, sentence: str, ip: str) -> bytes:
     They would wait for ever for an answer that names another topic than they asked for.
     """
     try:
-        topic = _told(frame).get("topic", "")
+        topic = _decoded(frame).get("topic", "")
     except BadMessage:
         topic = ""
     answer = {"topic": topic, "port": 0, "ip": ip, "state": "failure", "error": sentence}
     return json.dumps(answer).encode()  # a topic of half a character is answered too
 
 
-def _told(frame: bytes) -> dict[str, Any]:
+def _decoded(frame: bytes) -> dict[str, Any]:
     try:
         told = json.loads(frame)
     except (ValueError, RecursionError) as error:

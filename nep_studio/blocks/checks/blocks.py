@@ -175,7 +175,7 @@ def _inner(definition: Definition, place: _Place) -> _Place:
 def _misplaced(
     project: Project, language: Language, block: Block, definition: Definition, place: _Place
 ) -> Iterator[Diagnostic]:
-    told = _told(block, definition, place)
+    told = _misplacement(block, definition, place)
     if told is None:
         return
     severity, kind, reason, remedy = told
@@ -189,7 +189,7 @@ def _misplaced(
     )
 
 
-def _told(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
+def _misplacement(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
     """How bad it is, the kind, the sentence and the remedy of what is wrong, or None."""
     if "in_loop" in definition.flags and not place.loop:
         return ("error", "outside_loop", Text("it is in no loop."), "Put it into a “repeat” block.")

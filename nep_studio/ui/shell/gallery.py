@@ -43,18 +43,18 @@ from nep_studio.ui.words import count_words, is_right_to_left, tr
 
 # How the gallery says what an example needs, how hard and how long it is, and what it is about.
 
-Sign = tuple[str, str]
-"""The name of an icon, and words."""
+Feature = tuple[str, str]
+"""What an example needs or takes: the name of an icon, and words."""
 
 
-def signs_of(example: Example) -> list[Sign]:
+def signs_of(example: Example) -> list[Feature]:
     """What one needs for an example, and how long it takes, each with its icon."""
     known = _needs()
     needs = [known[need] for need in example.needs if need in known]
     return [*(needs or [("circle-check", tr("Needs nothing"))]), _length(example)]
 
 
-def difficulty_of(example: Example) -> Sign:
+def difficulty_of(example: Example) -> Feature:
     """How much of the block language an example uses."""
     return {
         "first": ("star", tr("Begin here")),
@@ -76,7 +76,7 @@ def search_text(example: Example) -> str:
     return " ".join([*shown, *example.words(), *tags, *example.tags, *signs]).casefold()
 
 
-def _length(example: Example) -> Sign:
+def _length(example: Example) -> Feature:
     if not example.seconds:
         return "repeat", tr("Until you stop it")
     if example.seconds < 60:
@@ -84,7 +84,7 @@ def _length(example: Example) -> Sign:
     return "clock", count_words(round(example.seconds / 60), "1 minute", "{n} minutes")
 
 
-def _needs() -> dict[str, Sign]:
+def _needs() -> dict[str, Feature]:
     return {
         "watch": ("watch", tr("A watch, or the virtual one")),
         "two_robots": ("users", tr("Two robots on the screen")),
@@ -146,7 +146,7 @@ def example_sentence(path: Path) -> str:
 class Signs(QWidget):
     """Small icons with words under each other: what one needs, how long it takes."""
 
-    def __init__(self, signs: Sequence[Sign], look: Look, parent: QWidget | None = None) -> None:
+    def __init__(self, signs: Sequence[Feature], look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._signs, self._look = signs, look
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
@@ -214,7 +214,7 @@ class Card(QFrame):
         self.setToolTip("\n".join(f"• {tr(each.words)}" for each in example.tries))
         self._fill(title, sentence, signs)
 
-    def _fill(self, title: str, sentence: str, signs: Sequence[Sign]) -> None:
+    def _fill(self, title: str, sentence: str, signs: Sequence[Feature]) -> None:
         line = self.fontMetrics().height()
         self.picture = QLabel()
         self.picture.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)

@@ -149,7 +149,7 @@ class _Troubles:
     def __init__(self, source: Words, warn: Callable[[Text], None]) -> None:
         self._source = source
         self._warn = warn
-        self._told: set[str] = set()
+        self._warned: set[str] = set()
         self._batches = self._breaks = self._samples = self._numbers = self._steps = 0
         self._moving_s = 0.0
         self._last_s = np.nan
@@ -213,8 +213,8 @@ class _Troubles:
         self._moving_s = 0.0
 
     def _once(self, trouble: str, sentence: Text) -> None:
-        if trouble not in self._told:
-            self._told.add(trouble)
+        if trouble not in self._warned:
+            self._warned.add(trouble)
             self._warn(sentence)
 
 

@@ -55,7 +55,7 @@ class TcpConnector:
         return text_of(
             "waits for a watch on TCP port {port} ({where})",
             port=self._settings.port,
-            where=self._settings.who,
+            where=self._settings.where,
         )
 
     @property
@@ -180,7 +180,7 @@ class UdpConnector:
         return text_of(
             "waits for a watch on UDP port {port} ({where})",
             port=self._settings.port,
-            where=self._settings.who,
+            where=self._settings.where,
         )
 
     @property

@@ -303,7 +303,7 @@ class PhyphoxConnector:
 
     def _put(self, experiment: Experiment, readings: Sequence[Reading], now_s: float) -> None:
         sources = " + ".join(sensor.source for sensor in experiment.sensors)
-        self._background.put(Arrived(self._host, readings, now_s, told=sources))
+        self._background.put(Arrived(self._host, readings, now_s, columns=sources))
 
     def _say(self, trouble: Words) -> None:
         arrived = Arrived(self._host, arrived_s=time.monotonic(), trouble=trouble)

@@ -222,7 +222,7 @@ class SensorLoggerConnector:
         return text_of(
             "waits for Sensor Logger on HTTP port {port} ({where})",
             port=self._settings.port,
-            where=self._settings.who,
+            where=self._settings.where,
         )
 
     @property

@@ -366,7 +366,7 @@ class PhonePageConnector:
         return text_of(
             "waits for a phone that opens {told} ({where})",
             told=page if is_known else self.page.urls[0],
-            where=self._settings.who,
+            where=self._settings.where,
         )
 
     @property

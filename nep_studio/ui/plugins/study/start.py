@@ -29,7 +29,7 @@ from nep_studio.run.session import Ending
 from nep_studio.study.records import Event, Sitting, StudyFolder, What
 from nep_studio.study.sus import conditions_for, next_code, participant_number
 from nep_studio.ui.documents import Document
-from nep_studio.ui.messages import Message, Told
+from nep_studio.ui.messages import LoggedMessage, Message
 from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
@@ -327,7 +327,7 @@ class StudyRecorder(QObject):
         if edits:
             self.note("edits", number=edits)
 
-    def _on_told(self, told: Told) -> None:
+    def _on_told(self, told: LoggedMessage) -> None:
         if told.message.kind in ("error", "warning"):
             self.note("error_told", told.message.title)
 

@@ -14,7 +14,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
 from nodes.perceptual.recognition.features import Detection
 
-from .certainties import KEPT_S, Looks
+from .certainties import KEPT_S, CertaintyHistory
 from .threshold import PointSlider
 from .tuning import Tuning
 
@@ -30,21 +30,21 @@ class TriggerTimeline(QWidget):
     ) -> None:
         super().__init__(parent)
         self._title, self._look = title, look
-        self._looks = Looks()
+        self._history = CertaintyHistory()
         self._triggers: Sequence[Detection] = ()
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as the live curves are
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(tr("The last 30 seconds"))
         look.theme_changed.connect(self.update)
 
-    def show_looks(self, looks: Looks, triggers: Sequence[Detection]) -> None:
+    def show_history(self, history: CertaintyHistory, triggers: Sequence[Detection]) -> None:
         """Show these."""
         if len(triggers) != len(self._triggers):
             words = count_words(
                 len(triggers), "1 gesture would count as made", "{n} gestures would count as made"
             )
             self.setAccessibleDescription(words)
-        self._looks, self._triggers = looks, triggers
+        self._history, self._triggers = history, triggers
         self.update()
 
     def sizeHint(self) -> QSize:
@@ -64,7 +64,7 @@ class TriggerTimeline(QWidget):
     def x_of(self, time_s: float) -> float:
         """Where a moment is."""
         area = self.area()
-        return area.right() - (self._looks.now_s - time_s) / KEPT_S * area.width()
+        return area.right() - (self._history.now_s - time_s) / KEPT_S * area.width()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint everything."""
@@ -109,7 +109,7 @@ class TriggerTimeline(QWidget):
                 self.x_of(look.end_s),
                 area.bottom() - min(float(look.certainties.max()), 1.0) * high,
             )
-            for look in self._looks.kept
+            for look in self._history.kept
         ]
         painter.setPen(QPen(theme.colour("plot_1"), max(1.5, line / 10)))
         painter.drawPolyline(QPolygonF(points))

@@ -19,7 +19,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Halves
 from nep_studio.ui.words import tr
 
-from .labels import Sign, Words
+from .labels import StatusIcon, Words
 from .training import QUICK_S, Training
 
 WIDE_LINES = 30
@@ -41,7 +41,7 @@ class TrainBar(QWidget):
         self.progress.setTextVisible(False)
         self.progress.setAccessibleName(tr("Progress of the training"))
         self.progress.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self.sign = Sign(look)
+        self.sign = StatusIcon(look)
         self.status = Words()
         self.by_itself = QCheckBox(tr("Train after each change"))
         self.by_itself.setToolTip(tr("Learn again by itself, as long as it takes only a moment"))
