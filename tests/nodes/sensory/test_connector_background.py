@@ -32,7 +32,7 @@ def test_a_way_that_is_stopped_as_soon_as_it_was_started_ends():
         background.start()
         thread = background._thread
         began_s = time.monotonic()
-        background.stop()
+        background.close()
 
         assert thread is not None and not thread.is_alive()
         assert time.monotonic() - began_s < 0.5

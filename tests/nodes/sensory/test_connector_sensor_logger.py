@@ -230,7 +230,7 @@ def test_a_flood_of_messages_keeps_memory_bounded():
             sender.push(message | {"messageId": count, "deviceId": str(random.random())})
 
         assert len(heard.connector._devices) <= 16
-        assert len(heard.connector._background._arrived) <= 256
+        assert len(heard.connector._arrived) <= 256
 
 
 parts = st.dictionaries(
