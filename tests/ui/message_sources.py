@@ -85,8 +85,6 @@ TEMPLATES = {
     "text_of": 0,
     "fault_of": 0,
     "told": 0,
-    "_here": 0,
-    "_say": 0,
     "advise": 0,
     "warn": 0,
     "ready": 0,

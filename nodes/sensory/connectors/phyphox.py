@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from faults import Text
+from faults import Text, text_of
 from nodes.sensory.reading import Reading, finite_number, scaled, vector
 
 from .connector import Arrived, Settings, Timed, nearest
@@ -193,14 +193,15 @@ class PhyphoxConnector(OutboundConnector):
     @property
     def where(self) -> Text:
         """What the node is ready for."""
-        return self._here("asks phyphox at {host}, port {port}")
+        return text_of("asks phyphox at {host}, port {port}", **self._place)
 
     @property
     def missing(self) -> Text:
         """What to check when nothing has arrived."""
-        return self._here(
+        return text_of(
             "Nothing has arrived for 10 seconds. Does phyphox show the address {host} and the port "
-            "{port} under “Allow remote access”, and is its experiment running?"
+            "{port} under “Allow remote access”, and is its experiment running?",
+            **self._place,
         )
 
     async def _ask(self) -> None:

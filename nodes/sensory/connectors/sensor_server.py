@@ -15,7 +15,7 @@ import json
 import time
 from typing import TYPE_CHECKING
 
-from faults import Text
+from faults import Text, text_of
 from nodes.sensory.reading import read_android, read_json
 
 from .connector import Arrived, Settings
@@ -44,14 +44,15 @@ class SensorServerConnector(OutboundConnector):
     @property
     def where(self) -> Text:
         """What the node is ready for."""
-        return self._here("connects to SensorServer at {host}, port {port}")
+        return text_of("connects to SensorServer at {host}, port {port}", **self._place)
 
     @property
     def missing(self) -> Text:
         """What to check when nothing has arrived."""
-        return self._here(
+        return text_of(
             "Nothing has arrived for 10 seconds. Does SensorServer show the address {host} and the "
-            "port {port}, and is its server started?"
+            "port {port}, and is its server started?",
+            **self._place,
         )
 
     async def _listen(self) -> None:

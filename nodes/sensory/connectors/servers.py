@@ -253,13 +253,14 @@ class OutboundConnector(Background):
         self._host, self._port = phone_address(settings.address, settings.port, self.app)
         self.start()
 
-    def _here(self, template: str) -> Text:
-        """A text in which host and port of the phone are named."""
-        return text_of(template, host=self._host, port=self._port)
+    @property
+    def _place(self) -> dict[str, object]:
+        """The values of the places that sentences about the phone have."""
+        return {"host": self._host, "port": self._port}
 
     def _say(self, template: str, **values: object) -> None:
         """Tell of a trouble."""
-        trouble = text_of(template, host=self._host, port=self._port, **values)
+        trouble = text_of(template, **self._place, **values)
         self.put(Arrived(self._host, arrived_s=time.monotonic(), trouble=trouble))
 
 
