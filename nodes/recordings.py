@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from array import array
 from collections.abc import Iterator
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from faults import Text, Words, reason_of, text_of
 from nep_core.errors import RecordingError
+from nep_core.places import whole_file
 from nep_core.wire.messages import Wrist
 
 # Which column of a recording is which: time, acceleration, gyroscope, gesture.
@@ -437,13 +437,9 @@ def read_recording(path: Path) -> Recording:
 
 def write_recording(path: Path, recording: Recording) -> None:
     """Write a CSV file that ``read_recording`` reads back; the file is whole or as it was."""
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
     try:
-        with unfinished.open("w", encoding="utf-8", newline="\n") as file:
-            file.writelines(_lines_of(recording))
-            file.flush()
-            os.fsync(file.fileno())
-        unfinished.replace(path)
+        with whole_file(path) as file:
+            file.writelines(line.encode() for line in _lines_of(recording))
     except OSError as error:
         raise RecordingError(
             "{path} cannot be written: {reason}.",
@@ -452,8 +448,6 @@ def write_recording(path: Path, recording: Recording) -> None:
             path=path,
             reason=reason_of(error),
         ) from error
-    finally:
-        unfinished.unlink(missing_ok=True)
 
 
 def _unreadable(path: Path, error: OSError) -> RecordingError:

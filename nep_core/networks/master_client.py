@@ -298,20 +298,53 @@ LOOK_MS = 100
 OnChange = Callable[[list[Registration]], None]
 
 
-class MasterFeed:
+class Feed:
     """Calls ``on_change``, in a thread of its own, with all registrations whenever they change.
 
-    While no master answers the last registrations stay, since programs go on without it;
-    ``is_answered`` says so, and that change is told too. Raises NetworkError when ``master`` is
-    not an endpoint.
+    ``registrations`` are those who are there, or were when they were last told; ``is_answered``
+    is false while nobody tells, and that change is told too.
+    """
+
+    def __init__(self, on_change: OnChange) -> None:
+        self.registrations: list[Registration] = []
+        self.is_answered = False
+        self._on_change = on_change
+        self._thread = threading.Thread(target=self._run, name="nep-feed", daemon=True)
+
+    def close(self) -> None:
+        """Follow no more; waits for a callback that is running, unless it is the caller."""
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.close()
+
+    def _run(self) -> None:
+        """Follow until the end."""
+        raise NotImplementedError
+
+    def _tell(self) -> None:
+        try:
+            self._on_change(self.registrations)
+        except Exception:
+            log.exception("the callback of the feed failed")
+
+
+class MasterFeed(Feed):
+    """Follows what is registered at a master.
+
+    While no master answers the last registrations stay, since programs go on without it.
+    Raises NetworkError when ``master`` is not an endpoint.
     """
 
     def __init__(self, master: str, on_change: OnChange) -> None:
         self.master = fixed_endpoint(master)
         trust = security.trust_in_master()
-        self.is_answered = False
-        self._on_change = on_change
-        self._registrations: dict[str, Registration] = {}
+        super().__init__(on_change)
+        self._by_instance: dict[str, Registration] = {}
         self._epoch, self._number = "", 0
         self._heard_s = self._asked_s = 0.0
         self._is_closed = False
@@ -324,46 +357,28 @@ class MasterFeed:
         self._socket.reconnect_ivl_max = 500
         trust(self._socket)
         self._socket.connect(master)
-        self._thread = threading.Thread(target=self._run, name="nep-master-feed", daemon=True)
         self._thread.start()
 
-    @property
-    def registrations(self) -> list[Registration]:
-        """What was registered when the master was last heard."""
-        return list(self._registrations.values())
-
     def close(self) -> None:
-        """Follow no more; waits for a callback that is running, unless it is the caller."""
+        """Follow no more."""
         self._is_closed = True
         self._wake()
-        if threading.current_thread() is not self._thread:
-            self._thread.join()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
+        super().close()
 
     def _run(self) -> None:
         poller = zmq.Poller()
         poller.register(self._socket, zmq.POLLIN)
         poller.register(self._wake.fileno(), zmq.POLLIN)
         while not self._is_closed:
-            before = self._registrations, self.is_answered
+            before = self._by_instance, self.is_answered
             self._ask()
             poller.poll(LOOK_MS)
             self._hear()
-            if not self._is_closed and (self._registrations, self.is_answered) != before:
+            if not self._is_closed and (self._by_instance, self.is_answered) != before:
+                self.registrations = list(self._by_instance.values())
                 self._tell()
         self._context.destroy(linger=0)
         self._wake.close()
-
-    def _tell(self) -> None:
-        try:
-            self._on_change(self.registrations)
-        except Exception:
-            log.exception("the callback of the master's feed failed")
 
     def _ask(self) -> None:
         now_s = time.monotonic()
@@ -392,15 +407,15 @@ class MasterFeed:
         match answer:
             case says.Listing():
                 self._epoch, self._number = answer.epoch, answer.number
-                self._registrations = {told.instance: told for told in answer.registrations}
+                self._by_instance = {told.instance: told for told in answer.registrations}
             case says.Changed() if answer.epoch == self._epoch:
                 if answer.number > self._number + 1:
                     self._asked_s = 0.0  # one was missed: ask at once
                     return
                 self._number = max(answer.number, self._number)
                 came = {told.instance: told for told in answer.came}
-                self._registrations = {
+                self._by_instance = {
                     i: told
-                    for i, told in {**self._registrations, **came}.items()
+                    for i, told in {**self._by_instance, **came}.items()
                     if i not in answer.gone
                 }

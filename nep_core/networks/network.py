@@ -15,37 +15,14 @@ from weakref import WeakSet
 
 from faults import Fault
 from nep_core.errors import NetworkError
-from nep_core.wire.frames import Encoding
 from nep_core.wire.io_thread import IoThread
-from nep_core.wire.outbox import Stream
+from nep_core.wire.outbox import Outbox
 
 HANDSHAKE_S = 1.0
 """How long a constructor waits for a peer that it knows of; then it goes on with a warning."""
 
 Policy = Literal["events", "state"]
 """What a subscriber keeps while it does not read: events, or of each publisher the newest state."""
-
-
-class Sending(Protocol):
-    """The sending side of a network."""
-
-    def stream(self, topic: str, encoding: Encoding | None) -> Stream:
-        """The one stream of ``topic``; raises NetworkError when it has another encoding."""
-
-    def subscribers(self, topic: str) -> set[str]:
-        """The ids of the subscribers that hear ``topic`` now."""
-
-    def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
-        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``."""
-
-    def tend(self) -> None:
-        """Note who hears, and send what waits (the I/O thread)."""
-
-    def abandon(self, send: Callable[[bytes], object]) -> None:
-        """In the child of a fork: ``send`` gets the frames."""
-
-    def close(self) -> None:
-        """Send what waits (half a second at most) and close."""
 
 
 class Receiving(Protocol):
@@ -83,7 +60,7 @@ class Network(ABC):
     to stop. Whoever extends it makes ``outbox`` and starts ``io``.
     """
 
-    outbox: Sending
+    outbox: Outbox
 
     def __init__(self, node: str = "") -> None:
         self.node = node or f"program-{os.getpid()}"

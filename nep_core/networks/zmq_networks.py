@@ -16,7 +16,7 @@ import zmq
 from faults import Fault, fault_of, reason_of
 from nep_core.errors import BrokerNotFound, MasterNotFound, NetworkError, NotLetIn
 from nep_core.wire.inbox import WAKE_ENDPOINT, Inbox
-from nep_core.wire.outbox import HIGH_WATER_MARK, Outbox, bind
+from nep_core.wire.outbox import HIGH_WATER_MARK, ZmqOutbox, bind
 
 from . import security
 from .endpoints import (
@@ -43,7 +43,7 @@ class ZmqNetwork(Network):
     limit); see outbox.py. ``is_far``: a broker is between publishers and subscribers.
     """
 
-    outbox: Outbox
+    outbox: ZmqOutbox
 
     def __init__(
         self, node: str = "", *, high_water_mark: int = HIGH_WATER_MARK, is_far: bool = False
@@ -55,7 +55,7 @@ class ZmqNetwork(Network):
         self.security = security.from_environment(self.context)
         self._waker = self.context.socket(zmq.PUB)
         self._waker.bind(WAKE_ENDPOINT)
-        self.outbox = Outbox(
+        self.outbox = ZmqOutbox(
             self.context,
             self.node,
             self.instance,

@@ -19,6 +19,7 @@ import msgspec
 from faults import reason_of
 from nep_core.errors import RecordingError
 from nep_core.networks import transports
+from nep_core.networks.master_client import Feed
 from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
 from nep_core.networks.transports import topics_of
@@ -117,7 +118,7 @@ class Recorder:
         self._schemas: dict[str, int] = {"": 0}
         self._subscribers: dict[str, RawSubscriber] = {}
         self._threads: list[threading.Thread] = []
-        self._feed: transports.Feed | None = None
+        self._feed: Feed | None = None
         try:
             self._output = _Output(self.path, replace)
         except OSError as error:

@@ -22,6 +22,7 @@ from pathlib import Path
 
 import msgspec
 
+from nep_core.places import whole_file
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import Edit
 from nep_studio.blocks.errors import BlocksError
@@ -135,12 +136,14 @@ class Journal:
         """Begin a new file of edits from the project as it is; only then the old ones go."""
         number = self._number + 1
         try:
-            _write_file(self.folder / f"{number}.nep", to_bytes(self._editor.project))
+            with whole_file(self.folder / f"{number}.nep") as whole:
+                whole.write(to_bytes(self._editor.project))
             edits = self.folder / f"{number}.edits"
             file = os.open(
                 edits, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
             )
-            _write_file(self.folder / "about.json", msgspec.json.encode(self._about))
+            with whole_file(self.folder / "about.json") as whole:
+                whole.write(msgspec.json.encode(self._about))
         except OSError as error:
             self._fail(error)
             self._is_behind = True
@@ -220,15 +223,6 @@ def _steps(edits: Path) -> Iterator[list[Edit]]:
             yield _DECODER.decode(line)
         except msgspec.MsgspecError:
             return  # the program died while it wrote this line
-
-
-def _write_file(path: Path, data: bytes) -> None:
-    new = path.with_suffix(".new")
-    with new.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(new, path)
 
 
 def _write_all(file: int, data: bytes) -> None:

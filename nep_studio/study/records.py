@@ -13,7 +13,6 @@ from __future__ import annotations
 import csv
 import io
 import logging
-import os
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -24,6 +23,8 @@ from statistics import fmean, pstdev
 from typing import Literal, TypeVar
 
 import msgspec
+
+from nep_core.places import whole_file
 
 from .sus import ITEMS, PAPER, Questionnaire, questionnaire, sus_score
 
@@ -276,16 +277,8 @@ def _cell(cell: Cell) -> str | float:
 
 
 def _write(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
-    """Write beside the old file, then put the new one in its place in one step."""
-    new = path.with_name(f".{path.name}.{os.getpid()}.new")
-    try:
-        data = csv_text(columns, rows).encode("utf-8-sig", "replace")
-        new.write_bytes(data)
-        os.replace(new, path)
-    except OSError:
-        with suppress(OSError):
-            new.unlink(missing_ok=True)
-        raise
+    with whole_file(path) as file:
+        file.write(csv_text(columns, rows).encode("utf-8-sig", "replace"))
 
 
 def _time(time_s: float) -> str:

@@ -26,6 +26,7 @@ import zmq
 
 from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError, PortTaken
 from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.places import whole_file
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 from .doors import Context, Door, Request, Shape, Warner, Watch, WayIn, WayOut
@@ -81,11 +82,10 @@ class KeptLine(msgspec.Struct, frozen=True):
 
 def remember(file: Path, lines: list[KeptLine]) -> None:
     """Write the file anew; a failure is no reason to serve nobody."""
-    unfinished = file.with_suffix(f".{os.getpid()}")
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_bytes(msgspec.json.encode(lines))
-        unfinished.replace(file)
+        with whole_file(file) as new:
+            new.write(msgspec.json.encode(lines))
     except OSError as error:
         log.info("the ports of the original's programs are not kept: %s", error)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import struct
+import tempfile
 import tokenize
 import zipfile
 import zlib
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from faults import reason_of
 from nep_core.errors import RecordingError
+from nep_core.places import whole_file
 from nep_core.wire.messages import Wrist
 
 from .features import (
@@ -380,24 +381,20 @@ class _Version(msgspec.Struct):
 
 def check_writable(path: Path) -> None:
     """Tell before the work that a model cannot be written there: RecordingError."""
-    unfinished = _unfinished(path)
     try:
-        unfinished.touch()
-        unfinished.unlink()
+        with tempfile.TemporaryFile(dir=path.parent):
+            pass
     except OSError as error:
         raise _not_written(path, error) from error
 
 
 def write_model(path: Path, model: Model) -> None:
     """Write a model; the file is whole or as it was before. RecordingError when that fails."""
-    unfinished = _unfinished(path)
     try:
-        unfinished.write_bytes(model_bytes(model))
-        unfinished.replace(path)
+        with whole_file(path) as file:
+            file.write(model_bytes(model))
     except OSError as error:
         raise _not_written(path, error) from error
-    finally:
-        unfinished.unlink(missing_ok=True)
 
 
 def model_bytes(model: Model) -> bytes:
@@ -427,10 +424,6 @@ def read_model(path: Path) -> Model:
             details=str(error),
             name=path.name,
         ) from error
-
-
-def _unfinished(path: Path) -> Path:
-    return path.with_name(f".{path.name}.{os.getpid()}.unfinished")
 
 
 def _not_written(path: Path, error: OSError) -> RecordingError:

@@ -6,10 +6,8 @@ import asyncio
 import contextlib
 import dataclasses
 import ipaddress
-import os
 import socket
 import ssl
-import tempfile
 import threading
 from collections.abc import AsyncIterator, Iterable, Sequence
 from dataclasses import dataclass
@@ -17,11 +15,9 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import platformdirs
-
 from faults import Text, reason_of, text_of
 from nep_core.errors import NodeStartError
-from nep_core.places import portable_folder
+from nep_core.places import own_folder, whole_file
 from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.connectors.servers import Background, lan_addresses, open_tcp
 
@@ -74,12 +70,7 @@ class Certificate:
 
 def certificate_folder() -> Path:
     """Where the key is kept: among this user's settings."""
-    if folder := portable_folder():
-        return folder / "keys"
-    try:
-        return Path(platformdirs.user_config_dir("nep-studio", appauthor=False))
-    except RuntimeError:  # a user without a home
-        return Path(tempfile.gettempdir()) / "nep-studio"
+    return own_folder("config", "keys")
 
 
 def own_certificate(addresses: Sequence[str], folder: Path | None = None) -> Certificate:
@@ -140,7 +131,8 @@ def _make(path: Path, names: Sequence[str]) -> None:
     private = key.private_bytes(
         pem, serialization.PrivateFormat.PKCS8, serialization.NoEncryption()
     )
-    _write(path, private + builder.sign(key, hashes.SHA256()).public_bytes(pem))
+    with whole_file(path, is_private=True) as file:
+        file.write(private + builder.sign(key, hashes.SHA256()).public_bytes(pem))
 
 
 def _general_name(name: str) -> x509.GeneralName:
@@ -150,20 +142,6 @@ def _general_name(name: str) -> x509.GeneralName:
         return x509.IPAddress(ipaddress.ip_address(name))
     except ValueError:
         return x509.DNSName(name)
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Write a file that only this user may read, at no moment another."""
-    number, name = tempfile.mkstemp(dir=path.parent, prefix=path.name)  # is made with 0600
-    try:
-        with os.fdopen(number, "wb") as file:
-            file.write(content)
-        Path(name).chmod(_OWNER_ONLY)
-        Path(name).replace(path)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            Path(name).unlink()
-        raise
 
 
 LOOPBACK = "127.0.0.1"

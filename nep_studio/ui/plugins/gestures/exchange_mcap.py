@@ -7,7 +7,6 @@ A file that ends in the middle gives what is before its end.
 from __future__ import annotations
 
 import contextlib
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -19,6 +18,7 @@ import numpy as np
 
 from faults import reason_of, text_of
 from nep_core.errors import RecordingError
+from nep_core.places import whole_file
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.own_gestures import WRISTS, OwnGesture, OwnRecording, Wrist
 
@@ -57,19 +57,14 @@ def write_mcap(
     path: Path, gestures: Mapping[str, OwnGesture], recordings: Mapping[str, OwnRecording]
 ) -> None:
     """Write all recordings and takes; the file is whole or as it was. Raises RecordingError."""
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
     try:
-        with unfinished.open("wb") as file:
+        with whole_file(path) as file:
             _write(file, gestures, recordings)
-        unfinished.replace(path)
     except OSError as error:
         sentence = text_of(
             "{path} cannot be written: {reason}.", path=path, reason=reason_of(error)
         )
         raise RecordingError(sentence, checklist=_MAY_WRITE, details=str(error)) from error
-    finally:
-        with contextlib.suppress(OSError):
-            unfinished.unlink(missing_ok=True)
 
 
 def _write(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from faults import reason_of
 from nep_core.errors import RecordingError
+from nep_core.places import whole_file
 from nep_studio.ui.words import tr
 from nodes.recordings import Recording, write_recording
 
@@ -91,12 +91,10 @@ def _write_numbers(path: Path, curve: Curve, samples: Samples) -> None:
     times = samples.t - samples.t[0]
     pairs = zip(times, samples.values[0], strict=True)
     lines += [f"{time_s:.6f},{value:.9g}\n" for time_s, value in pairs]
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
     try:
-        unfinished.write_text("".join(lines), encoding="utf-8", newline="\n")
-        unfinished.replace(path)
+        with whole_file(path) as file:
+            file.write("".join(lines).encode())
     except OSError as error:
-        unfinished.unlink(missing_ok=True)
         raise RecordingError(
             "{path} cannot be written: {reason}.",
             checklist=_MAY_WRITE,
