@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "Behavior": "program.behavior",
-    "Broker": "networks.broker",
-    "BrokerNetwork": "networks.broker",
+    "Broker": "networks.zmq_networks",
+    "BrokerNetwork": "networks.zmq_networks",
     "DirectNetwork": "networks.zmq_networks",
     "Launcher": "processes.launcher",
     "Master": "networks.master",

@@ -24,7 +24,7 @@ import msgspec
 
 from nep_core.places import whole_file
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import Edit
+from nep_studio.blocks.edits import ANY_EDIT, Edit
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.language import Language
@@ -37,7 +37,7 @@ STEPS_PER_SNAPSHOT = 500
 BYTES_PER_SNAPSHOT = 40_000_000
 """What was learned of gestures is a megabyte or more, each time."""
 _ENCODER = msgspec.json.Encoder()
-_DECODER = msgspec.json.Decoder(list[Edit])
+_DECODER = msgspec.json.Decoder(list[ANY_EDIT])
 
 
 class About(msgspec.Struct):
