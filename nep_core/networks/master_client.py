@@ -9,12 +9,13 @@ import socket as sockets
 import threading
 import time
 from collections.abc import Callable
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import msgspec
 import zmq
 
 from faults import heard_fault, verbatim
+from nep_core.closing import Closing
 from nep_core.errors import NameTaken, NetworkError
 from nep_core.wire.io_thread import IoThread, Wake
 
@@ -51,6 +52,9 @@ class MasterClient:
     ``on_publishers`` is told who publishes a topic that is heard here, ``on_stop_asked`` that
     somebody asks this program to stop, ``on_computers`` which keys an opened network lets in; all
     in the I/O thread.
+
+    ``context`` makes its socket, ``io`` is the I/O thread, ``master`` an endpoint, ``told``
+    what is registered first.
     """
 
     def __init__(
@@ -298,7 +302,7 @@ LOOK_MS = 100
 OnChange = Callable[[list[Registration]], None]
 
 
-class Feed:
+class Feed(Closing):
     """Calls ``on_change``, in a thread of its own, with all registrations whenever they change.
 
     ``registrations`` are those who are there, or were when they were last told; ``is_answered``
@@ -315,12 +319,6 @@ class Feed:
         """Follow no more; waits for a callback that is running, unless it is the caller."""
         if threading.current_thread() is not self._thread:
             self._thread.join()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
     def _run(self) -> None:
         """Follow until the end."""

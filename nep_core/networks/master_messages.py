@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-from typing import Any, Self, TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 import zmq
 
+from nep_core.closing import Closing
 from nep_core.errors import MasterNotFound
 
 from . import security
@@ -204,7 +205,7 @@ encode = msgspec.json.Encoder().encode
 A = TypeVar("A", bound=Answer)
 
 
-class MasterProbe:
+class MasterProbe(Closing):
     """A connection for questions; raises NetworkError when ``endpoint`` is not one."""
 
     def __init__(self, endpoint: str) -> None:
@@ -229,12 +230,6 @@ class MasterProbe:
     def close(self) -> None:
         """Ask no more."""
         self._context.destroy(linger=0)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
 
 def ask_master(endpoint: str, timeout_s: float = 2.0) -> Listing | None:

@@ -10,10 +10,11 @@ import threading
 import uuid
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, Literal, Protocol, Self
+from typing import Any, Literal, Protocol
 from weakref import WeakSet
 
 from faults import Fault
+from nep_core.closing import Closing
 from nep_core.errors import NetworkError
 from nep_core.wire.io_thread import IoThread
 from nep_core.wire.outbox import Outbox
@@ -53,7 +54,7 @@ class Receiving(Protocol):
         """End, also for a thread that waits in take()."""
 
 
-class Network(ABC):
+class Network(Closing, ABC):
     """What publishers and subscribers need of a network.
 
     ``node`` is the name that others see; ``on_stop`` is called when somebody asks this program
@@ -86,7 +87,7 @@ class Network(ABC):
     def _make_inbox(self, topic: str, subscriber: str, policy: Policy) -> Receiving:
         """The inbox of a new subscriber; ``_lock`` is held."""
 
-    def remove_publisher(self, topic: str) -> None:  # noqa: B027  not every network has one to tell
+    def remove_publisher(self, topic: str) -> None:
         """Tell that ``topic`` is no longer published here."""
 
     def remove_subscriber(self, subscriber: str) -> None:
@@ -160,17 +161,11 @@ class Network(ABC):
             node=self.node,
         )
 
-    def _leave(self) -> None:  # noqa: B027  not every network has somebody to tell
+    def _leave(self) -> None:
         """Say good-bye to whoever keeps a list; the I/O thread has ended."""
 
-    def _end(self) -> None:  # noqa: B027  not every network has more to close
+    def _end(self) -> None:
         """Give back what is left after the outbox is closed."""
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
 
 _networks: WeakSet[Network] = WeakSet()

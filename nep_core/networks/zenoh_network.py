@@ -58,7 +58,11 @@ RING_FRAMES = 1_000
 
 
 class ZenohInbox:
-    """One zenoh subscription: data, and what is for this subscriber alone, in their order."""
+    """One zenoh subscription: data, and what is for this subscriber alone, in their order.
+
+    ``session`` is the connection, ``topic`` what is heard, ``subscriber`` its id, ``policy``
+    what is kept while nobody reads.
+    """
 
     def __init__(self, session: zenoh.Session, topic: str, subscriber: str, policy: Policy) -> None:
         import zenoh
@@ -159,7 +163,11 @@ class ZenohInbox:
 
 
 class ZenohOutbox(Outbox):
-    """Sends in the caller's thread; the I/O thread, which ``wake`` calls, welcomes who comes."""
+    """Sends in the caller's thread; the I/O thread, which ``wake`` calls, welcomes who comes.
+
+    ``session`` is the connection, ``node`` and ``instance`` are the program's, ``hurry`` asks
+    for a flood to be sent at once.
+    """
 
     def __init__(
         self,

@@ -109,6 +109,9 @@ class DirectNetwork(ZmqNetwork):
 
     ``binds="publisher"`` is one publisher to many subscribers; ``binds="subscriber"`` the
     reverse. Raises PortTaken when the endpoint is in use.
+
+    ``endpoint`` is where, ``node`` the name that others see, ``high_water_mark`` how many
+    frames may wait.
     """
 
     def __init__(
@@ -151,6 +154,9 @@ class PeerNetwork(ZmqNetwork):
 
     Joining raises MasterNotFound when no master answers, NameTaken when a node of this name is
     already running.
+
+    ``node`` is the name that others see, ``master`` an endpoint (None: as NEP_MASTER says),
+    ``high_water_mark`` how many frames may wait; ``is_far``: messages go through a broker.
     """
 
     def __init__(

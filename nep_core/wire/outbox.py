@@ -58,6 +58,9 @@ class Stream:
     """Numbers, encodes and sends; safe from any thread.
 
     ``send`` takes a frame and does not wait; it is called under ``lock``.
+
+    ``topic``, ``node`` and ``run`` stand in its frames; ``encoding`` None is found by the first
+    message; ``hurry`` asks for a flood to be sent at once.
     """
 
     def __init__(
@@ -255,7 +258,10 @@ class Outbox:
             return [(topic, who) for topic, ids in self._ids.items() for who in ids]
 
     def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
-        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``."""
+        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``.
+
+        Whether they did within ``timeout_s``.
+        """
         with self._changed:
             return self._changed.wait_for(
                 lambda: ids <= self._ids[topic] and len(self._ids[topic]) >= count, timeout_s
@@ -351,7 +357,10 @@ def read_subscription(event: bytes) -> Seen | None:
 
 
 def private_frame(topic: str, subscriber: str, instance: str, notice: bytes = b"") -> bytes:
-    """What one subscriber is told: by whom, and a notice (empty: only that it is heard)."""
+    """What one subscriber is told: by whom, and a notice (empty: only that it is heard).
+
+    ``topic`` is what ``subscriber``, its id, hears; ``instance`` is who tells it.
+    """
     return private_subscription(topic, subscriber) + instance.encode() + _NUL + notice
 
 
@@ -381,6 +390,10 @@ class ZmqOutbox(Outbox):
     """Sends in the caller's thread, under a lock; the I/O thread reads the subscriptions.
 
     ``is_far``: a broker is between us and the subscribers, so that we never see who is slow.
+
+    ``context`` makes the socket; ``node`` and ``instance`` are the program's; ``hurry`` asks
+    for a flood to be sent at once; ``high_water_mark`` is how many frames may wait for a
+    subscriber; ``security`` has the keys of an opened network.
     """
 
     def __init__(

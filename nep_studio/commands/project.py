@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from pathlib import Path
 
 from nep_core.cli import node
+from nep_core.cli.console import number
 from nep_core.errors import NepError
 from nep_studio.blocks import text
 from nep_studio.blocks.checks.diagnostic import Diagnostic
@@ -124,10 +124,4 @@ SLOWEST, FASTEST = 0.1, 50
 
 def speed(word: str) -> float:
     """How many times as fast something goes, for argparse; raises ArgumentTypeError."""
-    try:
-        number = float(word)
-    except ValueError:
-        number = math.nan
-    if not SLOWEST <= number <= FASTEST:
-        raise argparse.ArgumentTypeError(f'"{word}" is not a number from {SLOWEST} to {FASTEST}')
-    return number
+    return number(word, SLOWEST, FASTEST)

@@ -12,12 +12,12 @@ from statistics import median
 
 from faults import Text, text_of
 from nep_core.errors import ParameterError
+from nep_core.processes.manifest import finite_number
 
 from .connectors.connector import Arrived
 from .reading import (
     G_M_S2,
     Reading,
-    finite_number,
     is_of_an_app,
     is_of_paper_watch,
     read_app,
@@ -157,7 +157,11 @@ def guess_columns(rows: Sequence[Row], arrived_s: Sequence[float]) -> Layout | N
 def guess_units(
     layout: Layout, rows: Sequence[Row], arrived_s: Sequence[float], given: Layout | None = None
 ) -> Layout:
-    """The units of these columns; those that are ``given`` are kept."""
+    """The units of these columns; those that are ``given`` are kept.
+
+    ``layout`` says what the columns are, ``rows`` (n, c) are their numbers, ``arrived_s`` (n,)
+    when each row came.
+    """
     given = given or Layout(layout.roles)
     columns = dict(zip(layout.roles, zip(*rows, strict=True), strict=False))
     if "t" in columns and _stands_still(columns["t"]):

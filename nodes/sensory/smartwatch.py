@@ -302,7 +302,13 @@ def run(
     columns: str,
     units: str,
 ) -> None:
-    """Publish ``/imu`` from what one sender sends; PortTaken or ParameterError when it cannot."""
+    """Publish ``/imu`` from what one sender sends; PortTaken or ParameterError when it cannot.
+
+    ``node`` is this node, ``through`` the connector, ``port`` its port (0: its usual one),
+    ``address`` the phone's or the device's, ``listen_on`` who may send, ``wrist`` where it is
+    worn, ``token`` the phone page's, ``columns`` and ``units`` what its numbers are, where that
+    is not to be guessed.
+    """
     kind = CONNECTORS[through]
     connector = kind.make(Settings(port or kind.port, address, listen_on, token, columns, units))
     publisher = node.publisher(IMU)

@@ -78,7 +78,11 @@ def read(frame: bytes, topic: str, kind: Kind) -> Any:
 
 
 def write(value: Any, topic: str, kind: Kind, prefixed: bool) -> bytes:
-    """A frame that holds ``value``; raises BadMessage when such a frame cannot hold it."""
+    """A frame that holds ``value``; raises BadMessage when such a frame cannot hold it.
+
+    ``topic`` and ``kind`` (how messages are written) are those of the line; ``prefixed``: the
+    topic stands before the message.
+    """
     try:
         payload = _payload(value, kind)
     except (*CANNOT_ENCODE, binascii.Error) as error:
@@ -331,7 +335,11 @@ class Door(ABC):
 
 
 class WayIn(Door):
-    """Takes what programs publish."""
+    """Takes what programs publish.
+
+    ``context`` makes its socket, which ``watch`` lets the gateway's thread look at;
+    ``on_change`` is called when programs come or go, ``on_frame`` with each frame.
+    """
 
     kind = zmq.SUB
 
@@ -359,6 +367,9 @@ class WayOut(Door):
     """Gives programs what they subscribe to; ``wanted`` are their subscriptions.
 
     They tell what their program reads: bare frames if it takes everything, else prefixed ones.
+
+    ``context`` makes its socket, which ``watch`` lets the gateway's thread look at;
+    ``on_change`` is called when programs come or go; ``topic`` and ``shape`` are what it gives.
     """
 
     kind = zmq.XPUB

@@ -139,7 +139,12 @@ OnFrame = Callable[[str, Shape, bytes], None]
 
 
 class Lines:
-    """Opens a line when a program asks, and frees it when its programs are gone."""
+    """Opens a line when a program asks, and frees it when its programs are gone.
+
+    ``context`` makes the sockets, which ``watch`` lets the gateway's thread look at; they are
+    bound at ``host`` from ``first_port`` up. ``on_frame`` gets what programs publish,
+    ``on_change`` the topic of a line whose programs have changed.
+    """
 
     def __init__(
         self,

@@ -40,6 +40,9 @@ class Opening:
     be reached at (None: the one in its network). ``on_event`` is told, from a thread of its own,
     who was paired and who tried in vain. The master is not part of it: start it at ``master``,
     with NEP_KEYS set to the key file. Raises KeyFileError, NetworkError.
+
+    ``title`` is what other computers see, ``port`` the master's and ``door_port`` the door's;
+    ``is_announced``: computers of the network find it without its address.
     """
 
     def __init__(

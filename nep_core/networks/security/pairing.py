@@ -471,6 +471,9 @@ def pair(host: str, port: int, code: str, path: Path) -> Keys:
     """Pair this computer at a door and write its key file; raises PairingError, KeyFileError.
 
     A key file that is already there must be one of the same network: its keys are kept.
+
+    ``host`` and ``port`` are the door's, ``code`` is what its computer shows, ``path`` where
+    the key file goes.
     """
     before = KeyFile(path).keys if path.exists() else None
     if before is not None and before.is_owner:

@@ -75,7 +75,7 @@ _TIMES = re.compile(
 REPEAT, REPEAT_SLOT, REPEAT_BODY = "control.repeat", "times", "do"
 
 # What counts beside the typed words themselves (EXACT to NEAR in vocabulary.py) and what they are
-# in slots (qualities in filling.py). All of it together weighs less than one word more that fits.
+# in slots (CHOSEN to FREE there). All of it together weighs less than one word more that fits.
 
 IN_ORDER = 1.0
 """A word that stands right behind the one before, as in the sentence."""

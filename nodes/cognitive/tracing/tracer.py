@@ -156,6 +156,8 @@ class Tracer:
     """Traces the program ``file`` between begin() and end(), which the same thread calls.
 
     ``send`` is called, from several threads, with each state; ``name`` is the program's.
+
+    ``make_watch`` makes what follows the lines (None: as costs least).
     """
 
     def __init__(

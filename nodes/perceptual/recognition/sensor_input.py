@@ -47,6 +47,9 @@ class SensorInput:
 
     ``tell`` gets a sentence when it finds out how the watch is worn, ``warn`` one for each trouble.
     RecordingError when the sensor lacks what the model needs.
+
+    ``first`` is the sensor's first message, ``model`` what was learned, ``make_spotter`` makes
+    what finds gestures, ``worn`` is how the watch sits.
     """
 
     def __init__(

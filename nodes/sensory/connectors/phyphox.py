@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from faults import Text, text_of
-from nodes.sensory.reading import Reading, finite_number, scaled, vector
+from nep_core.processes.manifest import finite_number
+from nodes.sensory.reading import Reading, scaled, vector
 
 from .connector import Arrived, Settings, Timed, nearest
 from .servers import OutboundConnector

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from faults import Text, text_of
-from nodes.sensory.reading import G_M_S2, NS, Reading, Vector, added, finite_number, scaled, vector
+from nep_core.processes.manifest import finite_number
+from nodes.sensory.reading import G_M_S2, NS, Reading, Vector, added, scaled, vector
 
 from .connector import Arrived, Ordering, Settings, Timed, nearest
 from .servers import Background, body_of, missing_words, open_tcp, own_addresses, serve
