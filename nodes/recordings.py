@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from array import array
 from collections.abc import Iterator
@@ -347,7 +348,7 @@ def _unknown_columns(path: Path, line_number: int, names: list[str]) -> Recordin
 _NO_GESTURE = {"", "0", "none", "nothing"}
 _IS_THERE = ("Is the name spelled right, and is the file still there?",)
 _MAY_OPEN = ("May you open it? Ask whoever owns it, or make a copy in your home folder.",)
-_MAY_WRITE = (
+MAY_WRITE = (
     "Choose a folder that you may write into, such as one in your home folder.",
     "Is there room on the disk?",
 )
@@ -437,13 +438,19 @@ def read_recording(path: Path) -> Recording:
 
 def write_recording(path: Path, recording: Recording) -> None:
     """Write a CSV file that ``read_recording`` reads back; the file is whole or as it was."""
+    with writing(path), whole_file(path) as file:
+        file.writelines(line.encode() for line in _lines_of(recording))
+
+
+@contextlib.contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Tell what to try when ``path`` cannot be written: an OSError becomes a RecordingError."""
     try:
-        with whole_file(path) as file:
-            file.writelines(line.encode() for line in _lines_of(recording))
+        yield
     except OSError as error:
         raise RecordingError(
             "{path} cannot be written: {reason}.",
-            checklist=_MAY_WRITE,
+            checklist=MAY_WRITE,
             details=str(error),
             path=path,
             reason=reason_of(error),

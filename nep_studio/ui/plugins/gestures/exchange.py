@@ -21,7 +21,7 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 from nep_studio.project.kept_files import EVERYDAY, NEITHER, spans_of
-from nodes.recordings import Recording, read_recording, read_recordings, write_recording
+from nodes.recordings import MAY_WRITE, Recording, read_recording, read_recordings, write_recording
 
 from .gesture_controller import GestureController
 from .live import Samples
@@ -82,12 +82,6 @@ def _gesture(take: ImportedTake, gestures: dict[str, OwnGesture]) -> str:
     return name
 
 
-_MAY_WRITE = (
-    "Choose a folder that you may write into, such as one in your home folder.",
-    "Is there room on the disk?",
-)
-
-
 def read_csv(path: Path) -> list[Imported]:
     """Read a CSV file, or all those of a folder and of its everyday folder.
 
@@ -125,7 +119,7 @@ def write_csv(
             folder=folder,
             reason=reason_of(error),
         )
-        raise RecordingError(sentence, checklist=_MAY_WRITE, details=str(error)) from error
+        raise RecordingError(sentence, checklist=MAY_WRITE, details=str(error)) from error
     return written
 
 

@@ -21,6 +21,7 @@ from nep_core.errors import RecordingError
 from nep_core.places import whole_file
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.own_gestures import WRISTS, OwnGesture, OwnRecording, Wrist
+from nodes.recordings import writing
 
 from .exchange import Imported, ImportedTake
 from .live import Samples
@@ -35,10 +36,6 @@ _CHUNK_BYTES = 64_000
 _IS_MCAP = (
     "Is it a file that ends with .mcap?",
     "If it was sent or downloaded, get it once more: it may not be whole.",
-)
-_MAY_WRITE = (
-    "Choose a folder that you may write into, such as one in your home folder.",
-    "Is there room on the disk?",
 )
 
 
@@ -57,14 +54,8 @@ def write_mcap(
     path: Path, gestures: Mapping[str, OwnGesture], recordings: Mapping[str, OwnRecording]
 ) -> None:
     """Write all recordings and takes; the file is whole or as it was. Raises RecordingError."""
-    try:
-        with whole_file(path) as file:
-            _write(file, gestures, recordings)
-    except OSError as error:
-        sentence = text_of(
-            "{path} cannot be written: {reason}.", path=path, reason=reason_of(error)
-        )
-        raise RecordingError(sentence, checklist=_MAY_WRITE, details=str(error)) from error
+    with writing(path), whole_file(path) as file:
+        _write(file, gestures, recordings)
 
 
 def _write(

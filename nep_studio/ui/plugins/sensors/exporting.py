@@ -10,20 +10,15 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from faults import reason_of
 from nep_core.errors import RecordingError
 from nep_core.places import whole_file
 from nep_studio.ui.words import tr
-from nodes.recordings import Recording, write_recording
+from nodes.recordings import MAY_WRITE, Recording, write_recording, writing
 
 from .curves import Curve, CurveKey
 from .plots import Plots
 from .streams import ImuStream, Samples, StreamKey
 
-_MAY_WRITE = (
-    "Choose a folder that you may write into, such as one in your home folder.",
-    "Is there room on the disk?",
-)
 _SHARPNESS = 2.0
 
 
@@ -60,7 +55,7 @@ def export_picture(path: Path, widget: QWidget) -> None:
     widget.render(pixmap, QPoint())
     if not pixmap.save(str(path), "PNG"):
         raise RecordingError(
-            "The picture {path} cannot be written.", checklist=_MAY_WRITE, path=path
+            "The picture {path} cannot be written.", checklist=MAY_WRITE, path=path
         )
 
 
@@ -91,17 +86,8 @@ def _write_numbers(path: Path, curve: Curve, samples: Samples) -> None:
     times = samples.t - samples.t[0]
     pairs = zip(times, samples.values[0], strict=True)
     lines += [f"{time_s:.6f},{value:.9g}\n" for time_s, value in pairs]
-    try:
-        with whole_file(path) as file:
-            file.write("".join(lines).encode())
-    except OSError as error:
-        raise RecordingError(
-            "{path} cannot be written: {reason}.",
-            checklist=_MAY_WRITE,
-            details=str(error),
-            path=path,
-            reason=reason_of(error),
-        ) from error
+    with writing(path), whole_file(path) as file:
+        file.write("".join(lines).encode())
 
 
 def _without_gaps(samples: Samples) -> Samples:
