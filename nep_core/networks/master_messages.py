@@ -241,12 +241,6 @@ def ask_master(endpoint: str, timeout_s: float = 2.0) -> Listing | None:
         return probe.ask(List(), Listing, timeout_s)
 
 
-def find_topic(endpoint: str, topic: str, timeout_s: float = 2.0) -> Found | None:
-    """Who publishes and who hears ``topic``; None when no NEP master answers."""
-    with MasterProbe(endpoint) as probe:
-        return probe.ask(Find(topic=topic), Found, timeout_s)
-
-
 def ask_to_stop(endpoint: str, node: str, timeout_s: float = 2.0) -> bool | None:
     """Ask a node to stop; whether there is one, None when no NEP master answers."""
     with MasterProbe(endpoint) as probe:
