@@ -97,7 +97,6 @@ class Printer:
 FAILED = 1
 LOOK_S = 0.2
 """How long Python may wait at once: a signal can miss a wait that is just beginning."""
-NO_BEGINNING = ("Add a block such as “when the program starts”, and blocks below it.",)
 
 
 def main(arguments: list[str]) -> int:
@@ -166,11 +165,9 @@ class _Play:
 
     def _refuse(self, problems: list[Diagnostic]) -> None:
         project, language = self._subject.project, self._subject.language
-        errors = [problem for problem in problems if problem.severity == "error"]
-        for problem in errors:
-            print(describe(problem, project, language), file=sys.stderr)
-        if not errors:
-            explain(CannotPlay("No block says when something begins.", checklist=NO_BEGINNING))
+        for problem in problems:
+            if problem.severity == "error":
+                print(describe(problem, project, language), file=sys.stderr)
         self._exit_code = UNUSABLE
 
     def _on_running(self) -> None:
