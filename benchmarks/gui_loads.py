@@ -137,7 +137,7 @@ def large_program() -> dict[str, object]:
         stacks.append({"id": f"s{stack}", **place, "body": [hat, loop]})
     return {
         "format": "nep-studio-project",
-        "version": 1,
+        "version": 2,
         "name": "Large",
         "variables": [{"id": "v1", "name": "count"}],
         "blocks": blocks,

@@ -14,13 +14,14 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
 from nep_core.wire.messages import ACTION_RESULT, ActionResult
+from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import PlannedNode
 from nep_studio.run.session import Session, Watching
 
@@ -94,7 +95,9 @@ def _stop_s(folder: Path, action: str) -> tuple[float, int]:
     file = folder / "program.py"
     file.write_text(PROGRAM.format(action=action), encoding="utf-8")
     results = Results()
-    with Session(file, [ROBOT], results, logs=folder, watching=Watching()) as session:
+    network = LocalNetwork(logs=folder)
+    network.listen(results)
+    with closing(network), Session([ROBOT], network, program=file, watching=Watching()) as session:
         results.first("started")
         time.sleep(0.5)  # it is in the middle of it
         pressed_s = time.time()

@@ -96,7 +96,7 @@ def _crash_ms(
     while (state := states.receive(LONG_S)) is not None and state.event != "crashed":
         pass
     took_ms = (time.perf_counter() - started_s) * 1000
-    launched.told.wait(LONG_S)
+    launched.end_reported.wait(LONG_S)
     return took_ms
 
 

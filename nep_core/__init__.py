@@ -33,33 +33,21 @@ if TYPE_CHECKING:
     from .wire.pubsub import Publisher, Subscriber
 
 _HOMES = {
-    "Behavior": "program.behavior",
-    "Broker": "networks.broker",
-    "BrokerNetwork": "networks.broker",
-    "DirectNetwork": "networks.zmq_networks",
-    "Launcher": "processes.launcher",
-    "Master": "networks.master",
-    "NepError": "errors",
-    "Node": "processes.node",
-    "PeerNetwork": "networks.zmq_networks",
-    "Publisher": "wire.pubsub",
-    "Robot": "program.robot",
-    "Subscriber": "wire.pubsub",
-    "colour_from": "program.robot",
-    "heard_word": "program.human",
-    "human_state": "program.human",
-    "in_turn": "program.behavior",
-    "is_remembered": "program.human",
-    "mix_colours": "program.robot",
-    "one_of": "program.behavior",
-    "remember": "program.human",
-    "stop_program": "program.tasks",
-    "times_seen": "program.human",
-    "together": "program.tasks",
-    "until_state": "program.human",
-    "was_seen": "program.human",
-    "wait": "program.tasks",
-    "wait_until": "program.tasks",
+    name: module
+    for module, names in {
+        "errors": "NepError",
+        "networks.master": "Master",
+        "networks.zmq_networks": "Broker BrokerNetwork DirectNetwork PeerNetwork",
+        "processes.launcher": "Launcher",
+        "processes.node": "Node",
+        "program.behavior": "Behavior in_turn one_of",
+        "program.human": "heard_word human_state is_remembered remember times_seen until_state "
+        "was_seen",
+        "program.robot": "Robot colour_from mix_colours",
+        "program.tasks": "stop_program together wait wait_until",
+        "wire.pubsub": "Publisher Subscriber",
+    }.items()
+    for name in names.split()
 }
 
 __all__ = [

@@ -1,11 +1,18 @@
-"""Where nodes and logs are: beside the installed packages, or where a variable says."""
+"""Where files are kept, beside the installed packages or where a variable says; and written whole.
+
+A file that others read is never seen half written: ``whole_file``.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import os
+import secrets
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
+from typing import BinaryIO, Literal
 
 import platformdirs
 
@@ -35,20 +42,20 @@ def node_folders() -> tuple[Path, ...]:
 
 def log_folder() -> Path:
     """Where the nodes' log files are kept."""
-    if folder := portable_folder():
-        return folder / "logs"
-    try:
-        return Path(platformdirs.user_log_dir("nep-studio", appauthor=False))
-    except RuntimeError:  # a user without a home
-        return Path(tempfile.gettempdir()) / "nep-studio"
+    return own_folder("log", "logs")
 
 
 def cache_folder() -> Path:
     """Where files are kept that can be made again."""
+    return own_folder("cache", "cache")
+
+
+def own_folder(kind: Literal["log", "cache", "data", "config"], portable: str = "") -> Path:
+    """This user's folder for files of a kind; ``portable``: its name beside a portable program."""
     if folder := portable_folder():
-        return folder / "cache"
+        return folder / portable
     try:
-        return Path(platformdirs.user_cache_dir("nep-studio", appauthor=False))
+        return Path(getattr(platformdirs, f"user_{kind}_dir")("nep-studio", appauthor=False))
     except RuntimeError:  # a user without a home
         return Path(tempfile.gettempdir()) / "nep-studio"
 
@@ -71,10 +78,25 @@ def robot_folder(robot: str) -> Path:
     """Where a robot on the screen keeps its files; ``robot``: its name, as one of a folder."""
     if told := os.environ.get(ROBOT_FILES_VARIABLE):
         return Path(told) / robot
-    if folder := portable_folder():
-        return folder / "robots" / robot
+    return own_folder("data") / "robots" / robot
+
+
+@contextlib.contextmanager
+def whole_file(path: Path, *, is_private: bool = False) -> Iterator[BinaryIO]:
+    """Write a file beside ``path``, which takes its place when it is whole; raises OSError.
+
+    Whoever reads finds the old one or the new one, also after a crash; one that ``is_private``
+    is this user's alone at every moment.
+    """
+    new, mode = (
+        path.with_name(f".{path.name}.{secrets.token_hex(4)}"),
+        0o600 if is_private else 0o666,
+    )
     try:
-        data = Path(platformdirs.user_data_dir("nep-studio", appauthor=False))
-    except RuntimeError:  # a user without a home
-        data = Path(tempfile.gettempdir()) / "nep-studio"
-    return data / "robots" / robot
+        with open(new, "xb", opener=lambda name, flags: os.open(name, flags, mode)) as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        new.replace(path)
+    finally:
+        new.unlink(missing_ok=True)

@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Generic, Literal, TypeVar, cast
 
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
 
@@ -24,10 +24,12 @@ MINIMAP = "Minimap"
 SYSTEM = "system"
 """The choice that follows the computer: for the theme and for the language."""
 
+T = TypeVar("T")
 FolderName = Literal["projects", "recordings", "logs"]
 
 MOST_RECENT = 10
 MOST_RESTARTS = 1000
+YES, NO = "yes", "no"
 SMALLEST_TEXT, LARGEST_TEXT = 0.8, 2.5
 
 
@@ -87,31 +89,59 @@ class ShowOptions:
     restarts: int = 5
 
 
-class Settings:
+class SettingsFile:
+    """The file in a folder in which values are kept by name."""
+
+    def __init__(self, folder: Path) -> None:
+        self.values = QSettings(str(folder / "settings.ini"), QSettings.Format.IniFormat)
+
+
+class Kept(Generic[T]):
+    """A text, a switch or a list of texts that a file keeps under a name; else as usual."""
+
+    def __init__(self, name: str, usual: T) -> None:
+        self._name, self._usual = name, usual
+
+    def __get__(self, file: SettingsFile, _kind: object = None) -> T:
+        value: object = file.values.value(self._name, self._usual)
+        match self._usual:
+            case bool():
+                value = value == YES if value in (YES, NO) else self._usual
+            case str() if not isinstance(value, str):
+                value = self._usual
+            case list():
+                texts = value if isinstance(value, list) else [value]
+                value = [text for text in texts if isinstance(text, str) and text]
+        return cast(T, value)
+
+    def __set__(self, file: SettingsFile, value: T) -> None:
+        kept = (YES if value else NO) if isinstance(value, bool) else value
+        file.values.setValue(self._name, kept)
+
+
+class Settings(SettingsFile):
     """Values with names in one file; one that makes no sense counts as not set."""
+
+    theme = Kept("look/theme", SYSTEM)
+    """The name of a theme, or "system"."""
+    language = Kept("look/language", SYSTEM)
+    """The code of a language, or "system"."""
+    recent_blocks = Kept[list[str]]("palette/recent", [])
+    """The types of blocks that were used last, the newest first."""
+    recent_commands = Kept[list[str]]("commands/recent", [])
+    """What was done with the command palette last, by the ids of the commands."""
+    tour_done = Kept("help/tour", False)
+    """Whether a person has taken the tour, or wants none: then it is not offered."""
+    has_sound = Kept("robots/sound", True)
+    """Whether robots on the screen are heard."""
+    lets_original_join = Kept("network/original", False)
+    """Whether programs of the original NEP may join the studio's network."""
+    kept_open_at = Kept("network/open_at", "")
+    """The address at which the network is opened at each start; "" when it is not."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder or user_folder()
-        file = self.folder / "settings.ini"
-        self._values = QSettings(str(file), QSettings.Format.IniFormat)
-
-    @property
-    def theme(self) -> str:
-        """The name of a theme, or "system"."""
-        return self._text("look/theme", SYSTEM)
-
-    @theme.setter
-    def theme(self, name: str) -> None:
-        self._values.setValue("look/theme", name)
-
-    @property
-    def language(self) -> str:
-        """The code of a language, or "system"."""
-        return self._text("look/language", SYSTEM)
-
-    @language.setter
-    def language(self, code: str) -> None:
-        self._values.setValue("look/language", code)
+        super().__init__(self.folder)
 
     @property
     def text_scale(self) -> float:
@@ -124,12 +154,12 @@ class Settings:
 
     @text_scale.setter
     def text_scale(self, scale: float) -> None:
-        self._values.setValue("look/text_scale", f"{scale:g}")
+        self.values.setValue("look/text_scale", f"{scale:g}")
 
     @property
     def recent_files(self) -> list[Path]:
         """The projects that were opened or saved last, the newest first."""
-        stored = self._values.value("files/recent", [])
+        stored = self.values.value("files/recent", [])
         names = [stored] if isinstance(stored, str) else stored
         if not isinstance(names, list):
             return []
@@ -140,25 +170,7 @@ class Settings:
         self._set_recent([path, *(one for one in self.recent_files if one != path)])
 
     def _set_recent(self, paths: Iterable[Path]) -> None:
-        self._values.setValue("files/recent", [kept_name(path) for path in paths][:MOST_RECENT])
-
-    @property
-    def recent_blocks(self) -> list[str]:
-        """The types of blocks that were used last, the newest first."""
-        return self._texts("palette/recent")
-
-    @recent_blocks.setter
-    def recent_blocks(self, types: Iterable[str]) -> None:
-        self._values.setValue("palette/recent", list(types))
-
-    @property
-    def recent_commands(self) -> list[str]:
-        """What was done with the command palette last, by the ids of the commands."""
-        return self._texts("commands/recent")
-
-    @recent_commands.setter
-    def recent_commands(self, ids: Iterable[str]) -> None:
-        self._values.setValue("commands/recent", list(ids))
+        self.values.setValue("files/recent", [kept_name(path) for path in paths][:MOST_RECENT])
 
     @property
     def last_folder(self) -> Path:
@@ -177,7 +189,7 @@ class Settings:
 
     def set_folder(self, what: FolderName, folder: Path | None) -> None:
         """Keep projects, recordings or logs there; None: where they usually are."""
-        self._values.setValue(f"folders/{what}", kept_name(folder) if folder else "")
+        self.values.setValue(f"folders/{what}", kept_name(folder) if folder else "")
 
     @property
     def show_options(self) -> ShowOptions:
@@ -192,10 +204,10 @@ class Settings:
 
     @show_options.setter
     def show_options(self, options: ShowOptions) -> None:
-        self._values.setValue("show/at_once", "yes" if options.runs_at_once else "no")
-        self._values.setValue("show/again", "yes" if options.again else "no")
-        self._values.setValue("show/cues", "yes" if options.has_cues else "no")
-        self._values.setValue("show/restarts", str(options.restarts))
+        self.values.setValue("show/at_once", "yes" if options.runs_at_once else "no")
+        self.values.setValue("show/again", "yes" if options.again else "no")
+        self.values.setValue("show/cues", "yes" if options.has_cues else "no")
+        self.values.setValue("show/restarts", str(options.restarts))
 
     @property
     def has_pin(self) -> bool:
@@ -204,7 +216,7 @@ class Settings:
 
     def set_pin(self, pin: str) -> None:
         """Leave show mode with this PIN only; an empty one: without."""
-        self._values.setValue("show/pin", _disguised(pin) if pin else "")
+        self.values.setValue("show/pin", _disguised(pin) if pin else "")
 
     def is_pin(self, pin: str) -> bool:
         """Whether this is the PIN."""
@@ -212,48 +224,12 @@ class Settings:
 
     def state(self, name: str) -> QByteArray:
         """What a part of the window remembers of its shape; empty when nothing."""
-        value = self._values.value(f"window/{name}")
+        value = self.values.value(f"window/{name}")
         return value if isinstance(value, QByteArray) else QByteArray()
 
     def set_state(self, name: str, state: QByteArray) -> None:
         """Remember the shape of a part of the window."""
-        self._values.setValue(f"window/{name}", state)
-
-    @property
-    def tour_done(self) -> bool:
-        """Whether a person has taken the tour, or wants none: then it is not offered."""
-        return self._text("help/tour", "no") == "done"
-
-    @tour_done.setter
-    def tour_done(self, is_done: bool) -> None:
-        self._values.setValue("help/tour", "done" if is_done else "no")
-
-    @property
-    def has_sound(self) -> bool:
-        """Whether robots on the screen are heard."""
-        return self._text("robots/sound", "on") == "on"
-
-    @has_sound.setter
-    def has_sound(self, is_on: bool) -> None:
-        self._values.setValue("robots/sound", "on" if is_on else "off")
-
-    @property
-    def lets_original_join(self) -> bool:
-        """Whether programs of the original NEP may join the studio's network."""
-        return self._text("network/original", "no") == "yes"
-
-    @lets_original_join.setter
-    def lets_original_join(self, is_on: bool) -> None:
-        self._values.setValue("network/original", "yes" if is_on else "no")
-
-    @property
-    def kept_open_at(self) -> str:
-        """The address at which the network is opened at each start; "" when it is not."""
-        return self._text("network/open_at", "")
-
-    @kept_open_at.setter
-    def kept_open_at(self, address: str) -> None:
-        self._values.setValue("network/open_at", address)
+        self.values.setValue(f"window/{name}", state)
 
     def is_shown(self, panel: str, *, default: bool) -> bool:
         """Whether a person left a panel open."""
@@ -270,19 +246,19 @@ class Settings:
 
     def set_shown(self, panel: str, is_shown: bool) -> None:
         """Remember whether a panel is open."""
-        self._values.setValue(f"panels/{panel}", "yes" if is_shown else "no")
+        self.values.setValue(f"panels/{panel}", "yes" if is_shown else "no")
 
     def forget_window(self) -> None:
         """Let the window be as it was at the first start."""
         for group in ("window", "panels"):
-            self._values.remove(group)
+            self.values.remove(group)
 
     def write(self) -> None:
         """Write to the disk now."""
-        self._values.sync()
+        self.values.sync()
 
     def _text(self, name: str, default: str) -> str:
-        value = self._values.value(name, default)
+        value = self.values.value(name, default)
         return value if isinstance(value, str) else default
 
     def _number(self, name: str, default: int, least: int, most: int) -> int:
@@ -290,11 +266,6 @@ class Settings:
             return min(max(int(self._text(name, str(default))), least), most)
         except ValueError:
             return default
-
-    def _texts(self, name: str) -> list[str]:
-        stored = self._values.value(name, [])
-        texts = [stored] if isinstance(stored, str) else stored
-        return [t for t in texts if isinstance(t, str) and t] if isinstance(texts, list) else []
 
 
 def _disguised(pin: str) -> str:

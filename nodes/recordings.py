@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+import contextlib
 import re
 from array import array
 from collections.abc import Iterator
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from faults import Text, Words, reason_of, text_of
 from nep_core.errors import RecordingError
+from nep_core.places import whole_file
 from nep_core.wire.messages import Wrist
 
 # Which column of a recording is which: time, acceleration, gyroscope, gesture.
@@ -347,7 +348,7 @@ def _unknown_columns(path: Path, line_number: int, names: list[str]) -> Recordin
 _NO_GESTURE = {"", "0", "none", "nothing"}
 _IS_THERE = ("Is the name spelled right, and is the file still there?",)
 _MAY_OPEN = ("May you open it? Ask whoever owns it, or make a copy in your home folder.",)
-_MAY_WRITE = (
+MAY_WRITE = (
     "Choose a folder that you may write into, such as one in your home folder.",
     "Is there room on the disk?",
 )
@@ -437,23 +438,23 @@ def read_recording(path: Path) -> Recording:
 
 def write_recording(path: Path, recording: Recording) -> None:
     """Write a CSV file that ``read_recording`` reads back; the file is whole or as it was."""
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
+    with writing(path), whole_file(path) as file:
+        file.writelines(line.encode() for line in _lines_of(recording))
+
+
+@contextlib.contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Tell what to try when ``path`` cannot be written: an OSError becomes a RecordingError."""
     try:
-        with unfinished.open("w", encoding="utf-8", newline="\n") as file:
-            file.writelines(_lines_of(recording))
-            file.flush()
-            os.fsync(file.fileno())
-        unfinished.replace(path)
+        yield
     except OSError as error:
         raise RecordingError(
             "{path} cannot be written: {reason}.",
-            checklist=_MAY_WRITE,
+            checklist=MAY_WRITE,
             details=str(error),
             path=path,
             reason=reason_of(error),
         ) from error
-    finally:
-        unfinished.unlink(missing_ok=True)
 
 
 def _unreadable(path: Path, error: OSError) -> RecordingError:

@@ -66,7 +66,8 @@ def _photograph() -> None:
 
     with tempfile.TemporaryDirectory(prefix="nep-page-") as folder:
         server = PhonePage(Settings(port=0), Path(folder))
-        url = server.start()
+        server.open()
+        url = server.urls[0]
         assert server.certificate is not None
         browser = Chromium(Path(folder) / "profile", server.certificate.spki_sha256)
         try:
@@ -76,7 +77,7 @@ def _photograph() -> None:
                 sys.stdout.write(f"phone-page-{theme:14} {size}\n")
         finally:
             browser.close()
-            server.stop()
+            server.close()
 
 
 def _picture(browser: Chromium, url: str, *, is_dark: bool) -> bytes:

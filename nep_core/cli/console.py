@@ -87,17 +87,17 @@ MOST_SECONDS = 1e6
 
 def seconds(text: str) -> float:
     """A time for argparse, 0 to 1,000,000 s; raises ArgumentTypeError."""
-    return _number(text, 0.0, MOST_SECONDS)
+    return number(text, 0.0, MOST_SECONDS)
 
 
 def factor(text: str) -> float:
     """A speed for argparse, 0.001 to 1000; raises ArgumentTypeError."""
-    return _number(text, 0.001, 1000.0)
+    return number(text, 0.001, 1000.0)
 
 
 def rate(text: str) -> float:
     """A rate for argparse, 0.001 to 10,000 Hz; raises ArgumentTypeError."""
-    return _number(text, 0.001, 10_000.0)
+    return number(text, 0.001, 10_000.0)
 
 
 def count(text: str) -> int:
@@ -107,14 +107,15 @@ def count(text: str) -> int:
     return int(text)
 
 
-def _number(text: str, least: float, most: float) -> float:
+def number(text: str, least: float, most: float) -> float:
+    """A number for argparse, ``least`` to ``most``; raises ArgumentTypeError."""
     try:
-        number = float(text)
+        given = float(text)
     except ValueError:
-        number = math.nan
-    if not least <= number <= most:
+        given = math.nan
+    if not least <= given <= most:
         raise argparse.ArgumentTypeError(f'"{text}" is not a number from {least:g} to {most:.0f}')
-    return number
+    return given
 
 
 def add_json(parser: argparse.ArgumentParser, told: str = "for machines: one line of JSON") -> None:

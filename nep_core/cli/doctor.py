@@ -60,7 +60,7 @@ class Finding:
 
     about: str
     state: State
-    told: str
+    sentence: str
     steps: tuple[str, ...] = ()
 
     @classmethod
@@ -141,7 +141,7 @@ def finding_lines(findings: Sequence[Finding]) -> list[str]:
     width = max((len(found.about) for found in findings), default=0)
     lines = []
     for found in findings:
-        lines.append(f"{MARKS[found.state]}{found.about.ljust(width)}  {found.told}")
+        lines.append(f"{MARKS[found.state]}{found.about.ljust(width)}  {found.sentence}")
         lines += [f"           [ ] {step}" for step in found.steps]
     return lines
 

@@ -169,7 +169,7 @@ def _check(message: Any, kind: type[msgspec.Struct], topic: str) -> None:
 def _launch(options: argparse.Namespace) -> int:
     endings: SimpleQueue[Outcome] = SimpleQueue()
 
-    def told(launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+    def on_end(launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if outcome.was_successful or launched.ready.is_set() or again:  # else wait_ready() tells
             log_file = launcher.logs / log_file_name(launched.name)
             log = "" if outcome.was_successful else f" Its log: {log_file}"
@@ -179,7 +179,7 @@ def _launch(options: argparse.Namespace) -> int:
 
     with (
         join(options) as network,
-        Launcher(master=options.master, on_end=told) as launcher,
+        Launcher(master=options.master, on_end=on_end) as launcher,
         end_undisturbed(),
     ):
         launcher.hear(network)

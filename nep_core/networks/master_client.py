@@ -9,12 +9,13 @@ import socket as sockets
 import threading
 import time
 from collections.abc import Callable
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import msgspec
 import zmq
 
 from faults import heard_fault, verbatim
+from nep_core.closing import Closing
 from nep_core.errors import NameTaken, NetworkError
 from nep_core.wire.io_thread import IoThread, Wake
 
@@ -51,6 +52,9 @@ class MasterClient:
     ``on_publishers`` is told who publishes a topic that is heard here, ``on_stop_asked`` that
     somebody asks this program to stop, ``on_computers`` which keys an opened network lets in; all
     in the I/O thread.
+
+    ``context`` makes its socket, ``io`` is the I/O thread, ``master`` an endpoint, ``told``
+    what is registered first.
     """
 
     def __init__(
@@ -65,7 +69,7 @@ class MasterClient:
     ) -> None:
         self.master = master
         self._on_computers = on_computers
-        self._told = told
+        self._registration = told
         self._on_publishers = on_publishers
         self._on_stop_asked = on_stop_asked
         self._io = io
@@ -118,7 +122,7 @@ class MasterClient:
             raise NetworkError(
                 "The network of {node} is closed.",
                 checklist=("Start it again.",),
-                node=self._told.node,
+                node=self._registration.node,
             )
         if not answered or answer is None:
             raise no_master(self.master)
@@ -146,11 +150,11 @@ class MasterClient:
         if self._sent_version < self._version:
             self._tell()
         elif self._epoch and now_s >= self._next_beat_s:
-            self._say(says.Alive(instance=self._told.instance))
+            self._say(says.Alive(instance=self._registration.instance))
 
     def close(self) -> None:
         """Say good-bye; after the I/O thread has ended."""
-        self._say(says.Bye(instance=self._told.instance))
+        self._say(says.Bye(instance=self._registration.instance))
         self._socket.close()
         with self._changed:
             self._closed = True
@@ -158,12 +162,12 @@ class MasterClient:
 
     def _edit(self, edit: Callable[[Registration], None], topic: str = "") -> int:
         """Change a copy, since the I/O thread may be sending the other; the new version."""
-        old = self._told
+        old = self._registration
         told = msgspec.structs.replace(
             old, publishes=list(old.publishes), subscribes=dict(old.subscribes)
         )
         edit(told)
-        self._told = told
+        self._registration = told
         self._version += 1
         self._asked.add(topic)
         return self._version
@@ -240,7 +244,7 @@ class MasterClient:
     def _tell(self) -> None:
         """Say what has changed, or all when the master knows nothing of us."""
         with self._changed:
-            version, told, asked = self._version, self._told, self._asked
+            version, told, asked = self._version, self._registration, self._asked
             self._asked = set()
         request: says.Request
         if self._sent is None:
@@ -298,20 +302,47 @@ LOOK_MS = 100
 OnChange = Callable[[list[Registration]], None]
 
 
-class MasterFeed:
+class Feed(Closing):
     """Calls ``on_change``, in a thread of its own, with all registrations whenever they change.
 
-    While no master answers the last registrations stay, since programs go on without it;
-    ``is_answered`` says so, and that change is told too. Raises NetworkError when ``master`` is
-    not an endpoint.
+    ``registrations`` are those who are there, or were when they were last told; ``is_answered``
+    is false while nobody tells, and that change is told too.
+    """
+
+    def __init__(self, on_change: OnChange) -> None:
+        self.registrations: list[Registration] = []
+        self.is_answered = False
+        self._on_change = on_change
+        self._thread = threading.Thread(target=self._run, name="nep-feed", daemon=True)
+
+    def close(self) -> None:
+        """Follow no more; waits for a callback that is running, unless it is the caller."""
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+
+    def _run(self) -> None:
+        """Follow until the end."""
+        raise NotImplementedError
+
+    def _tell(self) -> None:
+        try:
+            self._on_change(self.registrations)
+        except Exception:
+            log.exception("the callback of the feed failed")
+
+
+class MasterFeed(Feed):
+    """Follows what is registered at a master.
+
+    While no master answers the last registrations stay, since programs go on without it.
+    Raises NetworkError when ``master`` is not an endpoint.
     """
 
     def __init__(self, master: str, on_change: OnChange) -> None:
         self.master = fixed_endpoint(master)
         trust = security.trust_in_master()
-        self.is_answered = False
-        self._on_change = on_change
-        self._told: dict[str, Registration] = {}
+        super().__init__(on_change)
+        self._by_instance: dict[str, Registration] = {}
         self._epoch, self._number = "", 0
         self._heard_s = self._asked_s = 0.0
         self._is_closed = False
@@ -324,46 +355,28 @@ class MasterFeed:
         self._socket.reconnect_ivl_max = 500
         trust(self._socket)
         self._socket.connect(master)
-        self._thread = threading.Thread(target=self._run, name="nep-master-feed", daemon=True)
         self._thread.start()
 
-    @property
-    def registrations(self) -> list[Registration]:
-        """What was registered when the master was last heard."""
-        return list(self._told.values())
-
     def close(self) -> None:
-        """Follow no more; waits for a callback that is running, unless it is the caller."""
+        """Follow no more."""
         self._is_closed = True
         self._wake()
-        if threading.current_thread() is not self._thread:
-            self._thread.join()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
+        super().close()
 
     def _run(self) -> None:
         poller = zmq.Poller()
         poller.register(self._socket, zmq.POLLIN)
         poller.register(self._wake.fileno(), zmq.POLLIN)
         while not self._is_closed:
-            before = self._told, self.is_answered
+            before = self._by_instance, self.is_answered
             self._ask()
             poller.poll(LOOK_MS)
             self._hear()
-            if not self._is_closed and (self._told, self.is_answered) != before:
+            if not self._is_closed and (self._by_instance, self.is_answered) != before:
+                self.registrations = list(self._by_instance.values())
                 self._tell()
         self._context.destroy(linger=0)
         self._wake.close()
-
-    def _tell(self) -> None:
-        try:
-            self._on_change(self.registrations)
-        except Exception:
-            log.exception("the callback of the master's feed failed")
 
     def _ask(self) -> None:
         now_s = time.monotonic()
@@ -392,13 +405,15 @@ class MasterFeed:
         match answer:
             case says.Listing():
                 self._epoch, self._number = answer.epoch, answer.number
-                self._told = {told.instance: told for told in answer.registrations}
+                self._by_instance = {told.instance: told for told in answer.registrations}
             case says.Changed() if answer.epoch == self._epoch:
                 if answer.number > self._number + 1:
                     self._asked_s = 0.0  # one was missed: ask at once
                     return
                 self._number = max(answer.number, self._number)
                 came = {told.instance: told for told in answer.came}
-                self._told = {
-                    i: told for i, told in {**self._told, **came}.items() if i not in answer.gone
+                self._by_instance = {
+                    i: told
+                    for i, told in {**self._by_instance, **came}.items()
+                    if i not in answer.gone
                 }

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-from typing import Any, Self, TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 import zmq
 
+from nep_core.closing import Closing
 from nep_core.errors import MasterNotFound
 
 from . import security
@@ -204,7 +205,7 @@ encode = msgspec.json.Encoder().encode
 A = TypeVar("A", bound=Answer)
 
 
-class MasterProbe:
+class MasterProbe(Closing):
     """A connection for questions; raises NetworkError when ``endpoint`` is not one."""
 
     def __init__(self, endpoint: str) -> None:
@@ -230,12 +231,6 @@ class MasterProbe:
         """Ask no more."""
         self._context.destroy(linger=0)
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
-
 
 def ask_master(endpoint: str, timeout_s: float = 2.0) -> Listing | None:
     """What the master at ``endpoint`` has registered; None when no NEP master answers.
@@ -244,12 +239,6 @@ def ask_master(endpoint: str, timeout_s: float = 2.0) -> Listing | None:
     """
     with MasterProbe(endpoint) as probe:
         return probe.ask(List(), Listing, timeout_s)
-
-
-def find_topic(endpoint: str, topic: str, timeout_s: float = 2.0) -> Found | None:
-    """Who publishes and who hears ``topic``; None when no NEP master answers."""
-    with MasterProbe(endpoint) as probe:
-        return probe.ask(Find(topic=topic), Found, timeout_s)
 
 
 def ask_to_stop(endpoint: str, node: str, timeout_s: float = 2.0) -> bool | None:

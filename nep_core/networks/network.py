@@ -10,42 +10,20 @@ import threading
 import uuid
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, Literal, Protocol, Self
+from typing import Any, Literal, Protocol
 from weakref import WeakSet
 
 from faults import Fault
+from nep_core.closing import Closing
 from nep_core.errors import NetworkError
-from nep_core.wire.frames import Encoding
 from nep_core.wire.io_thread import IoThread
-from nep_core.wire.outbox import Stream
+from nep_core.wire.outbox import Outbox
 
 HANDSHAKE_S = 1.0
 """How long a constructor waits for a peer that it knows of; then it goes on with a warning."""
 
 Policy = Literal["events", "state"]
 """What a subscriber keeps while it does not read: events, or of each publisher the newest state."""
-
-
-class Sending(Protocol):
-    """The sending side of a network."""
-
-    def stream(self, topic: str, encoding: Encoding | None) -> Stream:
-        """The one stream of ``topic``; raises NetworkError when it has another encoding."""
-
-    def subscribers(self, topic: str) -> set[str]:
-        """The ids of the subscribers that hear ``topic`` now."""
-
-    def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
-        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``."""
-
-    def tend(self) -> None:
-        """Note who hears, and send what waits (the I/O thread)."""
-
-    def abandon(self, send: Callable[[bytes], object]) -> None:
-        """In the child of a fork: ``send`` gets the frames."""
-
-    def close(self) -> None:
-        """Send what waits (half a second at most) and close."""
 
 
 class Receiving(Protocol):
@@ -76,14 +54,14 @@ class Receiving(Protocol):
         """End, also for a thread that waits in take()."""
 
 
-class Network(ABC):
+class Network(Closing, ABC):
     """What publishers and subscribers need of a network.
 
     ``node`` is the name that others see; ``on_stop`` is called when somebody asks this program
     to stop. Whoever extends it makes ``outbox`` and starts ``io``.
     """
 
-    outbox: Sending
+    outbox: Outbox
 
     def __init__(self, node: str = "") -> None:
         self.node = node or f"program-{os.getpid()}"
@@ -109,7 +87,7 @@ class Network(ABC):
     def _make_inbox(self, topic: str, subscriber: str, policy: Policy) -> Receiving:
         """The inbox of a new subscriber; ``_lock`` is held."""
 
-    def remove_publisher(self, topic: str) -> None:  # noqa: B027  not every network has one to tell
+    def remove_publisher(self, topic: str) -> None:
         """Tell that ``topic`` is no longer published here."""
 
     def remove_subscriber(self, subscriber: str) -> None:
@@ -183,17 +161,11 @@ class Network(ABC):
             node=self.node,
         )
 
-    def _leave(self) -> None:  # noqa: B027  not every network has somebody to tell
+    def _leave(self) -> None:
         """Say good-bye to whoever keeps a list; the I/O thread has ended."""
 
-    def _end(self) -> None:  # noqa: B027  not every network has more to close
+    def _end(self) -> None:
         """Give back what is left after the outbox is closed."""
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
 
 _networks: WeakSet[Network] = WeakSet()

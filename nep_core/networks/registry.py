@@ -89,7 +89,11 @@ class Registry:
     def register(
         self, told: Registration, address: bytes, now_s: float, version: int = 0
     ) -> set[str]:
-        """Take over what a program tells; raises NameTaken."""
+        """Take over what a program tells; raises NameTaken.
+
+        ``told`` is all that it tells, ``address`` its connection, ``now_s`` the time of a
+        steady clock, ``version`` the number of what it tells.
+        """
         holder = self.holder(told.node)
         if holder is not None and holder.registration.instance != told.instance:
             raise _name_taken(holder.registration)

@@ -10,31 +10,17 @@ import os
 import threading
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol
 
 from nep_core.errors import MasterNotFound, NetworkError
 
 from . import master_messages
 from .endpoints import NETWORK_VARIABLE, broker_endpoints, master_endpoint
-from .master_client import MasterFeed, OnChange
+from .master_client import Feed, MasterFeed, OnChange
 from .network import Network
 from .registry import Registration
 from .zmq_networks import PeerNetwork
 
 TRANSPORTS = ("p2p", "broker", "zenoh")
-
-
-class Feed(Protocol):
-    """Follows who is there; ``is_answered`` is false while nobody tells."""
-
-    is_answered: bool
-
-    @property
-    def registrations(self) -> list[Registration]:
-        """Who is there, or was when it was last told."""
-
-    def close(self) -> None:
-        """Follow no more."""
 
 
 def transport() -> str:

@@ -18,15 +18,14 @@ from collections import Counter, deque
 from collections.abc import Callable, Iterable
 from functools import partial
 from queue import Empty, SimpleQueue
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 from nep_core.errors import NameTaken, NetworkError
 from nep_core.wire import outbox
-from nep_core.wire.frames import Encoding
 from nep_core.wire.inbox import Backlog
-from nep_core.wire.outbox import Hearers, SendFrame, Stream
+from nep_core.wire.outbox import Outbox, SendFrame
 
-from .master_client import OnChange
+from .master_client import Feed, OnChange
 from .network import HANDSHAKE_S, Network, Policy
 from .registry import Registration
 from .zenoh_session import (
@@ -59,7 +58,11 @@ RING_FRAMES = 1_000
 
 
 class ZenohInbox:
-    """One zenoh subscription: data, and what is for this subscriber alone, in their order."""
+    """One zenoh subscription: data, and what is for this subscriber alone, in their order.
+
+    ``session`` is the connection, ``topic`` what is heard, ``subscriber`` its id, ``policy``
+    what is kept while nobody reads.
+    """
 
     def __init__(self, session: zenoh.Session, topic: str, subscriber: str, policy: Policy) -> None:
         import zenoh
@@ -159,8 +162,12 @@ class ZenohInbox:
 # The sending side of a zenoh network: its streams, and who hears them.
 
 
-class ZenohOutbox:
-    """Sends in the caller's thread; the I/O thread, which ``wake`` calls, welcomes who comes."""
+class ZenohOutbox(Outbox):
+    """Sends in the caller's thread; the I/O thread, which ``wake`` calls, welcomes who comes.
+
+    ``session`` is the connection, ``node`` and ``instance`` are the program's, ``hurry`` asks
+    for a flood to be sent at once.
+    """
 
     def __init__(
         self,
@@ -171,24 +178,11 @@ class ZenohOutbox:
         hurry: Callable[[], None],
         wake: Callable[[], None],
     ) -> None:
+        super().__init__(node, instance, hurry)
         self._session = session
-        self._node = node
-        self._instance = instance
         self._wake = wake
         self._watched: set[str] = set()
         self._seen: deque[outbox.Seen] = deque()
-        self._hearers = Hearers(
-            node,
-            instance,
-            lock=threading.Lock(),
-            sender=self._sender,
-            send_privately=self._send_privately,
-            hurry=hurry,
-        )
-        self.stream: Callable[[str, Encoding | None], Stream] = self._hearers.stream
-        self.subscribers = self._hearers.subscribers
-        self.wait_for = self._hearers.wait_for
-        self.abandon = self._hearers.abandon
 
     def watch(self, topic: str) -> None:
         """Welcome the subscribers of ``topic``: those that are there and those that come."""
@@ -205,14 +199,10 @@ class ZenohOutbox:
         """Note who came and left, welcome the newcomers, send what waits."""
         while self._seen:
             seen = self._seen.popleft()
-            self._hearers.note(seen.topic, seen.subscriber, seen.present)
+            self.note(seen.topic, seen.subscriber, seen.present)
             if seen.present:  # the router does not say who is slow
-                self._hearers.note_slow(seen.topic, seen.subscriber)
-        self._hearers.tend()
-
-    def close(self) -> None:
-        """Send what waits; closing the session sends what zenoh still has."""
-        self._hearers.flush()
+                self.note_slow(seen.topic, seen.subscriber)
+        super().tend()
 
     def _sender(self, topic: str) -> SendFrame:
         import zenoh
@@ -398,7 +388,7 @@ def zenoh_stop(node: str, connect: Iterable[str] = ()) -> bool:
 # Following who is in a zenoh network, for tools that show it.
 
 
-class ZenohFeed:
+class ZenohFeed(Feed):
     """Calls ``on_change``, in a thread of its own, with all registrations whenever they change.
 
     While no router answers the last registrations stay, as those of a master's feed do. Raises
@@ -406,34 +396,20 @@ class ZenohFeed:
     """
 
     def __init__(self, on_change: OnChange, connect: Iterable[str] = ()) -> None:
-        self._on_change = on_change
+        super().__init__(on_change)
         self._router, *_ = routers = list(connect) or router_endpoints()
         self._session = open_client(routers)
         atexit.register(self.close)  # zenoh's threads must end before the interpreter does
         self._tokens: set[str] = set()
-        self._told: list[Registration] = []
         self.is_answered = True
         self._changes = self._session.liveliness().declare_subscriber(ALL_TOKENS, history=True)
-        self._thread = threading.Thread(target=self._run, name="nep-zenoh-feed", daemon=True)
         self._thread.start()
 
-    @property
-    def registrations(self) -> list[Registration]:
-        """Who is there, or was when the router was last heard."""
-        return self._told
-
     def close(self) -> None:
-        """Follow no more; waits for a callback that is running, unless it is the caller."""
+        """Follow no more."""
         self._session.close()
         atexit.unregister(self.close)
-        if threading.current_thread() is not self._thread:
-            self._thread.join()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
+        super().close()
 
     def _run(self) -> None:
         import zenoh
@@ -445,7 +421,7 @@ class ZenohFeed:
                     self._take_in(more)
                 self.is_answered = bool(self._session.info.routers_zid())
                 if self.is_answered:
-                    self._told = registrations_of(self._tokens, self._router)
+                    self.registrations = registrations_of(self._tokens, self._router)
                 self._tell()
 
     def _take_in(self, change: zenoh.Sample) -> None:
@@ -453,9 +429,3 @@ class ZenohFeed:
 
         note = self._tokens.add if change.kind == zenoh.SampleKind.PUT else self._tokens.discard
         note(str(change.key_expr))
-
-    def _tell(self) -> None:
-        try:
-            self._on_change(self.registrations)
-        except Exception:
-            log.exception("the callback of the feed failed")

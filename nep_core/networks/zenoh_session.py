@@ -212,7 +212,10 @@ def stop_key(instance: str) -> str:
 
 
 def node_token(node: str, instance: str, pid: int, host: str) -> str:
-    """The token of a program that has the name ``node``."""
+    """The token of a program that has the name ``node``.
+
+    ``instance`` is its run, ``pid`` its process, ``host`` its computer.
+    """
     return f"nep/alive/node/{_part(node)}/{instance}/{pid}/{_part(host or '?')}"
 
 

@@ -16,7 +16,7 @@ import zmq
 from faults import Fault, fault_of, reason_of
 from nep_core.errors import BrokerNotFound, MasterNotFound, NetworkError, NotLetIn
 from nep_core.wire.inbox import WAKE_ENDPOINT, Inbox
-from nep_core.wire.outbox import HIGH_WATER_MARK, Outbox, bind
+from nep_core.wire.outbox import HIGH_WATER_MARK, ZmqOutbox, bind
 
 from . import security
 from .endpoints import (
@@ -43,7 +43,7 @@ class ZmqNetwork(Network):
     limit); see outbox.py. ``is_far``: a broker is between publishers and subscribers.
     """
 
-    outbox: Outbox
+    outbox: ZmqOutbox
 
     def __init__(
         self, node: str = "", *, high_water_mark: int = HIGH_WATER_MARK, is_far: bool = False
@@ -55,7 +55,7 @@ class ZmqNetwork(Network):
         self.security = security.from_environment(self.context)
         self._waker = self.context.socket(zmq.PUB)
         self._waker.bind(WAKE_ENDPOINT)
-        self.outbox = Outbox(
+        self.outbox = ZmqOutbox(
             self.context,
             self.node,
             self.instance,
@@ -109,6 +109,9 @@ class DirectNetwork(ZmqNetwork):
 
     ``binds="publisher"`` is one publisher to many subscribers; ``binds="subscriber"`` the
     reverse. Raises PortTaken when the endpoint is in use.
+
+    ``endpoint`` is where, ``node`` the name that others see, ``high_water_mark`` how many
+    frames may wait.
     """
 
     def __init__(
@@ -151,6 +154,9 @@ class PeerNetwork(ZmqNetwork):
 
     Joining raises MasterNotFound when no master answers, NameTaken when a node of this name is
     already running.
+
+    ``node`` is the name that others see, ``master`` an endpoint (None: as NEP_MASTER says),
+    ``high_water_mark`` how many frames may wait; ``is_far``: messages go through a broker.
     """
 
     def __init__(

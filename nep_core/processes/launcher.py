@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from faults import fault_in
+from nep_core.closing import Closing
 from nep_core.errors import NameTaken, NepError, NodeStartError
 from nep_core.networks.endpoints import MASTER_VARIABLE, master_endpoint
 from nep_core.networks.network import Network
@@ -54,7 +55,7 @@ class LaunchedNode:
     ready: threading.Event = field(default_factory=threading.Event)
     ended: threading.Event = field(default_factory=threading.Event)
     said_end: threading.Event = field(default_factory=threading.Event)
-    told: threading.Event = field(default_factory=threading.Event)
+    end_reported: threading.Event = field(default_factory=threading.Event)
     """Set when whoever wants to know has been told of its end."""
 
     @property
@@ -177,12 +178,16 @@ Report = Callable[[LaunchedNode, Outcome, bool], None]
 """Called when a node ended: which, how, and whether it is started again."""
 
 
-class Launcher:
+class Launcher(Closing):
     """Starts nodes as processes of their own and supervises them.
 
     A node that crashes is started again, at most 5 times in a row, each time after a longer
     pause; 10 s of health start the count anew. How a node ended that cannot say it itself is told
     on ``/node_state``. Leaving a ``with`` block stops all nodes.
+
+    ``folders`` are where manifests are (None: the shipped ones), ``logs`` where logs go (None:
+    this user's), ``master`` the endpoint that nodes join; ``on_end`` is called with a node, its
+    Outcome, and whether it is started again.
     """
 
     def __init__(
@@ -227,6 +232,9 @@ class Launcher:
 
         ``restart``: when it is started again (None: as its manifest says). Raises NodeNotFound,
         ManifestError, ParameterError, NameTaken, NodeStartError.
+
+        ``node`` is its type and name, ``parameters`` are by name, without those that stay
+        as the manifest says.
         """
         self.hear()
         manifest = self.catalog.find(node)
@@ -273,7 +281,7 @@ class Launcher:
         """Stop every node, all at once."""
         self.stop_all(list(self.nodes))
         for launched in list(self.nodes.values()):
-            launched.told.wait(TOLD_S)
+            launched.end_reported.wait(TOLD_S)
         self.leave()
 
     def leave(self) -> None:
@@ -282,12 +290,6 @@ class Launcher:
             self._herald.close()
         if self._states is not None:
             self._states.close()
-
-    def __enter__(self) -> Launcher:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
     def _launch(self, launched: LaunchedNode) -> LaunchedNode:
         check_node_name(launched.name)
@@ -304,7 +306,7 @@ class Launcher:
                 self._start_process(launched)
             except BaseException:
                 launched.ended.set()  # its name is free again
-                launched.told.set()
+                launched.end_reported.set()
                 raise
         return launched
 
@@ -338,7 +340,7 @@ class Launcher:
         if self._on_end is not None:
             self._on_end(launched, outcome, again)
         if not again:
-            launched.told.set()
+            launched.end_reported.set()
 
     def _restart(self, launched: LaunchedNode, outcome: Outcome) -> None:
         launched.ended.wait(FIRST_PAUSE_S * 2**launched.restarts)  # unless it is stopped meanwhile

@@ -66,10 +66,10 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
             case "boolean":
                 return _boolean(value)
             case "number":
-                number = _number(value)
+                number = finite_number(value)
                 return None if number is None or not self.allows(number) else number
             case "integer":
-                number = _number(value)
+                number = finite_number(value)
                 whole = number is not None and number == int(number) and self.allows(number)
                 return int(number) if whole and number is not None else None
             case "choice":
@@ -161,7 +161,8 @@ class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return parameter.read(name, parameter.default)
 
 
-def _number(value: object) -> float | None:
+def finite_number(value: object) -> float | None:
+    """A finite number, from a number or its text; None for anything else."""
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         return None
     try:

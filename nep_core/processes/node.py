@@ -103,7 +103,7 @@ class Node:
         self._well_again = ""
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
         self._next_measures_s = -math.inf
-        self._told: tuple[NodeEvent, Fault] | None = None
+        self._last_state: tuple[NodeEvent, Fault] | None = None
         try:
             self._states = Publisher(NODE_STATE, network=self.network)
         except BaseException:
@@ -133,7 +133,11 @@ class Node:
         callback: Callable[[T], None] | None = None,
         policy: Policy | None = None,
     ) -> Subscriber[T]:
-        """A subscriber of this node; its waits end when the node stops."""
+        """A subscriber of this node; its waits end when the node stops.
+
+        ``topic`` is heard, ``kind`` the struct that messages are read into; ``callback``
+        and ``policy`` are as those of Subscriber.
+        """
         subscriber = Subscriber(topic, kind, network=self.network, callback=callback, policy=policy)
         self._listening.append(_Listening(ref(subscriber)))
         return subscriber
@@ -155,11 +159,13 @@ class Node:
         programs, ``checklist`` what a person may try. The same state again with measures goes out
         as a heartbeat with them, at most twice a second, so that it can be told as often as the
         node likes.
+
+        ``event`` is which state it is in.
         """
         fault = fault_of(words, code=code, checklist=checklist, **values)
-        if measures is not None and (event == "alive" or self._told == (event, fault)):
+        if measures is not None and (event == "alive" or self._last_state == (event, fault)):
             return self._measure(measures)
-        self._told = (_check(event, NodeEvent, "state"), fault)
+        self._last_state = (_check(event, NodeEvent, "state"), fault)
         self._states.send(self._state(event, fault, measures))
         return True
 

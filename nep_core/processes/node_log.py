@@ -13,6 +13,8 @@ from contextlib import suppress
 from io import FileIO
 from pathlib import Path
 
+from nep_core.closing import Closing
+
 log = logging.getLogger(__name__)
 
 LOG_BYTES = 2_000_000
@@ -28,7 +30,7 @@ LONGEST_FILE_NAME = 80
 """In letters, without the ending: file systems allow 255 bytes."""
 
 
-class NodeLog:
+class NodeLog(Closing):
     """A log file; one that cannot be written is given up with a warning.
 
     It is made anew, unless ``goes_on``: then the node was started again after a crash, and what it
@@ -64,12 +66,6 @@ class NodeLog:
         file, self._file = self._file, None
         if file is not None:
             file.close()
-
-    def __enter__(self) -> NodeLog:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
     def _begin(self, *, goes_on: bool = False) -> None:
         self.close()  # a file that is open can have no other name on Windows

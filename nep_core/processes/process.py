@@ -234,6 +234,9 @@ class ChildProcess:
     ``goes_on``: it takes the place of one that crashed, and its log follows the other's.
 
     Raises NodeStartError when the command cannot be run.
+
+    ``name`` is told to people, ``command`` what is run, ``environment`` all of its variables;
+    ``log_file`` gets what it writes.
     """
 
     def __init__(

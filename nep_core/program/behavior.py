@@ -94,6 +94,9 @@ class Behavior:
         """Run the decorated function each time that a robot begins to see or hear something.
 
         "face", "ball", "mark" or "sound"; ``name``: only this face, or the mark with this number.
+
+        ``thing`` is which of these, ``source`` the robot that notices ("": any); ``again``:
+        what to do when the rule still runs.
         """
         return self.when(state_of_thing(thing, name), again=again, source=source)
 
@@ -129,6 +132,8 @@ class Behavior:
 
         One goal runs at a time. One of a higher priority interrupts it; then it begins "again"
         afterwards, or is "drop"ped. The state ``stop`` ends it.
+
+        ``name`` is told to people; ``interrupted`` is "again" or "drop".
         """
 
         def add(action: Action) -> Action:

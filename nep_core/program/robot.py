@@ -170,7 +170,10 @@ class Robot:
     def play(
         self, animation: str, *, mirror: bool = False, reverse: bool = False, stretch: float = 1.0
     ) -> None:
-        """Play an animation: left for right, backwards, or ``stretch`` times as long."""
+        """Play an animation: left for right, backwards, or ``stretch`` times as long.
+
+        ``mirror`` plays left for right, ``reverse`` backwards.
+        """
         self._perform("play", animation=animation, mirror=mirror, reverse=reverse, stretch=stretch)
 
     def open_hand(self, side: str = "both") -> None:
@@ -247,13 +250,18 @@ class Robot:
         """Turn the head to a place: metres in front of, left of and above its feet.
 
         ``frame`` "torso": as seen from the torso; "world": from where the robot has started.
+
+        ``x_m`` is in front, ``y_m`` left, ``z_m`` up.
         """
         self._perform("look_at", x_m=x_m, y_m=y_m, z_m=z_m, frame=frame)
 
     def point_at(
         self, x_m: float, y_m: float, z_m: float, frame: str = "robot", arm: str = ""
     ) -> None:
-        """Point at a place with the "left" or "right" arm, else the one that is nearer."""
+        """Point at a place with the "left" or "right" arm, else the one that is nearer.
+
+        ``x_m``, ``y_m``, ``z_m`` and ``frame`` are as those of ``look_at``.
+        """
         self._perform("point_at", x_m=x_m, y_m=y_m, z_m=z_m, frame=frame, arm=arm)
 
     def look_at_seen(self, thing: str = "face") -> None:

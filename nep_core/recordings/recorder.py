@@ -18,8 +18,10 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from faults import reason_of
+from nep_core.closing import Closing
 from nep_core.errors import RecordingError
 from nep_core.networks import transports
+from nep_core.networks.master_client import Feed
 from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
 from nep_core.networks.transports import topics_of
@@ -97,7 +99,7 @@ class Totals:
     topics: dict[str, int] = field(default_factory=dict)
 
 
-class Recorder:
+class Recorder(Closing):
     """Records the topics that are added, until it is closed; raises RecordingError.
 
     An existing file is kept unless ``replace``. When the file cannot grow any more, ``failure``
@@ -120,7 +122,7 @@ class Recorder:
         self._schemas: dict[str, int] = {"": 0}
         self._subscribers: dict[str, RawSubscriber] = {}
         self._threads: list[threading.Thread] = []
-        self._feed: transports.Feed | None = None
+        self._feed: Feed | None = None
         try:
             self._output = _Output(self.path, replace)
         except OSError as error:
@@ -177,12 +179,6 @@ class Recorder:
         self._output.close()
         if self.failure is not None:
             raise self.failure
-
-    def __enter__(self) -> Recorder:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
     def _start(self, work: Callable[[], None], name: str) -> None:
         thread = threading.Thread(target=work, name=name, daemon=True)
@@ -296,12 +292,14 @@ SHORTEST_ROUND_S = 0.1
 """A recording of a single message, played in a loop, must not become a flood."""
 
 
-class Player:
+class Player(Closing):
     """Plays a recording on a network that it joins by ``join``; raises RecordingError.
 
     ``speed`` 2 is twice as fast. Only ``topics`` are played (None: all), between ``from_s`` and
     ``to_s`` of the recording. ``prefix`` goes before every topic. What nodes told about
     themselves (``/node_state``) is played only with ``node_states``: those nodes do not run.
+
+    ``path`` is the recording's file.
     """
 
     def __init__(
@@ -364,12 +362,6 @@ class Player:
         """Leave the network."""
         self.stop()
         self._leaving.close()
-
-    def __enter__(self) -> Player:
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        self.close()
 
     def _play_once(self, begin_s: float) -> float:
         """Play from ``begin_s`` of the monotonic clock on; the time when it should end."""

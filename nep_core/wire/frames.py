@@ -79,12 +79,19 @@ def join(
     payload: bytes,
     run: str = "",
 ) -> bytes:
-    """A frame from its start (the subscription to its topic), header values and payload(s)."""
+    """A frame from its start (the subscription to its topic), header values and payload(s).
+
+    ``node`` is the sender and ``run`` its run, ``sequence`` the number of the (first) message,
+    ``time_ns`` when it was sent (Unix), ``encoding`` how ``payload`` is written.
+    """
     return start + to_json((node, sequence, time_ns, encoding, run)) + NUL + payload
 
 
 def mark(topic: str, node: str, run: str, sent: int) -> bytes:
-    """A notice that only tells how many messages were sent on ``topic`` so far."""
+    """A notice that only tells how many messages were sent on ``topic`` so far.
+
+    ``node`` is the sender, ``run`` its run.
+    """
     return subscription(topic) + to_json((node, sent, 0, "json", run, sent))
 
 

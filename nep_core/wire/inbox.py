@@ -191,6 +191,10 @@ class Inbox:
     """One SUB socket; at any time one thread holds its lock and uses it.
 
     ``wake`` asks the I/O thread to tend at once; ``waker`` is its socket at WAKE_ENDPOINT.
+
+    ``context`` makes the socket; ``topic`` is heard by ``subscriber``, its id; ``policy`` says
+    what is kept while nobody reads, ``high_water_mark`` how many frames ZeroMQ keeps;
+    ``security`` has the keys of an opened network.
     """
 
     def __init__(

@@ -58,6 +58,9 @@ class Stream:
     """Numbers, encodes and sends; safe from any thread.
 
     ``send`` takes a frame and does not wait; it is called under ``lock``.
+
+    ``topic``, ``node`` and ``run`` stand in its frames; ``encoding`` None is found by the first
+    message; ``hurry`` asks for a flood to be sent at once.
     """
 
     def __init__(
@@ -197,37 +200,33 @@ MARK_S = 0.5
 """How often a slow subscriber is told how many messages were sent."""
 
 SendFrame = Callable[[bytes], object]
-SendPrivately = Callable[[str, str, bytes], object]
-"""Sends a notice to the subscriber (topic, id); called under the lock, must not wait."""
 
 
-class Hearers:
+class Outbox:
     """The streams of a network and their subscribers; safe from any thread.
 
-    ``sender`` gives, by topic, what sends a frame. ``lock`` is held whenever something is sent.
+    A network says how a frame is sent; its lock is held whenever something is.
     """
 
-    def __init__(
-        self,
-        node: str,
-        instance: str,
-        *,
-        lock: threading.Lock,
-        sender: Callable[[str], SendFrame],
-        send_privately: SendPrivately,
-        hurry: Callable[[], None],
-    ) -> None:
+    def __init__(self, node: str, instance: str, hurry: Callable[[], None]) -> None:
         self._node = node
+        self._instance = instance
         self._run = instance[:RUN_CHARACTERS]
-        self._lock = lock
-        self._sender = sender
-        self._send_privately = send_privately
+        self._lock = threading.Lock()
         self._hurry = hurry
         self._changed = threading.Condition()
         self._ids: dict[str, set[str]] = defaultdict(set)
         self._slow: set[tuple[str, str]] = set()
         self._streams: dict[str, Stream] = {}
         self._next_mark_s = 0.0
+
+    def _sender(self, topic: str) -> SendFrame:
+        """What sends the frames of a topic."""
+        raise NotImplementedError
+
+    def _send_privately(self, topic: str, subscriber: str, notice: bytes) -> None:
+        """Send a notice to one subscriber; called under the lock, must not wait."""
+        raise NotImplementedError
 
     def stream(self, topic: str, encoding: Encoding | None) -> Stream:
         """The one stream of ``topic``; raises NetworkError when it has another encoding."""
@@ -259,7 +258,10 @@ class Hearers:
             return [(topic, who) for topic, ids in self._ids.items() for who in ids]
 
     def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
-        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``."""
+        """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``.
+
+        Whether they did within ``timeout_s``.
+        """
         with self._changed:
             return self._changed.wait_for(
                 lambda: ids <= self._ids[topic] and len(self._ids[topic]) >= count, timeout_s
@@ -310,8 +312,8 @@ class Hearers:
         for stream in self._streams.values():
             stream.abandon(send)
 
-    def flush(self) -> None:
-        """Send all that waits."""
+    def close(self) -> None:
+        """Send what waits (half a second at most) and close."""
         for stream in list(self._streams.values()):
             stream.flush()
 
@@ -355,7 +357,10 @@ def read_subscription(event: bytes) -> Seen | None:
 
 
 def private_frame(topic: str, subscriber: str, instance: str, notice: bytes = b"") -> bytes:
-    """What one subscriber is told: by whom, and a notice (empty: only that it is heard)."""
+    """What one subscriber is told: by whom, and a notice (empty: only that it is heard).
+
+    ``topic`` is what ``subscriber``, its id, hears; ``instance`` is who tells it.
+    """
     return private_subscription(topic, subscriber) + instance.encode() + _NUL + notice
 
 
@@ -381,10 +386,14 @@ subscriber's own backlog (backlog.py) that keeps the newest while its program is
 _send = BackendSocket.send
 
 
-class Outbox:
+class ZmqOutbox(Outbox):
     """Sends in the caller's thread, under a lock; the I/O thread reads the subscriptions.
 
     ``is_far``: a broker is between us and the subscribers, so that we never see who is slow.
+
+    ``context`` makes the socket; ``node`` and ``instance`` are the program's; ``hurry`` asks
+    for a flood to be sent at once; ``high_water_mark`` is how many frames may wait for a
+    subscriber; ``security`` has the keys of an opened network.
     """
 
     def __init__(
@@ -398,9 +407,8 @@ class Outbox:
         is_far: bool = False,
         security: Security | None = None,
     ) -> None:
+        super().__init__(node, instance, hurry)
         self._security = security
-        self._node = node
-        self._instance = instance
         self._is_far = is_far
         self._socket = context.socket(zmq.XPUB)
         self._socket.linger = 500
@@ -408,19 +416,6 @@ class Outbox:
         self._socket.setsockopt(zmq.XPUB_NODROP, 1)  # tells when somebody cannot take a frame
         if is_far:  # a broker that comes back brings the same subscribers: welcome them again
             self._socket.setsockopt(zmq.XPUB_VERBOSE, 1)
-        self._lock = threading.Lock()
-        self._hearers = Hearers(
-            node,
-            instance,
-            lock=self._lock,
-            sender=lambda _topic: self._send,
-            send_privately=self._send_privately,
-            hurry=hurry,
-        )
-        self.stream: Callable[[str, Encoding | None], Stream] = self._hearers.stream
-        self.subscribers = self._hearers.subscribers
-        self.wait_for = self._hearers.wait_for
-        self.abandon = self._hearers.abandon
 
     def bind(self, endpoint: str) -> str:
         """Bind to ``endpoint``, say where; raises PortTaken."""
@@ -445,18 +440,21 @@ class Outbox:
         while (event := self._next_event()) is not None:
             seen = read_subscription(event)
             if seen is not None:
-                self._hearers.note(seen.topic, seen.subscriber, seen.present)
+                self.note(seen.topic, seen.subscriber, seen.present)
                 if seen.present and self._is_far:
-                    self._hearers.note_slow(seen.topic, seen.subscriber)
+                    self.note_slow(seen.topic, seen.subscriber)
         if not self._socket.closed:
-            self._hearers.tend()
+            super().tend()
 
     def close(self) -> None:
         """Send what waits (half a second at most) and close."""
         if not self._socket.closed:
-            self._hearers.flush()
+            super().close()
         with self._lock:
             self._socket.close()
+
+    def _sender(self, topic: str) -> SendFrame:
+        return self._send
 
     def _send(self, frame: bytes) -> None:
         """Send without waiting; the lock is held."""
@@ -471,11 +469,11 @@ class Outbox:
 
     def _send_to_whoever_has_room(self, frame: bytes) -> None:
         """Note who has none; from then on ZeroMQ leaves those out until they have read."""
-        for topic, subscriber in self._hearers.everyone():
+        for topic, subscriber in self.everyone():
             try:
                 _send(self._socket, self._private_frame(topic, subscriber), zmq.NOBLOCK)
             except zmq.Again:
-                self._hearers.note_slow(topic, subscriber)
+                self.note_slow(topic, subscriber)
         self._socket.setsockopt(zmq.XPUB_NODROP, 0)
         try:
             _send(self._socket, frame, zmq.NOBLOCK)

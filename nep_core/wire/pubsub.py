@@ -43,6 +43,8 @@ class Publisher:
     ``network``: where (default: this program's p2p network). ``wait_for_subscribers``: return
     only when so many hear the topic, or after ``timeout_s``. ``latched``: subscribers that join
     later get the last message. Subscribers that the master knows of never miss the first one.
+
+    ``encoding``: JSON, text or bytes (None: as the first message is).
     """
 
     def __init__(
@@ -106,6 +108,8 @@ class Subscriber(Generic[T]):
     or 64 MB; then the oldest are dropped, and counted in ``lost``. "state": the newest message
     of each publisher, and nothing counts as lost. While this whole program is frozen, its
     publishers keep the oldest (outbox.py), and what they cannot keep is counted all the same.
+
+    ``network``: where (default: this program's own).
     """
 
     def __init__(

@@ -97,7 +97,7 @@ def compile_quietly(text: str) -> CodeType:
             code: CodeType = compile(text, "program.py", "exec", dont_inherit=True)
             return code
     except SyntaxError as error:
-        raise CodeTextRefused(_told(error), error.lineno or 1) from error
+        raise CodeTextRefused(_syntax_sentence(error), error.lineno or 1) from error
     except (ValueError, RecursionError, MemoryError, OverflowError) as error:
         raise CodeTextRefused("Python cannot read this.") from error
 
@@ -109,7 +109,7 @@ def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
             return ast.parse(text, mode=mode)  # type: ignore[return-value]
     except SyntaxError as error:
         line = error.lineno or 1
-        raise CodeTextRefused(_in_line(_told(error), line), line) from error
+        raise CodeTextRefused(_in_line(_syntax_sentence(error), line), line) from error
     except (ValueError, RecursionError, MemoryError, OverflowError) as error:
         raise CodeTextRefused("Python cannot read this.") from error
 
@@ -189,7 +189,7 @@ def _made_by(node: ast.AST) -> Iterator[str]:
             yield name
 
 
-def _told(error: SyntaxError) -> Text:
+def _syntax_sentence(error: SyntaxError) -> Text:
     return text_of("Python does not understand this: {msg}.", msg=error.msg)
 
 

@@ -58,7 +58,7 @@ def why_not_plugged(
         return Text("Only a block that gives a value goes into a slot.")
     if value.result in slot.kind.fits:
         return None
-    return why_not_fit(slot.kind, value.result, value.told)
+    return why_not_fit(slot.kind, value.result, value.in_words)
 
 
 def why_no_body(owner: Block, key: str, definitions: Mapping[str, Definition]) -> Text | None:

@@ -337,7 +337,7 @@ class Definition:
         return self.category.page
 
     @property
-    def told(self) -> str:
+    def in_words(self) -> str:
         """The block in words, for messages: its sentence with … for each slot."""
         words = [part if isinstance(part, str) else "…" for part in self.parts]
         return " ".join(word for word in words if word).replace(" ,", ",")

@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
@@ -174,10 +174,10 @@ class _Page(msgspec.Struct):
 
 
 class _File(msgspec.Struct):
-    """The file; version 1 had neither own blocks nor notes, and three pages."""
+    """The file; what one that was written by hand leaves out is empty."""
 
     format: str
-    version: int
+    version: Literal[2]  # VERSION
     name: str
     pages: dict[str, list[Stack]]
     blocks: list[dict[str, Any]]

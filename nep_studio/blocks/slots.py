@@ -103,7 +103,7 @@ def _is_visible(letter: str) -> bool:
 def why_not_text(value: object) -> Text | None:
     """Why ``value`` is not a text that can be saved and printed."""
     if not isinstance(value, str):
-        return text_of("A text is needed here, not {told}.", told=_told(value))
+        return text_of("A text is needed here, not {told}.", told=_described(value))
     if len(value) > LONGEST_TEXT:
         return text_of(
             "This text is too long: {count} characters, {longest_text} at most.",
@@ -120,7 +120,7 @@ def why_not_text(value: object) -> Text | None:
 def why_not_number(value: object) -> Text | None:
     """Why ``value`` is not a number that a program can use."""
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return text_of("A number is needed here, not {told}.", told=_told(value))
+        return text_of("A number is needed here, not {told}.", told=_described(value))
     if value != value:  # not a number; math.isnan fails for large integers
         return Text("This number is not a number that can be counted with.")
     if abs(value) > LARGEST_NUMBER:
@@ -162,7 +162,7 @@ def _why_not_duration(value: object) -> Text | None:
 def _why_not_checked(value: object) -> Text | None:
     if isinstance(value, bool):
         return None
-    return text_of("This is on or off, not {told}.", told=_told(value))
+    return text_of("This is on or off, not {told}.", told=_described(value))
 
 
 def _why_not_any(value: object) -> Text | None:
@@ -172,12 +172,14 @@ def _why_not_any(value: object) -> Text | None:
 def _why_not_colour(value: object) -> Text | None:
     if isinstance(value, str) and _COLOUR.fullmatch(value):
         return None
-    return text_of("A colour is written like #ff8800, not {told}.", told=_told(value))
+    return text_of("A colour is written like #ff8800, not {told}.", told=_described(value))
 
 
 def _why_not_settings(value: object) -> Text | None:
     if not isinstance(value, Mapping):
-        return text_of("Settings are a list of names with values, not {told}.", told=_told(value))
+        return text_of(
+            "Settings are a list of names with values, not {told}.", told=_described(value)
+        )
     if len(value) > MOST_SETTINGS:
         return text_of(
             "There are too many settings: {count}, {most_settings} at most.",
@@ -194,7 +196,8 @@ def _why_not_settings(value: object) -> Text | None:
 def _why_not_setting(name: object, setting: object) -> Text | None:
     if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,99}", name):
         return text_of(
-            "A setting's name is one word of letters, digits and _, not {told}.", told=_told(name)
+            "A setting's name is one word of letters, digits and _, not {told}.",
+            told=_described(name),
         )
     if keyword.iskeyword(name) or name in ("node", "name"):
         return text_of("A setting cannot be called “{name}”.", name=name)
@@ -203,7 +206,7 @@ def _why_not_setting(name: object, setting: object) -> Text | None:
     return _why_not_any(setting)
 
 
-def _told(value: object) -> Text:
+def _described(value: object) -> Text:
     """Name a value of any kind in a few words, whatever it holds."""
     if value is None:
         return Text("nothing")

@@ -6,7 +6,9 @@ import argparse
 import contextlib
 import logging
 import os
+import signal
 import socket
+import threading
 from collections.abc import Iterator
 
 from faults import text_of
@@ -15,13 +17,12 @@ from nep_core.networks.endpoints import master_endpoint
 from nep_core.networks.master_messages import ask_master
 from nep_core.networks.transports import network_for, transport
 from nep_core.places import log_folder
-from nep_core.processes.launcher import LaunchedNode, Launcher
+from nep_core.processes.launcher import Launcher
 from nep_core.processes.manifest import Value
-from nep_core.processes.node import check_node_name
+from nep_core.processes.node import STOP_SIGNALS, check_node_name
 from nep_core.processes.process import ON_WINDOWS
 from nep_studio.commands.project import explain
 from nep_studio.run.local_network import start_master
-from nep_studio.run.signals import interrupt_once, undisturbed
 
 from .project import speed
 
@@ -52,16 +53,16 @@ def main(arguments: list[str]) -> int:
     if options.robot is None:  # a name of its own: the project that runs beside it has a NAO
         options.robot = f"NAO-{options.port}"
     logging.basicConfig(level=logging.ERROR, format="%(message)s")
-    interrupt_once()
+    stop = threading.Event()
+    for number in STOP_SIGNALS:
+        signal.signal(number, lambda *_: stop.set())
     if options.login:
         os.environ[LOGIN] = options.login
     try:
         check_node_name(options.robot)
         _check_free(options.port)
-        with _network() as launcher, contextlib.suppress(KeyboardInterrupt):
-            _offer(launcher, options)
-    except KeyboardInterrupt:
-        return 0
+        with _network() as launcher:
+            _offer(launcher, options, stop)
     except NepError as error:
         explain(error)
         return FAILED
@@ -80,7 +81,7 @@ def _network() -> Iterator[Launcher]:
             master = start_master(services)
         network = stack.enter_context(network_for(f"naoqi-{os.getpid()}", master=master))
         launcher = Launcher(logs=log_folder(), master=master)
-        stack.callback(_stop, launcher)
+        stack.callback(launcher.close)
         launcher.hear(network)
         yield launcher
 
@@ -104,8 +105,11 @@ def _check_free(port: int) -> None:
             ) from error
 
 
-def _offer(launcher: Launcher, options: argparse.Namespace) -> None:
-    """Start the robot, say where it is, and wait. Raises NepError when it ends by itself."""
+def _offer(launcher: Launcher, options: argparse.Namespace, stop: threading.Event) -> None:
+    """Start the robot, say where it is, and wait until ``stop``.
+
+    Raises NepError when it ends by itself.
+    """
     settings: dict[str, Value] = {
         "robot": options.robot,
         "speed": options.speed,
@@ -113,15 +117,12 @@ def _offer(launcher: Launcher, options: argparse.Namespace) -> None:
         "model": options.model,
     }
     robot = launcher.launch(NODE, options.robot, settings, restart="on-kill")
-    robot.wait_ready()
-    print(_welcome(options), flush=True)
-    _wait(robot)
-
-
-def _wait(robot: LaunchedNode) -> None:
-    while not robot.ended.wait(LOOK_S):
+    robot.wait_ready(given_up=stop)
+    if not stop.is_set():
+        print(_welcome(options), flush=True)
+    while not stop.is_set() and not robot.ended.wait(LOOK_S):
         pass
-    robot.wait_ready(0.0)
+    robot.wait_ready(0.0, given_up=stop)
 
 
 def _welcome(options: argparse.Namespace) -> str:
@@ -132,11 +133,6 @@ def _welcome(options: argparse.Namespace) -> str:
         login=f",\nas user {user} with the password that was given." if user else ".",
         default=DEFAULT if options.port == PORT and not user else ".",
     )
-
-
-def _stop(launcher: Launcher) -> None:
-    with undisturbed():
-        launcher.close()
 
 
 def _login(word: str) -> str:

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from pathlib import Path
 
 from nep_core.cli import node
+from nep_core.cli.console import number
 from nep_core.errors import NepError
-from nep_studio import problems as told
 from nep_studio.blocks import text
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import load
 from nep_studio.blocks.generate.program import generate_launch, generate_program
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-from nep_studio.problems import problem_of
+from nep_studio.problems import Problem, problem_of
 from nep_studio.run.installation import all_problems, studio_language
 
 # What the commands share: a project read from its file, its problems and its code.
@@ -66,22 +65,14 @@ def check(arguments: list[str]) -> int:
     return 1 if any(problem.severity == "error" for problem in problems) else 0
 
 
-def describe(problem: Problem, project: Project, language: Language) -> str:
+def describe(problem: Diagnostic, project: Project, language: Language) -> str:
     """A problem with the place of its block and its checklist."""
     place = ""
     if problem.block:
         block = text.sentence(project, language, problem.block)
         place = f"“{block}” on the page {problem.page.capitalize()}"
     sentence = f"{SIGNS[problem.severity]}: {problem.sentence}"
-    return str(told.Problem(sentence, checklist=problem.checklist, place=place))
-
-
-def tell_errors(project: Project, language: Language, folder: Path) -> bool:
-    """Print the problems that keep a program from running; whether there are any."""
-    errors = [p for p in all_problems(project, language, folder) if p.severity == "error"]
-    for problem in errors:
-        print(describe(problem, project, language), file=sys.stderr)
-    return bool(errors)
+    return str(Problem(sentence, checklist=problem.checklist, place=place))
 
 
 # ``nep-studio code FILE.nep``: the Python that the blocks make.
@@ -129,10 +120,4 @@ SLOWEST, FASTEST = 0.1, 50
 
 def speed(word: str) -> float:
     """How many times as fast something goes, for argparse; raises ArgumentTypeError."""
-    try:
-        number = float(word)
-    except ValueError:
-        number = math.nan
-    if not SLOWEST <= number <= FASTEST:
-        raise argparse.ArgumentTypeError(f'"{word}" is not a number from {SLOWEST} to {FASTEST}')
-    return number
+    return number(word, SLOWEST, FASTEST)

@@ -3,32 +3,47 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import logging
+import queue
+import signal
 import sys
-import tempfile
 import threading
 import time
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import msgspec
 
 from nep_core.cli.console import seconds
 from nep_core.errors import NepError
+from nep_core.processes.node import STOP_SIGNALS
 from nep_studio.blocks import text
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.errors import BlocksError
-from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-from nep_studio.problems import on_one_line
-from nep_studio.run.plan import Choices, PlannedNode, plan
-from nep_studio.run.session import Ending, Session
-from nep_studio.run.signals import interrupt_once
+from nep_studio.problems import Problem, on_one_line
+from nep_studio.run.controller import (
+    PREPARING,
+    Begun,
+    Checked,
+    Ended,
+    Event,
+    Refused,
+    RunController,
+    StateChanged,
+    Subject,
+)
+from nep_studio.run.local_network import LocalNetwork
+from nep_studio.run.plan import Choices, PlannedNode
+from nep_studio.run.session import Ending
 from nep_studio.run.timeline import Timeline
 
-from .project import UNUSABLE, explain, print_utf8, read_project, speed, tell_errors
+from .project import UNUSABLE, describe, explain, print_utf8, read_project, speed
 
 # What ``nep-studio run`` prints while a project plays.
 
@@ -45,10 +60,9 @@ class Printer:
     def __init__(self, language: Language, *, as_json: bool) -> None:
         self._timeline = Timeline(language)
         self._as_json = as_json
-        self._lock = threading.Lock()
         self._started_s = time.monotonic()
 
-    def title(self, project: Project, nodes: list[PlannedNode]) -> None:
+    def title(self, project: Project, nodes: Iterable[PlannedNode]) -> None:
         """Say what is played, and which nodes were added."""
         self._tell(f"{project.name}. Ctrl-C stops it.")
         self._tell("")
@@ -61,15 +75,14 @@ class Printer:
         self._tell(f"   joined the network of the NEP master at {master}")
 
     def hear(self, topic: str, message: msgspec.Struct) -> None:
-        """Print a message; safe from any thread."""
-        with self._lock:
-            if self._as_json:
-                told = {"topic": topic, **msgspec.structs.asdict(message)}
-                print_utf8(msgspec.json.encode(told).decode() + "\n")
-                return
-            elapsed_s = time.monotonic() - self._started_s
-            for who, what in self._timeline.lines(message):
-                self._tell(f"{elapsed_s:8.2f}  {who:<16} {what}")
+        """Print a message."""
+        if self._as_json:
+            told = {"topic": topic, **msgspec.structs.asdict(message)}
+            print_utf8(msgspec.json.encode(told).decode() + "\n")
+            return
+        elapsed_s = time.monotonic() - self._started_s
+        for who, what in self._timeline.lines(message):
+            self._tell(f"{elapsed_s:8.2f}  {who:<16} {what}")
 
     def end(self) -> None:
         """Say that everything is stopped."""
@@ -82,71 +95,97 @@ class Printer:
 
 
 FAILED = 1
+LOOK_S = 0.2
+"""How long Python may wait at once: a signal can miss a wait that is just beginning."""
 
 
 def main(arguments: list[str]) -> int:
     """Play a project; 0 when it ended well, 1 when it failed, 2 when it cannot be used."""
     options = _parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR, format="%(message)s")
-    interrupt_once()
     try:
         project, language = read_project(options.file)
-        folder = Path(options.file).resolve().parent
-        if tell_errors(project, language, folder):
-            return UNUSABLE
-        code = generate_program(project, language)
         robots = [entry.name for entry in robot_entries(project, language)]
-        nodes = plan(project, language, _choices(options, robots), folder)
+        choices = _choices(options, robots)
     except (BlocksError, NepError) as error:
         explain(error)
         return UNUSABLE
-    printer = Printer(language, as_json=options.json)
-    printer.title(project, nodes)
-    try:
-        ending = _play(code, nodes, printer, options.seconds)
-    except NepError as error:
-        explain(error)
-        return FAILED
-    printer.end()
-    if ending.problem is None:
-        return 0
-    place = _place(ending, code, project, language)
-    print(replace(ending.problem, place=place), file=sys.stderr)
-    return FAILED
+    subject = Subject(project, language, Path(options.file).resolve().parent, choices)
+    return _Play(subject, Printer(language, as_json=options.json), options.seconds).play()
 
 
-def _play(code: Code, nodes: list[PlannedNode], printer: Printer, most_s: float | None) -> Ending:
-    """Play until the end, Ctrl-C, or until nobody reads any more, which raises OSError."""
-    unheard: list[OSError] = []
+class _Play:
+    """One run of a project: all that is to be done is done in turn, in the thread of ``play``."""
 
-    def hear(topic: str, message: msgspec.Struct) -> None:
+    def __init__(self, subject: Subject, printer: Printer, most_s: float | None) -> None:
+        self._subject, self._printer, self._most_s = subject, printer, most_s
+        self._turns: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._network = LocalNetwork()
+        self._network.listen(lambda *heard: self._turns.put(partial(printer.hear, *heard)))
+        self._controller = RunController(
+            self._network, lambda: subject, self._turns.put, self._on_event, is_traced=False
+        )
+        self._exit_code: int | None = None
+        self._problem: Problem | None = None
+
+    def play(self) -> int:
+        """Play until the end or Ctrl-C; the exit code. Raises OSError when nobody reads."""
+        for number in STOP_SIGNALS:
+            signal.signal(number, lambda *_: self._turns.put(self._controller.stop))
         try:
-            printer.hear(topic, message)
-        except OSError as error:
-            unheard.append(error)
-            session.end()
+            self._controller.run()
+            while self._exit_code is None:
+                if self._controller.state in PREPARING:
+                    self._controller.work(LOOK_S)
+                with contextlib.suppress(queue.Empty):
+                    self._turns.get(timeout=LOOK_S)()
+        finally:
+            self._controller.close()
+            self._network.close()
+        if self._exit_code != UNUSABLE:
+            self._printer.end()
+        if self._problem is not None:
+            print(self._problem, file=sys.stderr)
+        return self._exit_code
 
-    with tempfile.TemporaryDirectory(prefix="nep-") as folder:
-        program = Path(folder) / "program.py"
-        program.write_text(code.text, encoding="utf-8")
-        session = Session(program, nodes, hear)
-        try:
-            with session:
-                if session.network.shared_master:
-                    printer.joined(session.network.shared_master)
-                ending = session.wait(most_s)
-        except KeyboardInterrupt:
-            ending = Ending()
-    if unheard:
-        raise unheard[0]
-    return ending
+    def _on_event(self, event: Event) -> None:
+        match event:
+            case Checked(problems, can_run=False):
+                self._refuse(problems)
+            case Refused(error):
+                explain(error)
+                self._exit_code = UNUSABLE
+            case Begun(request):
+                self._printer.title(self._subject.project, request.nodes)
+            case StateChanged("running"):
+                self._on_running()
+            case Ended(ending):
+                self._exit_code = 0 if ending.problem is None else FAILED
+                self._problem = self._placed(ending)
 
+    def _refuse(self, problems: list[Diagnostic]) -> None:
+        project, language = self._subject.project, self._subject.language
+        for problem in problems:
+            if problem.severity == "error":
+                print(describe(problem, project, language), file=sys.stderr)
+        self._exit_code = UNUSABLE
 
-def _place(ending: Ending, code: Code, project: Project, language: Language) -> str:
-    block = code.block_at(ending.line)
-    if block is None:
-        return ""
-    return f"“{text.sentence(project, language, block)}” (line {ending.line} of the Python)"
+    def _on_running(self) -> None:
+        if self._network.shared_master:
+            self._printer.joined(self._network.shared_master)
+        if self._most_s is not None:
+            timer = threading.Timer(self._most_s, self._turns.put, [self._controller.stop])
+            timer.daemon = True
+            timer.start()
+
+    def _placed(self, ending: Ending) -> Problem | None:
+        """The problem of an ending, with the block where it is."""
+        request, subject = self._controller.request, self._subject
+        block = request.code.block_at(ending.line) if request is not None else None
+        if ending.problem is None or block is None:
+            return ending.problem
+        words = text.sentence(subject.project, subject.language, block)
+        return replace(ending.problem, place=f"“{words}” (line {ending.line} of the Python)")
 
 
 class CannotPlay(NepError):

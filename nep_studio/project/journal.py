@@ -22,8 +22,9 @@ from pathlib import Path
 
 import msgspec
 
+from nep_core.places import whole_file
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import Edit
+from nep_studio.blocks.edits import ANY_EDIT, Edit
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.language import Language
@@ -36,7 +37,7 @@ STEPS_PER_SNAPSHOT = 500
 BYTES_PER_SNAPSHOT = 40_000_000
 """What was learned of gestures is a megabyte or more, each time."""
 _ENCODER = msgspec.json.Encoder()
-_DECODER = msgspec.json.Decoder(list[Edit])
+_DECODER = msgspec.json.Decoder(list[ANY_EDIT])
 
 
 class About(msgspec.Struct):
@@ -135,12 +136,14 @@ class Journal:
         """Begin a new file of edits from the project as it is; only then the old ones go."""
         number = self._number + 1
         try:
-            _write_file(self.folder / f"{number}.nep", to_bytes(self._editor.project))
+            with whole_file(self.folder / f"{number}.nep") as whole:
+                whole.write(to_bytes(self._editor.project))
             edits = self.folder / f"{number}.edits"
             file = os.open(
                 edits, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
             )
-            _write_file(self.folder / "about.json", msgspec.json.encode(self._about))
+            with whole_file(self.folder / "about.json") as whole:
+                whole.write(msgspec.json.encode(self._about))
         except OSError as error:
             self._fail(error)
             self._is_behind = True
@@ -220,15 +223,6 @@ def _steps(edits: Path) -> Iterator[list[Edit]]:
             yield _DECODER.decode(line)
         except msgspec.MsgspecError:
             return  # the program died while it wrote this line
-
-
-def _write_file(path: Path, data: bytes) -> None:
-    new = path.with_suffix(".new")
-    with new.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(new, path)
 
 
 def _write_all(file: int, data: bytes) -> None:

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.places import cache_folder
+from nep_core.places import cache_folder, whole_file
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation, own_animations
 from nep_studio.blocks.own_gestures import (
     OwnGesture,
@@ -70,9 +70,8 @@ class RecogniserFile:
         except (binascii.Error, ValueError) as error:
             raise OSError("what was learned is damaged: train the gestures again") from error
         self.folder.mkdir(parents=True, exist_ok=True)
-        part = self.path.with_suffix(f".{os.getpid()}.part")
-        part.write_bytes(data)
-        part.replace(self.path)  # at once: another window may write the same one
+        with whole_file(self.path) as file:  # another window may write the same one
+            file.write(data)
         _forget_old(self.folder)
 
 
@@ -234,9 +233,8 @@ class AnimationFiles:
         for name, text in self.texts.items():
             path = self.folder / name
             if not path.is_file():
-                part = path.with_suffix(f".{os.getpid()}.part")
-                part.write_text(text, encoding="utf-8")
-                part.replace(path)  # at once: another window may write the same one
+                with whole_file(path) as file:  # another window may write the same one
+                    file.write(text.encode())
 
 
 def animation_files(project: Project) -> AnimationFiles | None:

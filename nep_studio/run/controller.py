@@ -19,7 +19,7 @@ from typing import Literal
 from faults import reason_of, text_of
 from nep_core.errors import NepError
 from nep_core.wire import messages as m
-from nep_studio.blocks.checks.problem import Problem as BlockProblem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import ProgramGenerator
@@ -87,7 +87,7 @@ class StateChanged:
 class Checked:
     """The checks are over; where it ``can_run``, it goes on by itself."""
 
-    problems: list[BlockProblem]
+    problems: list[Diagnostic]
     can_run: bool
 
 
@@ -133,7 +133,8 @@ class RunController:
 
     ``subject`` gives what is open, or None. ``post`` lets something be done in the owner's thread,
     soon and in order. ``tell`` hears of each Event. While the state is one of PREPARING, the owner
-    calls ``work`` whenever it has time.
+    calls ``work`` whenever it has time. Programs that are ``is_traced`` tell of each of their
+    lines, and can be paused.
     """
 
     def __init__(
@@ -142,8 +143,11 @@ class RunController:
         subject: Callable[[], Subject | None],
         post: Callable[[Callable[[], None]], None],
         tell: Callable[[Event], None],
+        *,
+        is_traced: bool = True,
     ) -> None:
         self._network, self._subject, self._post, self._tell = network, subject, post, tell
+        self._is_traced = is_traced
         self.state: State = "idle"
         self.request: Request | None = None
         """What was started last."""
@@ -151,7 +155,7 @@ class RunController:
         """Whether the blocks have changed since then."""
         self._prepared: Subject | None = None
         self._is_shown = True
-        self._checks: Sliced[list[BlockProblem]] | None = None
+        self._checks: Sliced[list[Diagnostic]] | None = None
         self._generator: ProgramGenerator | None = None
         self._code: Sliced[Code] | None = None
         self._session: Session | None = None
@@ -204,7 +208,7 @@ class RunController:
         self._checks = Sliced(problem_steps(project, language, subject.folder))
         self._set_state("checking")
 
-    def _on_checked(self, problems: list[BlockProblem]) -> None:
+    def _on_checked(self, problems: list[Diagnostic]) -> None:
         subject, self._checks = self._prepared, None
         assert subject is not None
         has_rules = next(rules(subject.project, subject.language), None) is not None
@@ -264,8 +268,8 @@ class RunController:
         self.request = request
         self.is_stale = self._was_stopped = self._had_begun = False
         self._tell(Begun(request))
-        nodes, watching = list(request.nodes), self._watching()
-        self._session = Session(Path(), nodes, _ignore, network=self._network, watching=watching)
+        watching = self._watching() if self._is_traced else None
+        self._session = Session(request.nodes, self._network, watching=watching)
         self._set_state("starting")
         args = (self._session, request.code)
         self._thread = threading.Thread(
@@ -279,7 +283,7 @@ class RunController:
             with tempfile.TemporaryDirectory(prefix="nep-", ignore_cleanup_errors=True) as folder:
                 program = Path(folder) / "program.py"
                 program.write_text(code.text, encoding="utf-8")
-                session.use_program(program)
+                session.program = program
                 with session:
                     self._post(self._on_begun)
                     ending = session.wait()
@@ -374,10 +378,6 @@ class RunController:
             self._tell(StateChanged(state))
 
 
-def _ignore(*_message: object) -> None:
-    """Whoever owns the network hears it."""
-
-
 def _disk_problem(error: OSError) -> Problem:
     return Problem(
         "The program could not be written",
@@ -387,6 +387,7 @@ def _disk_problem(error: OSError) -> Problem:
             "May this program write into the folder for temporary files?",
         ),
         details=str(error),
+        place=error.filename or "",
     )
 
 

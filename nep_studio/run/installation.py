@@ -14,7 +14,7 @@ from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import KnownChains, check_steps
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.definition_files import load_definitions, load_profiles, read_toml
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
@@ -34,7 +34,7 @@ RESERVED_NAMES = ("master", "studio", "program", "recording")
 """Names of the parts that every session has."""
 
 
-def all_problems(project: Project, language: Language, folder: Path) -> list[Problem]:
+def all_problems(project: Project, language: Language, folder: Path) -> list[Diagnostic]:
     """Everything that can be told before a project runs, errors first.
 
     ``folder`` is where the project's own files are.
@@ -44,7 +44,7 @@ def all_problems(project: Project, language: Language, folder: Path) -> list[Pro
 
 def problem_steps(
     project: Project, language: Language, folder: Path, known: KnownProblems | None = None
-) -> Steps[list[Problem]]:
+) -> Steps[list[Diagnostic]]:
     """The same in steps; ``known`` has what was found the last time."""
     known = known or KnownProblems()
     nodes, robots = node_entries(project, language), robot_entries(project, language)
@@ -70,9 +70,9 @@ class KnownProblems:
 
     def of_nodes(
         self, entries: Iterable[NodeEntry], gestures: list[str], folder: Path
-    ) -> list[Problem]:
+    ) -> list[Diagnostic]:
         """What is wrong with these nodes."""
-        found, in_order = list[Problem](), []
+        found, in_order = list[Diagnostic](), []
         for entry in entries:
             if (entry, gestures) not in self._in_order:
                 wrong = list(_node(entry, NodeCatalog(node_folders()), gestures, folder))
@@ -92,7 +92,7 @@ def _names_file(entry: NodeEntry, folder: Path) -> bool:
 
 def _node(
     entry: NodeEntry, catalog: NodeCatalog, gestures: Collection[str], folder: Path
-) -> Iterator[Problem]:
+) -> Iterator[Diagnostic]:
     try:
         manifest = catalog.find(entry.node)
         settings = manifest.read_parameters(dict(entry.parameters))
@@ -105,7 +105,7 @@ def _node(
     yield from _gesture(entry, manifest, gestures)
 
 
-def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Problem]:
+def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Diagnostic]:
     if not (folder / value).exists() and not Path(value).exists():
         yield _wrong(
             entry,
@@ -119,7 +119,7 @@ def _known_gestures(project: Project, language: Language) -> list[str]:
     return [*trained_gestures(project), *language.choices.get("gestures", {})]
 
 
-def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> Iterator[Problem]:
+def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> Iterator[Diagnostic]:
     if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
         return
     for gesture in named_gestures(entry):
@@ -134,16 +134,16 @@ def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> It
             )
 
 
-def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Problem:
+def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Diagnostic:
     words = text_of(
         "The node “{name}” cannot start. {sentence}", name=entry.name, sentence=sentence
     )
-    return Problem("error", "node_settings", "nodes", entry.block_id, words, checklist)
+    return Diagnostic("error", "node_settings", "nodes", entry.block_id, words, checklist)
 
 
-def _robot(entry: RobotEntry) -> Iterator[Problem]:
+def _robot(entry: RobotEntry) -> Iterator[Diagnostic]:
     if entry.driver == "naoqi" and not entry.address.strip():
-        yield Problem(
+        yield Diagnostic(
             "error",
             "robot_address",
             "robots",
@@ -156,11 +156,13 @@ def _robot(entry: RobotEntry) -> Iterator[Problem]:
         )
 
 
-def _reserved(page: str, name: str, block_id: str) -> Problem | None:
+def _reserved(page: str, name: str, block_id: str) -> Diagnostic | None:
     if name not in RESERVED_NAMES:
         return None
     sentence = text_of("“{name}” is the name of a part that every project has.", name=name)
-    return Problem("error", "reserved_name", page, block_id, sentence, ("Give it another name.",))
+    return Diagnostic(
+        "error", "reserved_name", page, block_id, sentence, ("Give it another name.",)
+    )
 
 
 # Load the block language from the folders that hold its definitions and its robot profile.

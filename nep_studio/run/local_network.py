@@ -36,7 +36,6 @@ from nep_core.wire import messages as m
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 from .plan import PlannedNode
-from .signals import postponed
 
 # The master of a session: one that is there for all programs, or one that it starts for itself.
 
@@ -57,8 +56,7 @@ def start_master(launcher: Launcher, wanted: str | None = None, options: Iterabl
     for _ in range(1 if wanted else TRIES):
         endpoint = wanted or free_endpoint(master_endpoint())
         command = program_command(MASTER, "--endpoint", endpoint, OWN, *options)
-        with postponed():
-            launched = launcher.start_command(MASTER, command)
+        launched = launcher.start_command(MASTER, command)
         if is_up(launched, endpoint):
             return endpoint
         launcher.stop(MASTER)
@@ -312,7 +310,7 @@ class LocalNetwork:
 
         Does not wait until they are ready; raises NepError.
         """
-        with self._opening, postponed():
+        with self._opening:
             if not self.is_open:
                 raise NodeStartError("The network is closed.", checklist=("Start it again.",))
             return [self._start(one) for one in nodes]

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 import threading
-import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,16 +16,13 @@ from nep_core.processes.process import Outcome
 from nep_core.wire import messages as m
 from nep_studio.problems import Problem
 
-from .local_network import Listener, LocalNetwork
+from .local_network import LocalNetwork
 from .plan import REPLAY, PlannedNode
-from .signals import postponed, undisturbed
 
 PROGRAM = "program"
 ASK_TO_END_S = 1.0
 LAST_RULES_S = 2.0
 """How long a rule that a recording's end set off may still take."""
-SIGNALS_S = 0.2
-"""How long Python may wait at once: a signal can miss a wait that is just beginning."""
 LAST_WORDS_S = 0.3
 """How long a program's last message may take, which is not always quicker than its end."""
 
@@ -51,45 +46,33 @@ class Watching:
 class Session:
     """Starts the parts of a project and keeps them running until the program ends.
 
-    Use it in a ``with`` statement: entering raises NepError when a part cannot start, leaving
-    stops the robots first and then everything that it started. With a ``network`` of somebody
-    else that stays as it was. With ``watching`` the program tells of each of its lines.
+    Use it in a ``with`` statement, once the file of its ``program`` is known: entering raises
+    NepError when a part cannot start, leaving stops the robots first and then everything that it
+    started; the network stays open. With ``watching`` the program tells of each of its lines.
     """
 
     def __init__(
         self,
-        program: Path,
-        nodes: list[PlannedNode],
-        listener: Listener,
+        nodes: Sequence[PlannedNode],
+        network: LocalNetwork,
         *,
-        logs: Path | None = None,
-        master: str | None = None,
-        network: LocalNetwork | None = None,
+        program: Path = Path(),
         watching: Watching | None = None,
     ) -> None:
-        self._program = program
+        self.network, self.program = network, program
         self._nodes = nodes
-        self._listener = listener
         self._watching = watching
         self._ending: Ending | None = None
         self._failure: m.ProgramState | None = None
         self._may_begin = False
         self._changed = threading.Condition()
         self._is_over = threading.Event()
-        self._owns_network = network is None
         self._started: list[str] = []
-        self.network = network or LocalNetwork(logs=logs, master=master)
-
-    def use_program(self, program: Path) -> None:
-        """Run this file; before the session is entered."""
-        self._program = program
 
     def wait(self, seconds: float | None = None) -> Ending:
         """Wait until the program ends, or for so long; how it ended."""
-        deadline = math.inf if seconds is None else time.monotonic() + seconds
         with self._changed:
-            while self._ending is None and (left_s := deadline - time.monotonic()) > 0:
-                self._changed.wait(min(left_s, SIGNALS_S))
+            self._changed.wait_for(lambda: self._ending is not None, seconds)
             return self._ending or Ending()
 
     def end(self, ending: Ending | None = None) -> None:
@@ -107,16 +90,12 @@ class Session:
             voice.stop_program()
 
     def stop(self) -> None:
-        """Stop the robots at once, then the program, then all nodes; the master goes last."""
+        """Stop the robots at once, then the program, then all nodes."""
         try:
-            with undisturbed():
-                self._stop_program()
+            self._stop_program()
         finally:
-            with undisturbed():
-                self._stop_nodes()
-                self.network.unlisten(self._on_message, self._on_end)
-                if self._owns_network:
-                    self.network.close()
+            self._stop_nodes()
+            self.network.unlisten(self._on_message, self._on_end)
 
     def watch(self, watching: Watching) -> None:
         """Pause at other lines, or go at another pace, from now on."""
@@ -164,13 +143,12 @@ class Session:
         """Let the program listen, but not act yet: no robot moves before every node is there."""
         if self._is_over.is_set():
             return
-        settings: dict[str, Value] = {"file": str(self._program), "hold": True}
+        settings: dict[str, Value] = {"file": str(self.program), "hold": True}
         if self._watching is not None:
             settings["trace"] = True
-        with postponed():
-            launched = self.network.launcher.launch(
-                "cognitive/program", PROGRAM, settings, restart="on-kill"
-            )
+        launched = self.network.launcher.launch(
+            "cognitive/program", PROGRAM, settings, restart="on-kill"
+        )
         self._started.append(PROGRAM)
         self._wait_ready([launched])
 
@@ -209,12 +187,11 @@ class Session:
         started, self._started = self._started, []
         self.network.launcher.stop_all(reversed(started))
 
-    def _on_message(self, topic: str, message: msgspec.Struct) -> None:
+    def _on_message(self, _topic: str, message: msgspec.Struct) -> None:
         if isinstance(message, m.ProgramState):
             self._note_failure(message)
         elif isinstance(message, m.NodeState):
             self._note_restart(message)
-        self._listener(topic, message)
 
     def _note_restart(self, state: m.NodeState) -> None:
         """A program that was killed and started again waits to be told to begin."""

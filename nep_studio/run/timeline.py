@@ -272,16 +272,18 @@ class Timeline:
         if action.request is not None:
             return []  # it asks how the action is doing
         action.request = request
-        return self._told(request, list(action.results.values()))
+        return self._result_lines(request, list(action.results.values()))
 
     def _answered(self, result: m.ActionResult) -> list[Line]:
         action = self._action(result.id)
         if (result.robot, result.state) in action.results:
             return []  # a result comes again each time it is asked for
         action.results[result.robot, result.state] = result
-        return self._told(action.request, [result])
+        return self._result_lines(action.request, [result])
 
-    def _told(self, request: m.ActionRequest | None, results: list[m.ActionResult]) -> list[Line]:
+    def _result_lines(
+        self, request: m.ActionRequest | None, results: list[m.ActionResult]
+    ) -> list[Line]:
         if request is None or request.action == "stop":
             return []
         told = [(result.robot, self._result_words(request, result)) for result in results]

@@ -13,7 +13,6 @@ from __future__ import annotations
 import csv
 import io
 import logging
-import os
 import re
 import time
 from collections.abc import Iterable, Iterator, Sequence
@@ -27,6 +26,7 @@ from typing import Literal, TypeVar
 import msgspec
 
 from faults import Tr, plain
+from nep_core.places import whole_file
 
 # The System Usability Scale: its items and its score, as in the paper and as Brooke made it.
 #
@@ -435,15 +435,8 @@ def _cell(cell: Cell) -> str | float:
 
 
 def _write(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
-    """Write beside the old file, then put the new one in its place in one step."""
-    new = path.with_name(f".{path.name}.{os.getpid()}.new")
-    try:
-        new.write_bytes(csv_text(columns, rows).encode("utf-8-sig", "replace"))
-        os.replace(new, path)
-    except OSError:
-        with suppress(OSError):
-            new.unlink(missing_ok=True)
-        raise
+    with whole_file(path) as file:
+        file.write(csv_text(columns, rows).encode("utf-8-sig", "replace"))
 
 
 def _time(time_s: float) -> str:

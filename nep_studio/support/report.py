@@ -6,7 +6,6 @@ Everything that leaves this module has been made anonymous.
 from __future__ import annotations
 
 import argparse
-import io
 import json
 import locale
 import os
@@ -25,7 +24,7 @@ import msgspec
 from nep_core.cli import doctor
 from nep_core.cli.doctor import Finding, examined, finding_lines
 from nep_core.networks.security.addresses import own_addresses
-from nep_core.places import cache_folder, key_file, log_folder, portable_folder
+from nep_core.places import cache_folder, key_file, log_folder, portable_folder, whole_file
 from nep_core.processes.process import program_command
 from nep_studio import __version__
 
@@ -94,26 +93,19 @@ class Report:
 
     def save(self, path: Path) -> None:
         """Write a zip file with both, as a whole; raises OSError."""
-        made = io.BytesIO()
-        with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as file:
+        with whole_file(path) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as file:
             file.writestr("report.txt", self.text())
             file.writestr("report.json", self.json())
-        new = path.with_name(f".{path.name}.new")
-        try:
-            new.write_bytes(made.getvalue())
-            new.replace(path)
-        finally:
-            new.unlink(missing_ok=True)
 
 
 def report_of(text: bytes | str) -> Report:
     """The report that ``json`` gave; raises msgspec.MsgspecError (a ValueError)."""
 
-    class Told(msgspec.Struct):
+    class Kept(msgspec.Struct):
         made: str
         parts: tuple[Part, ...]
 
-    told = msgspec.json.decode(text, type=Told)
+    told = msgspec.json.decode(text, type=Kept)
     return Report(told.parts, told.made)
 
 
@@ -125,7 +117,7 @@ def _without_names(part: Part, anonymous: Anonymous) -> Part:
             Finding(
                 hide(one.about),
                 one.state,
-                hide(one.told),
+                hide(one.sentence),
                 tuple(map(hide, one.steps)),
             )
             for one in part.findings

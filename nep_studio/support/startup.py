@@ -14,6 +14,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from nep_core.places import whole_file
+
 NAME = "nep-studio-show"
 LABEL = "org.nep-studio.show"
 AGAIN_S = 5
@@ -97,12 +99,8 @@ def write(files: Sequence[StartupFile]) -> None:
     """Write the files, each as a whole; raises OSError."""
     for file in files:
         file.path.parent.mkdir(parents=True, exist_ok=True)
-        new = file.path.with_name(f".{file.path.name}.new")
-        try:
-            new.write_text(file.text, encoding="utf-8", newline="")
-            new.replace(file.path)
-        finally:
-            new.unlink(missing_ok=True)
+        with whole_file(file.path) as new:
+            new.write(file.text.encode())
 
 
 def remove(files: Sequence[StartupFile]) -> None:

@@ -15,9 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
-from PySide6.QtCore import QSettings
-
 from nep_studio import __version__
+from nep_studio.settings import Kept, Settings, SettingsFile
 
 if TYPE_CHECKING:
     import ssl
@@ -57,21 +56,16 @@ class Newest:
         return numbers(self.version) > numbers(__version__)
 
 
-class UpdateChoice:
+class UpdateChoice(SettingsFile):
     """What a person chose about updates, and when it was asked last."""
 
+    is_wanted = Kept("updates/check", False)
+    """Whether the person wants to be told."""
+    announced = Kept("updates/announced", "")
+    """The version of which the person has been told."""
+
     def __init__(self, settings: Settings) -> None:
-        file = str(settings.folder / "settings.ini")
-        self._values = QSettings(file, QSettings.Format.IniFormat)
-
-    @property
-    def is_wanted(self) -> bool:
-        """Whether the person wants to be told."""
-        return self._text("check") == "yes"
-
-    @is_wanted.setter
-    def is_wanted(self, is_so: bool) -> None:
-        self._values.setValue("updates/check", "yes" if is_so else "no")
+        super().__init__(settings.folder)
 
     @property
     def address(self) -> str:
@@ -82,16 +76,7 @@ class UpdateChoice:
     @address.setter
     def address(self, address: str) -> None:
         chosen = address.strip()
-        self._values.setValue("updates/address", "" if chosen == ADDRESS else chosen)
-
-    @property
-    def told(self) -> str:
-        """The version of which the person has been told."""
-        return self._text("told")
-
-    @told.setter
-    def told(self, version: str) -> None:
-        self._values.setValue("updates/told", version)
+        self.values.setValue("updates/address", "" if chosen == ADDRESS else chosen)
 
     def is_due(self, now_s: float) -> bool:
         """Whether it is wanted, and was not asked within a day; a clock that went back counts."""
@@ -103,11 +88,11 @@ class UpdateChoice:
 
     def note_asked(self, now_s: float | None = None) -> None:
         """Note that it is asked now, whatever comes of it."""
-        self._values.setValue("updates/asked", f"{time.time() if now_s is None else now_s:.0f}")
-        self._values.sync()
+        self.values.setValue("updates/asked", f"{time.time() if now_s is None else now_s:.0f}")
+        self.values.sync()
 
     def _text(self, name: str) -> str:
-        value = self._values.value(f"updates/{name}", "")
+        value = self.values.value(f"updates/{name}", "")
         return value if isinstance(value, str) else ""
 
 

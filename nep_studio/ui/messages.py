@@ -63,7 +63,7 @@ class Message:
 
 
 @dataclass(frozen=True)
-class Told:
+class LoggedMessage:
     """A message, and when it was told (time.time())."""
 
     message: Message
@@ -89,11 +89,11 @@ class Messages(QObject):
     ``told`` gives each message as it is told; ``history`` has the last ones, the newest last.
     """
 
-    told = Signal(object)  # Told
+    told = Signal(object)  # LoggedMessage
 
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
-        self.history: deque[Told] = deque(maxlen=MOST_TOLD)
+        self.history: deque[LoggedMessage] = deque(maxlen=MOST_TOLD)
         self._window = window
         self._place: Place | None = None
 
@@ -107,7 +107,7 @@ class Messages(QObject):
         if self._place is not None:
             self._place.show_message(message)
         announce(self._window, message.spoken)
-        self.history.append(Told(message, time.time()))
+        self.history.append(LoggedMessage(message, time.time()))
         self.told.emit(self.history[-1])
 
     def tell_problem(self, problem: Problem, *answers: Answer, kind: Kind = "error") -> None:

@@ -17,6 +17,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.errors import NepError
 from nep_core.networks import transports
+from nep_core.networks.master_client import Feed
 from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
 from nep_core.networks.transports import topics_of
@@ -231,7 +232,7 @@ class NetworkWatch:
         self._traffic = Traffic()
         self._meter = ProcessMeter()
         self._uses: dict[int, Use | None] = {}
-        self._feed: transports.Feed | None = None
+        self._feed: Feed | None = None
         self._registered: list[Registration] = []
         self._measured_s = 0.0
         self.latest = Seen()

@@ -38,6 +38,8 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
 
     With ``hold`` it is ready first, and begins when the studio says start. With ``trace`` it
     tells where it is, and can be paused.
+
+    ``node`` is this node.
     """
     if not Path(file).is_file():
         raise ProgramFailed(

@@ -42,6 +42,11 @@ def run(
 
     Raises RecordingError when the model cannot be used or does not know the gesture, and
     ParameterError when the certainties cannot be read.
+
+    ``node`` is this node; ``model`` a file ("": the paper's); ``gesture`` the names, with commas
+    between them ("": all); ``method`` the recogniser; ``certainty`` the one from which a gesture
+    counts, 0 to 1 (0: as learned), ``certainties`` that of some gestures; ``worn`` is how the
+    watch sits.
     """
     path = Path(model) if model else resource_folder() / "gestures" / "paper.gestures"
     known = read_model(path)

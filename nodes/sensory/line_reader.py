@@ -12,12 +12,12 @@ from statistics import median
 
 from faults import Text, text_of
 from nep_core.errors import ParameterError
+from nep_core.processes.manifest import finite_number
 
 from .connectors.connector import Arrived
 from .reading import (
     G_M_S2,
     Reading,
-    finite_number,
     is_of_an_app,
     is_of_paper_watch,
     read_app,
@@ -54,7 +54,7 @@ class Layout:
     gravity_included: bool = True
 
     @property
-    def told(self) -> str:
+    def words(self) -> str:
         """The columns for a person: "t (ms), ax, ay, az (m/s²), gx, gy, gz (rad/s)"."""
         units = {"t": self.time_unit, "az": self.acc_unit, "gz": self.gyr_unit}
         names = [f"{role} ({units[role]})" if units.get(role) else role for role in self.roles]
@@ -157,7 +157,11 @@ def guess_columns(rows: Sequence[Row], arrived_s: Sequence[float]) -> Layout | N
 def guess_units(
     layout: Layout, rows: Sequence[Row], arrived_s: Sequence[float], given: Layout | None = None
 ) -> Layout:
-    """The units of these columns; those that are ``given`` are kept."""
+    """The units of these columns; those that are ``given`` are kept.
+
+    ``layout`` says what the columns are, ``rows`` (n, c) are their numbers, ``arrived_s`` (n,)
+    when each row came.
+    """
     given = given or Layout(layout.roles)
     columns = dict(zip(layout.roles, zip(*rows, strict=True), strict=False))
     if "t" in columns and _stands_still(columns["t"]):
@@ -330,7 +334,7 @@ class Fault:
 
     line: str
 
-    def told(self, sender: str) -> Text:
+    def sentence(self, sender: str) -> Text:
         """What is wrong, as a sentence."""
         if _HTTP.match(self.line):
             return text_of(
@@ -438,9 +442,9 @@ class LineReader:
         self._forms: dict[object, _Form] = {}
 
     @property
-    def told(self) -> str:
+    def columns(self) -> str:
         """How the columns are read; "" before that is known, and for formats that say it."""
-        return " | ".join(form.layout.told for form in self._forms.values() if form.layout)
+        return " | ".join(form.layout.words for form in self._forms.values() if form.layout)
 
     def read(self, lines: Sequence[bytes], now_s: float) -> Read:
         """The readings of some lines that arrived together."""
@@ -583,5 +587,5 @@ class LineSenders:
         if len(self._readers) > _MOST_SENDERS:
             del self._readers[next(iter(self._readers))]
         read = reader.read(lines, now_s)
-        trouble = read.fault.told(sender) if read.fault else ""
-        return Arrived(sender, read.readings, now_s, trouble, reader.told)
+        trouble = read.fault.sentence(sender) if read.fault else ""
+        return Arrived(sender, read.readings, now_s, trouble, reader.columns)

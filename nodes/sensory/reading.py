@@ -5,13 +5,13 @@ A reading is an acceleration, a rotation rate, or both.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import msgspec
 
+from nep_core.processes.manifest import finite_number
 from nodes.recordings import Floats
 
 Vector = tuple[float, float, float]
@@ -34,17 +34,6 @@ class Reading:
     stamp: float | None = None
     stamp_unit_s: float | None = None
     gravity_included: bool = True
-
-
-def finite_number(value: object) -> float | None:
-    """A finite number, from a number or its text; None for anything else."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        return None
-    try:
-        number = float(value)
-    except (ValueError, OverflowError):
-        return None
-    return number if math.isfinite(number) else None
 
 
 def vector(value: object) -> Vector | None:

@@ -28,6 +28,9 @@ def run(
     """Publish ``/imu`` at the recordings' own rate times ``speed``; raises RecordingError.
 
     Times in the messages are those of the recordings, one recording after the other.
+
+    ``node`` is this node, ``recording`` a file or a folder; ``loop``: again and again;
+    ``start_s``: from so far into it; ``quit_at_end``: the node ends with it.
     """
     recordings = _read(Path(recording), start_s)
     publisher = node.publisher(IMU)

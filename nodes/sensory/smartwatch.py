@@ -113,7 +113,7 @@ class Hearing:
         self._began_s = time.monotonic()
         self._ever_heard = False
         self._is_connected = False
-        self._told: tuple[float, float, str, float] = (0.0, 0.0, "", 0.0)
+        self._last_state: tuple[float, float, str, float] = (0.0, 0.0, "", 0.0)
         self._follow("", 0.0)
 
     def hear(self, arrivals: Sequence[Arrived], now_s: float) -> Imu | None:
@@ -159,7 +159,7 @@ class Hearing:
         if arrived.readings:
             self._heard_s = now_s
             self._ever_heard = True
-        self._columns = arrived.told or self._columns
+        self._columns = arrived.columns or self._columns
         if arrived.number is not None:
             self._stream.flow.add_message(arrived.number)
         samples = self._stream.samples(arrived.readings, arrived.arrived_s)
@@ -203,13 +203,13 @@ class Hearing:
         self._tell_silence(now_s)
 
     def _tell_flow(self, now_s: float) -> None:
-        is_news = not self._is_connected or self._columns != self._told[2]
+        is_news = not self._is_connected or self._columns != self._last_state[2]
         if not is_news and now_s - self._measured_s < MEASURES_S:
             return
         self._measured_s = now_s
         if not self._is_connected or self._has_changed(now_s):
             self._is_connected = True
-            self._told = (self._stream.rate_hz, self._stream.flow.loss, self._columns, now_s)
+            self._last_state = (self._stream.rate_hz, self._stream.flow.loss, self._columns, now_s)
             self._tell_connected(self._stream.rate_hz, self._stream.flow.loss)
         else:
             self._node.state("alive", measures=self._stream.measures)
@@ -243,7 +243,7 @@ class Hearing:
         )
 
     def _has_changed(self, now_s: float) -> bool:
-        rate_hz, loss, columns, told_s = self._told
+        rate_hz, loss, columns, told_s = self._last_state
         if columns != self._columns:
             return True
         if now_s - told_s < _TOLD_AGAIN_S:
@@ -302,7 +302,13 @@ def run(
     columns: str,
     units: str,
 ) -> None:
-    """Publish ``/imu`` from what one sender sends; PortTaken or ParameterError when it cannot."""
+    """Publish ``/imu`` from what one sender sends; PortTaken or ParameterError when it cannot.
+
+    ``node`` is this node, ``through`` the connector, ``port`` its port (0: its usual one),
+    ``address`` the phone's or the device's, ``listen_on`` who may send, ``wrist`` where it is
+    worn, ``token`` the phone page's, ``columns`` and ``units`` what its numbers are, where that
+    is not to be guessed.
+    """
     kind = CONNECTORS[through]
     connector = kind.make(Settings(port or kind.port, address, listen_on, token, columns, units))
     publisher = node.publisher(IMU)

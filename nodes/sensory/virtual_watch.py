@@ -169,6 +169,9 @@ class Wearer:
     """Somebody who wears the watch: makes one gesture after the other, else something calm.
 
     The same person, rate, seed and requests give the same samples.
+
+    ``person`` is the number of who wears it, ``rate_hz`` how often it measures, ``seed`` that
+    of the chance, ``start_s`` the time of the first sample.
     """
 
     def __init__(self, person: int, rate_hz: float, seed: int, start_s: float = 0.0) -> None:
@@ -467,6 +470,10 @@ def run(
     ``takes``: a folder of recordings whose gestures can be asked for too; RecordingError when it
     cannot be read. ``speed``: how many times faster than real time the person lives and the
     watch's clock goes.
+
+    ``node`` is this node, ``rate_hz`` how often it measures, ``person`` who wears it,
+    ``gestures`` the schedule, ``repeat`` whether it begins anew at its end, ``seed`` that of
+    the chance.
     """
     repertoire = read_repertoire(takes)
     schedule = Schedule(read_schedule(gestures, repertoire.find), repeat=repeat)
@@ -522,7 +529,7 @@ class _Watch:
         self._rate_hz = rate_hz
         self._seed = seed
         self._wearer = Wearer(person, rate_hz, seed)
-        self._told = ""
+        self._announced = ""
 
     def hear(self, request: GestureRequest) -> None:
         """Let the wearer, or the person asked for, make a gesture."""
@@ -564,7 +571,7 @@ class _Watch:
         self._node.state("running", "simulated person {person} puts the watch on", person=person)
 
     def _tell(self, gesture: str) -> None:
-        if gesture != self._told:
+        if gesture != self._announced:
             makes = fault_of(
                 "makes the gesture {gesture} (simulated person {number})",
                 code=MAKES_GESTURE,
@@ -572,4 +579,4 @@ class _Watch:
                 number=self._wearer.number,
             )
             self._node.state("running", makes if gesture else "goes on with everyday movement")
-        self._told = gesture
+        self._announced = gesture

@@ -47,7 +47,11 @@ def places(eye: Points, rays: Pixels, ways: Pixels) -> Pixels:
 
 
 def ball(eye: Points, rays: Pixels, centre: Points, radius: float) -> Hit:
-    """Return where rays from an eye meet a ball."""
+    """Return where rays from an eye meet a ball.
+
+    ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) and ``radius``
+    are the ball's, m.
+    """
     start = eye - centre
     ways = _first_way(
         (rays**2).sum(-1), (rays @ start).astype(np.float32), float(start @ start) - radius**2
@@ -56,7 +60,11 @@ def ball(eye: Points, rays: Pixels, centre: Points, radius: float) -> Hit:
 
 
 def post(eye: Points, rays: Pixels, foot: Points, height: float, radius: float) -> Hit:
-    """Return where rays from an eye meet a round post; it has no lid."""
+    """Return where rays from an eye meet a round post; it has no lid.
+
+    ``eye`` (3,) is where they begin, ``rays`` their directions; ``foot`` (3,), ``height`` and
+    ``radius`` are the post's, m.
+    """
     start = eye - foot
     flat, flat_rays = start[:2], rays[..., :2]
     nearness = float(flat @ flat) - radius**2
@@ -68,7 +76,11 @@ def post(eye: Points, rays: Pixels, foot: Points, height: float, radius: float) 
 
 
 def box(eye: Points, rays: Pixels, centre: Points, heading: float, half: Points) -> Hit:
-    """Return where rays from an eye meet a box, half as large as ``half``, turned on the floor."""
+    """Return where rays from an eye meet a box, half as large as ``half``, turned on the floor.
+
+    ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) is the box's,
+    m, ``heading`` how it is turned, rad.
+    """
     turn = _turned(heading)
     start, into = (eye - centre) @ turn, rays @ turn
     safe = np.where(np.abs(into) < 1e-9, 1e-9, into)
@@ -83,7 +95,11 @@ def box(eye: Points, rays: Pixels, centre: Points, heading: float, half: Points)
 
 
 def disc(eye: Points, rays: Pixels, centre: Points, heading: float, radius: float) -> Hit:
-    """Return where rays from an eye meet an upright disc; it faces where it heads, both sides."""
+    """Return where rays from an eye meet an upright disc; it faces where it heads, both sides.
+
+    ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) and ``radius``
+    are the disc's, m, ``heading`` where it heads, rad.
+    """
     ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
     start, towards = eye - centre, rays @ ahead
     safe = np.where(np.abs(towards) < 1e-9, 1e-9, towards)
@@ -95,7 +111,11 @@ def disc(eye: Points, rays: Pixels, centre: Points, heading: float, radius: floa
 
 
 def on_disc(hit: Hit, eye: Points, rays: Pixels, centre: Points, heading: float) -> Pixels:
-    """Return where on a disc rays meet it: m to the right of who looks at it, and up."""
+    """Return where on a disc rays meet it: m to the right of who looks at it, and up.
+
+    ``hit`` is what ``disc`` gave for the same ``eye``, ``rays``, ``centre`` (m) and ``heading``
+    (rad).
+    """
     met = places(eye - centre, rays, hit.ways)
     right = met[..., :2] @ np.array([-math.sin(heading), math.cos(heading)])
     return np.stack([right, met[..., 2]], axis=-1).astype(np.float32)

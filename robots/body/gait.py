@@ -98,6 +98,9 @@ def plan_walk(
     """Return the walk by so many m forward and left, turning ``turn`` rad evenly on the way.
 
     ``standing``: the angles of every joint in the posture that it starts and ends in, feet flat.
+
+    ``body`` is whose legs they are, ``forward_m`` and ``left_m`` how far, ``at_least_steps``
+    the fewest steps.
     """
     way = np.array([forward_m, left_m, turn])
     steps = max(at_least_steps, math.ceil(float(np.max(np.abs(way) / _LONGEST_STEP)) - 1e-9))
@@ -426,6 +429,8 @@ def walk(
     """Walk over the floor with steps, turning by ``turn`` rad on the way.
 
     Raises ActionFailed when the robot does not stand, and when it walks into something.
+
+    ``robot`` walks ``forward_m`` and ``left_m``, in ``at_least_steps`` steps or more.
     """
     if robot.family in DOES_NOT_STAND:
         raise ActionFailed(

@@ -284,7 +284,11 @@ def look_at(robot: VirtualRobot, place: Place, frame: str) -> Task:
 
 
 def point_at(robot: VirtualRobot, place: Place, frame: str, side: str) -> Task:
-    """Stretch an arm out towards a place, as far as the shoulder goes."""
+    """Stretch an arm out towards a place, as far as the shoulder goes.
+
+    ``robot`` points with the arm of a ``side``, "left" or "right", to ``place`` (x, y, z), m,
+    in a ``frame``.
+    """
     goal, columns = pointing(robot, place, frame, side)
     allowed, clamped = robot.body.clamped(goal)
     motion = move(robot.body, robot.angles, allowed, columns, speed=POINTING_SPEED)
@@ -293,7 +297,11 @@ def point_at(robot: VirtualRobot, place: Place, frame: str, side: str) -> Task:
 
 
 def pointing(robot: VirtualRobot, place: Place, frame: str, side: str) -> tuple[Angles, list[int]]:
-    """Return the angles of every joint while pointing, and which joints that moves."""
+    """Return the angles of every joint while pointing, and which joints that moves.
+
+    ``robot`` points with the arm of a ``side``, "left" or "right", to ``place`` (x, y, z), m,
+    in a ``frame``.
+    """
     pitch, roll = arm_angles(in_torso(robot, place, frame), side, robot.body)
     letter, bend = ("L", -0.0349) if side == "left" else ("R", 0.0349)
     joints = {"ShoulderPitch": pitch, "ShoulderRoll": roll, "ElbowYaw": 0.0, "ElbowRoll": bend}
@@ -306,7 +314,10 @@ def pointing(robot: VirtualRobot, place: Place, frame: str, side: str) -> tuple[
 
 
 def arm_for(robot: VirtualRobot, place: Place, frame: str, arm: str) -> str:
-    """Return the arm to point with: the wanted one, else the one on the side of the place."""
+    """Return the arm to point with: the wanted one, else the one on the side of the place.
+
+    ``robot`` is who points, to ``place`` (x, y, z), m, in a ``frame``.
+    """
     return arm or ("left" if in_torso(robot, place, frame)[1] >= 0 else "right")
 
 

@@ -167,6 +167,8 @@ def track_angles(track: Track, start_rad: float, times_s: Angles, fastest: float
     ``fastest``: the joint's top speed (rad/s), which handles are kept to; keys are not.
 
     The first key must be later than 0. Before and after the keys the joint holds still.
+
+    ``track`` has the keys, ``times_s`` (n,) are when.
     """
     x, y = control_points(track, start_rad, fastest)
     piece = np.clip(np.searchsorted(x[0], times_s, side="right") - 1, 0, len(x[0]) - 1)

@@ -253,6 +253,8 @@ def write_legs(
     ``ankles``: for "L" and "R" where the ankle is in the torso's frame (ticks, 3), m; ``up``: which
     way is up there, at right angles to the soles; ``yaw_between``: how far the left foot is turned
     against the right one (ticks,), rad, which one motor does for both.
+
+    ``body`` is whose legs they are.
     """
     sizes = leg_sizes(body)
     hip_turn = -yaw_between / 2.0 / HIP_TILT

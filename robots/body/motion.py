@@ -54,6 +54,9 @@ def move(
     """Return the minimum-jerk movement of some joints from a pose to a goal (both: every joint).
 
     No joint moves faster than ``speed`` (0 to 1) times its top speed.
+
+    ``body`` is what moves; ``columns`` are the joints that do, by number; ``at_least_s`` is the
+    shortest time.
     """
     chosen = list(columns)
     start, end = pose[chosen], goal[chosen]
@@ -71,6 +74,8 @@ def keyframe_motion(
 
     They are made ``playable``; angles that the joints cannot have are clamped. The notes say so.
     Raises ActionFailed when that lasts too long.
+
+    ``body`` is what moves; ``softly`` is as for ``playable``.
     """
     keyframes, notes = playable(body, pose, keyframes, softly=softly)
     if keyframes.duration_s > LONGEST_S:
@@ -91,6 +96,8 @@ def playable(
 
     The way to the first keys gets the time that it needs to look calm, unless not ``softly``; what
     is too fast is stretched in time.
+
+    ``body`` is what moves.
     """
     notes: list[str] = []
     keyframes = _with_coupled_joints(body, keyframes)
@@ -107,7 +114,11 @@ def playable(
 
 
 def braking(body: Body, pose: Angles, speed_rad_s: Angles, columns: Sequence[int]) -> Motion:
-    """Return how some joints come to rest in BRAKING_S (pose and speeds: of every joint)."""
+    """Return how some joints come to rest in BRAKING_S (pose and speeds: of every joint).
+
+    ``body`` is what moves, ``speed_rad_s`` how fast, ``columns`` are the joints that brake, by
+    number.
+    """
     allowed, _ = body.clamped(pose + braking_way_s()[:, None] * speed_rad_s)
     return Motion(tuple(columns), allowed[:, list(columns)])
 

@@ -95,6 +95,8 @@ def spoken_parts(text: str, mode: str, animations: Animations, known: GestureWor
     """Return the parts of a text, each with its gesture; ``mode`` is one of BODY_LANGUAGES.
 
     The same text has the same gestures every time.
+
+    ``animations`` are those that the robot has, ``known`` the words that go with gestures.
     """
     possible = [
         name for name in animations.names("gesture") if animations.get(name).limbs <= UPPER_BODY

@@ -121,7 +121,11 @@ def look(robot: VirtualRobot, yaw: float, pitch: float) -> Task:
 
 
 def light(robot: VirtualRobot, group: str, colour: int, seconds: float) -> Task:
-    """Fade a group of lights to a colour."""
+    """Fade a group of lights to a colour.
+
+    ``robot`` is whose lights they are, ``group`` which of them, ``colour`` 0xRRGGBB, reached in
+    so many ``seconds``.
+    """
     before = {name: leds.shining(robot.leds, name) for name in leds.lights(group)}
     steps = max(1, round(seconds / TICK_S))
     for step in range(1, steps + 1):
@@ -141,7 +145,10 @@ def _act(robot: VirtualRobot, keyframes: Keyframes) -> Task:
 def go(
     robot: VirtualRobot, posture: str, limbs: Collection[Limb], speed: float = POSTURE_SPEED
 ) -> Task:
-    """Move some limbs to where they are in a posture."""
+    """Move some limbs to where they are in a posture.
+
+    ``robot`` moves, at most at ``speed`` (0 to 1) times its joints' top speeds.
+    """
     body = robot.body
     columns = body.columns(limbs)
     goal = body.posture_angles(posture)

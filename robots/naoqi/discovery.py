@@ -92,6 +92,8 @@ def find_robots(
 
     Waits: call it in a thread of its own. ``interfaces`` are addresses of this computer; none are
     all of them. Raises OSError where the computer has no network.
+
+    ``cancelled`` ends it early; ``seconds`` is how long it listens.
     """
     from zeroconf import InterfaceChoice, ServiceBrowser, Zeroconf
 

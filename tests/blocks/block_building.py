@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddGroup, SetField
 from nep_studio.blocks.files import to_bytes
+from nep_studio.blocks.from_python.reading import scratch_of
+from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InBody, InInput, InStack
 from nep_studio.blocks.program import Project
@@ -101,3 +103,10 @@ def changed_karate(language: Language, change: Callable[..., None]) -> bytes:
     data = json.loads(to_bytes(karate(language).project))
     change(data, {block["id"]: block for block in data["blocks"]})
     return json.dumps(data, indent=1).encode()
+
+
+def read_program(text: str, language: Language, base: Project | None = None) -> Project:
+    """The project that a whole program says; of ``base``, what is not said in Python stays."""
+    editor = scratch_of(base or Project(), language)
+    update_from_python(editor, text)
+    return editor.project

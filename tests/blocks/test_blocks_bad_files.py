@@ -168,7 +168,7 @@ def test_files_of_another_kind_are_refused(language, data, told):
 
 
 def test_shapes_that_no_hand_could_make_are_refused(language):
-    plain = {"format": "nep-studio-project", "version": 1, "name": "x"}
+    plain = {"format": "nep-studio-project", "version": 2, "name": "x"}
 
     def told(*blocks, body):
         entry = {**plain, "pages": {"behaviour": [{"id": "s1", "x": 0, "y": 0, "body": body}]}}

@@ -12,7 +12,7 @@ from random_programs import Dice
 
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import Edit
+from nep_studio.blocks.edits import ANY_EDIT
 from nep_studio.blocks.edits.content import AddGroup, RemoveGroup, SetField, SetFlag
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
 from nep_studio.blocks.errors import CodeRefused, EditRefused
@@ -93,7 +93,7 @@ def test_every_edit_can_be_written_to_a_journal_and_played_again(language, data)
             editor.apply(edit)
         except EditRefused:
             continue
-        msgspec.json.decode(line, type=Edit).apply(replayed)
+        msgspec.json.decode(line, type=ANY_EDIT).apply(replayed)
 
     assert to_bytes(replayed) == to_bytes(editor.project)
 

@@ -135,7 +135,7 @@ def test_a_chain_of_ten_thousand_nested_blocks_is_read_and_told_not_crashed_on(l
     ]
     blocks.append({"id": f"b{count}", "type": "control.wait"})
     stack = {"id": "s1", "x": 0, "y": 0, "body": ["b0", "b1"]}
-    plain = {"format": "nep-studio-project", "version": 1, "name": "x"}
+    plain = {"format": "nep-studio-project", "version": 2, "name": "x"}
     data = json.dumps({**plain, "pages": {"behaviour": [stack]}, "blocks": blocks}).encode()
 
     project = from_bytes(data, "deep.nep", language)

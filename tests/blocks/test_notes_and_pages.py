@@ -12,7 +12,7 @@ from sound_programs import kinds
 from nep_studio.blocks.edits.content import AddNote, ChangeNote, SetCommentSize
 from nep_studio.blocks.edits.project import AddPage, MovePage, RemovePage, RenamePage
 from nep_studio.blocks.errors import EditRefused, ProjectFileError
-from nep_studio.blocks.files import VERSION, from_bytes, to_bytes
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.places import NewStack
 from nep_studio.blocks.program import Note
@@ -123,18 +123,6 @@ def test_robots_do_not_go_onto_an_added_page(language):
 
     with pytest.raises(EditRefused, match="on the page Robots"):
         editor.create("robots.robot", NewStack("page9", "s90", 0, 0, 0))
-
-
-@pytest.mark.parametrize("path", WITHOUT_OWN_BLOCKS, ids=lambda path: path.stem)
-def test_projects_of_the_first_version_open_and_are_saved_as_the_second(language, path):
-    data = json.loads(path.read_bytes())
-    first = {k: data[k] for k in ("blocks", "format", "name", "pages", "variables")}
-
-    project = from_bytes(json.dumps({**first, "version": 1}).encode(), path.name, language)
-
-    assert json.loads(to_bytes(project))["version"] == VERSION == 2
-    assert to_bytes(from_bytes(to_bytes(project), "x.nep", language)) == to_bytes(project)
-    assert generate_program(project, language).text
 
 
 def test_what_a_later_version_adds_to_the_file_is_kept(language):

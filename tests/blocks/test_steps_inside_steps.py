@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from nep_studio.blocks.edits.content import AddNote, ChangeNote, SetField
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import from_bytes, to_bytes
-from nep_studio.blocks.program import Note, Project
+from nep_studio.blocks.program import Note
 
 
 def test_what_fails_inside_a_step_is_taken_back_and_the_step_goes_on(language):
@@ -40,18 +40,6 @@ def test_steps_cannot_be_dropped_inside_a_step(language):
         editor.history.drop(0)
 
     assert editor.project.blocks
-
-
-def test_a_project_of_version_1_has_pages_and_no_own_blocks(language):
-    text = to_bytes(Project("Old")).replace(b'"version": 2', b'"version": 1')
-    lines = [
-        line for line in text.splitlines() if not line.startswith((b'"procedures"', b'"notes"'))
-    ]
-
-    project = from_bytes(b"\n".join(lines), "old.nep", language)
-
-    assert list(project.pages) == ["behaviour", "robots", "nodes"]
-    assert not project.procedures and not project.notes
 
 
 def test_typing_in_a_note_and_moving_it_are_two_steps(language):

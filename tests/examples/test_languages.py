@@ -67,7 +67,7 @@ def test_a_sensory_node_is_heard_from_its_first_message_on(
     assert imu.lost == 0 and imu.header is not None and imu.header.sequence == len(batches)
     told = [state.event for state in until(states, lambda state: state.event == "stopped")]
     assert [event for event in told if event != "alive"] == ["starting", "ready", "stopped"]
-    assert board.told.wait(WAIT_S) and board.outcome is not None and board.outcome.code == 0
+    assert board.end_reported.wait(WAIT_S) and board.outcome is not None and board.outcome.code == 0
 
 
 def test_a_perceptual_node_hears_our_watch_and_tells_what_the_person_does(

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from nep_core.networks import master_messages as says
 from nep_core.networks.master import Master
-from nep_core.networks.master_messages import find_topic
 from tests.nep_core.master_process import MasterProcess, RawProgram, registration, until
 
 WORDS = ["register", "change", "alive", "bye", "list", "find", "watch", "stop", "sing"]
@@ -137,7 +136,8 @@ def test_a_lookup_tells_who_is_at_a_topic(master: Master, program: RawProgram) -
     told = registration("n", "i", publishes=["/x"], subscribes={"s": "/x", "t": "/y"})
     program.ask(says.Register(version=1, registration=told))
 
-    found = find_topic(master.endpoint, "/x")
+    with says.MasterProbe(master.endpoint) as probe:
+        found = probe.ask(says.Find(topic="/x"), says.Found, 2.0)
 
     assert found == says.Found(topic="/x", publishers=[told.publishing], subscribers=["s"])
 

@@ -13,6 +13,7 @@ import msgspec
 import pytest
 import zmq
 
+import nep_core
 from nep_core.networks.master import Master
 from nep_core.networks.network import Network
 from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
@@ -208,3 +209,7 @@ def test_a_publisher_that_is_heard_is_remembered_though_another_starts_again_and
     totals.note(Header("lasting", 100, 0), 1)
 
     assert totals.lost == 100 - 22
+
+
+def test_every_public_name_is_there() -> None:
+    assert all(getattr(nep_core, name) for name in nep_core.__all__)

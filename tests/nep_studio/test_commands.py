@@ -19,7 +19,7 @@ EXAMPLES = sorted(paths.examples().glob("*.nep"))
 
 ZERO = {
     "format": "nep-studio-project",
-    "version": 1,
+    "version": 2,
     "name": "Zero",
     "variables": [{"id": "v1", "name": "times"}],
     "blocks": [

@@ -48,7 +48,7 @@ CHILD = """
 import sys
 from pathlib import Path
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits import SetField
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.program import Project
 from nep_studio.project.journal import Journal
 from nep_studio.run.installation import studio_language

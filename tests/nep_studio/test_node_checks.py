@@ -8,12 +8,14 @@ from typing import Any
 import pytest
 
 from nep_core.places import NODES_VARIABLE
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.run.installation import all_problems, studio_language
 from tests.nep_studio.test_plan import project
 
 
-def problems(folder: Path, *nodes: dict[str, Any], robots: tuple[Any, ...] = ()) -> list[Problem]:
+def problems(
+    folder: Path, *nodes: dict[str, Any], robots: tuple[Any, ...] = ()
+) -> list[Diagnostic]:
     language = studio_language()
     given = project(language, nodes=nodes, robots=robots)
     kinds = ("node_settings", "reserved_name", "robot_address")

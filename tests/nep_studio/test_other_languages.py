@@ -15,6 +15,7 @@ from nep_core.processes.process import Outcome
 from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.run.installation import studio_language
+from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.node_board import NodeBoard, NodeStatus
 from nep_studio.run.session import PROGRAM, Session
 from nep_studio.run.timeline import Timeline
@@ -107,7 +108,7 @@ def test_a_failed_action_has_its_line_and_its_own_words(language: Language) -> N
 
 
 def test_a_failed_program_ends_at_its_line(tmp_path: Path) -> None:
-    session = Session(tmp_path / "program.py", [], lambda *_: None)
+    session = Session([], LocalNetwork(logs=tmp_path))
     fault = fault_of("{robot} antwortet nicht.", checklist=("Ist er an?",), robot="NAO")
     told = m.described(fault)
     told["text_values"] = told.pop("values")

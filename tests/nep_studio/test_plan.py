@@ -48,7 +48,7 @@ def project(
         stack("nodes", {"type": "nodes.launch", "fields": fields})
     whole = {
         "format": "nep-studio-project",
-        "version": 1,
+        "version": 2,
         "name": "Test",
         "variables": [],
         "blocks": blocks,

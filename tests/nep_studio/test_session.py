@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 import msgspec
@@ -16,7 +16,7 @@ from nep_core.processes import launcher
 from nep_core.processes.process import Outcome
 from nep_core.wire import messages as m
 from nep_studio.run import session as sessions
-from nep_studio.run.local_network import free_endpoint
+from nep_studio.run.local_network import LocalNetwork, free_endpoint
 from nep_studio.run.plan import REPLAY, PlannedNode
 from nep_studio.run.session import PROGRAM, Session
 
@@ -51,7 +51,9 @@ def session(folder: Path, program: str, *nodes: PlannedNode) -> Iterator[tuple[S
     file = folder / "program.py"
     file.write_text(program, encoding="utf-8")
     heard = Heard()
-    with Session(file, list(nodes), heard, logs=folder) as running:
+    network = LocalNetwork(logs=folder)
+    network.listen(heard)
+    with closing(network), Session(nodes, network, program=file) as running:
         yield running, heard
 
 
@@ -90,7 +92,7 @@ os._exit(3)
 
 
 def test_a_failure_that_comes_after_the_programs_end_still_names_its_line(tmp_path: Path) -> None:
-    waiting = Session(tmp_path / "program.py", [], Heard())
+    waiting = Session([], LocalNetwork(logs=tmp_path))
     late = m.ProgramState(program=PROGRAM, event="failed", description="Late.", line=7)
 
     class Late(threading.Condition):

@@ -101,7 +101,7 @@ def test_a_qt_that_cannot_start_is_told_with_what_to_do(tmp_path: Path) -> None:
     [screen] = [part for part in report.parts if part.title.startswith("Screen")]
     [qt] = [one for one in screen.findings if one.state == "look"]
     assert done.returncode == 1
-    assert "imaginary" in qt.told
+    assert "imaginary" in qt.sentence
     assert "nep-studio --safe-mode" in qt.steps[1]
     assert not report.is_sound
 

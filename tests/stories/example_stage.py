@@ -132,6 +132,10 @@ def staged(name: str, folder: Path, network: LocalNetwork, speed: float = FAST) 
     file.write_text(generate_program(project, language).text, encoding="utf-8")
     hats = {project.blocks[chain[0]].type for chain in rules(project, language)}
     stage = Stage(example, network, has_rules=hats != {"event.started"})
-    with Session(file, nodes, stage.hear, network=network):
-        stage.meet()
-        yield stage
+    network.listen(stage.hear)
+    try:
+        with Session(nodes, network, program=file):
+            stage.meet()
+            yield stage
+    finally:
+        network.unlisten(stage.hear)

@@ -21,7 +21,7 @@ YES, NO = "yes", "**no**"
 
 def words_of(definition: Definition) -> str:
     """The sentence of a block, with … for each of its places."""
-    return definition.told.replace("|", "\\|")
+    return definition.in_words.replace("|", "\\|")
 
 
 def table(results: dict[str, dict[str, bool]]) -> str:

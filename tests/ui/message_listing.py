@@ -51,7 +51,7 @@ class Said:
         return f"{self.place}:{self.line} {self.made_by}: {self.words}"
 
 
-MADE_BY = ("Message", "Problem", "BlockProblem", "refuse", "confirm", "Told")
+MADE_BY = ("Message", "Problem", "Diagnostic", "refuse", "confirm", "Explanation")
 """What makes messages besides errors."""
 
 
@@ -116,7 +116,7 @@ def _arguments(
         words = [_argument(call, 1, "title"), _argument(call, 2, "sentence")]
         kind = _words(_argument(call, 0, "kind"))
         return kind, words, _argument(call, 3, "checklist")
-    if name in ("Problem", "BlockProblem"):
+    if name in ("Problem", "Diagnostic"):
         first = _argument(call, 0, "title")
         if isinstance(first, ast.Constant) and first.value in PROBLEM_OF_BLOCKS:
             words = [_argument(call, 4, "sentence")]
@@ -127,7 +127,7 @@ def _arguments(
         return "warning", [_argument(call, 0, "reason")], _argument(call, 1, "checklist")
     if name == "confirm" and "essages" in ast.unparse(call.func):
         return "success", [_argument(call, 0, "title")], None
-    if name == "Told" and len(call.args) == 4:  # of nodes/cognitive/failures.py
+    if name == "Explanation" and len(call.args) == 4:  # of nodes/cognitive/failures.py
         return "error", [call.args[2]], call.args[3]
     return None
 

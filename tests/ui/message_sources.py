@@ -255,20 +255,16 @@ def given_to_tell(node: ast.AST) -> Iterator[ast.expr]:
         name = last_name(node.func)
         if name == "Fix":
             yield node.args[1]
-        elif name == "Problem" and node.args:
-            yield from node.args[:2] if _is_of_a_session(node) else node.args[4:5]
+        elif name == "Problem":
+            yield from node.args[:2]
+        elif name == "Diagnostic":
+            yield from node.args[4:5]
         elif name in errors():
             yield from node.args[:1]
         elif name in TEMPLATES and not _is_log(node.func):
             yield from node.args[TEMPLATES[name] :][:1]
     elif isinstance(node, ast.keyword) and node.arg == "checklist":
         yield from node.value.elts if isinstance(node.value, ast.Tuple | ast.List) else ()
-
-
-def _is_of_a_session(call: ast.Call) -> bool:
-    """Whether a problem has a title first, and not how bad it is, as those of blocks have."""
-    first = call.args[0]
-    return not (isinstance(first, ast.Constant) and " " not in str(first.value))
 
 
 def _constants(nodes: Iterable[ast.AST]) -> Iterator[tuple[str, ast.expr]]:

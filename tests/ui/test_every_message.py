@@ -15,7 +15,7 @@ from test_translation_tables import window_words
 from faults import fault_of
 from nep_core.errors import NepError
 from nep_core.processes.process import Outcome
-from nep_studio.blocks.checks.problem import Problem as BlockProblem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.plugins.nodes.notices import Circumstances, notice_of
@@ -84,7 +84,7 @@ def test_the_messages_of_all_rooms_are_listed() -> None:
         ("EditRefused", "There is something on this page: empty it first."),
         ("Problem", "“{name}” does not answer | _silent(name)"),
         ("refuse", "There is no project to run."),
-        ("Told", "A number was divided by zero."),
+        ("Explanation", "A number was divided by zero."),
         ("confirm", "The program has ended."),
     } <= found
 
@@ -186,7 +186,7 @@ def test_every_notice_of_a_node_in_trouble_has_a_checklist(event, health, is_our
 
 def test_the_list_knows_how_messages_are_made() -> None:
     """Where an argument moves, the list would look for checklists in the wrong place."""
-    names = list(inspect.signature(BlockProblem).parameters)
+    names = list(inspect.signature(Diagnostic).parameters)
 
     assert names[4:6] == ["sentence", "checklist"]
     assert Path(inspect.getfile(NepError)).name == "errors.py"

@@ -112,7 +112,7 @@ class HelpPages:
         ]
         parts = [f'<h1 id="top">{escape(title)}</h1><p>{escape(about)}</p>']
         parts += [self._block(each) for each in blocks]
-        words = {each.id: f"{each.told} {text_of(each.id).words}" for each in blocks}
+        words = {each.id: f"{each.in_words} {text_of(each.id).words}" for each in blocks}
         path = self._path(CATEGORY + category)
         return Page(path, title, "\n".join(parts), "blocks", self._code, about, words)
 
@@ -215,7 +215,7 @@ def others() -> dict[str, dict[str, dict[str, object]]]:
 def robots_html(code: str, language: Language, definition: Definition, english: Definition) -> str:
     """What is said of robots in the part about a block."""
     heading = f"<h3>{escape(word(code, 'robots'))}</h3>"
-    found = tried().get(english.told.replace("|", "\\|"))
+    found = tried().get(english.in_words.replace("|", "\\|"))
     if found is None:
         return f"{heading}<p>{escape(word(code, 'any_robot'))}</p>"
     look, on_screen, on_real = found

@@ -78,7 +78,11 @@ def read(frame: bytes, topic: str, kind: Kind) -> Any:
 
 
 def write(value: Any, topic: str, kind: Kind, prefixed: bool) -> bytes:
-    """A frame that holds ``value``; raises BadMessage when such a frame cannot hold it."""
+    """A frame that holds ``value``; raises BadMessage when such a frame cannot hold it.
+
+    ``topic`` and ``kind`` (how messages are written) are those of the line; ``prefixed``: the
+    topic stands before the message.
+    """
     try:
         payload = _payload(value, kind)
     except (*CANNOT_ENCODE, binascii.Error) as error:
@@ -157,7 +161,7 @@ class Request:
 
 def read_request(frame: bytes, old: bool) -> Request:
     """Take a request in; raises BadMessage. Only the topic must be there."""
-    told = _told(frame)
+    told = _decoded(frame)
     topic = told.get("topic")
     if not isinstance(topic, str):
         raise BadMessage('The request has no "topic".')
@@ -202,14 +206,14 @@ def refused(frame: bytes, sentence: str, ip: str) -> bytes:
     They would wait for ever for an answer that names another topic than they asked for.
     """
     try:
-        topic = _told(frame).get("topic", "")
+        topic = _decoded(frame).get("topic", "")
     except BadMessage:
         topic = ""
     answer = {"topic": topic, "port": 0, "ip": ip, "state": "failure", "error": sentence}
     return json.dumps(answer).encode()  # a topic of half a character is answered too
 
 
-def _told(frame: bytes) -> dict[str, Any]:
+def _decoded(frame: bytes) -> dict[str, Any]:
     try:
         told = json.loads(frame)
     except (ValueError, RecursionError) as error:
@@ -331,7 +335,11 @@ class Door(ABC):
 
 
 class WayIn(Door):
-    """Takes what programs publish."""
+    """Takes what programs publish.
+
+    ``context`` makes its socket, which ``watch`` lets the gateway's thread look at;
+    ``on_change`` is called when programs come or go, ``on_frame`` with each frame.
+    """
 
     kind = zmq.SUB
 
@@ -359,6 +367,9 @@ class WayOut(Door):
     """Gives programs what they subscribe to; ``wanted`` are their subscriptions.
 
     They tell what their program reads: bare frames if it takes everything, else prefixed ones.
+
+    ``context`` makes its socket, which ``watch`` lets the gateway's thread look at;
+    ``on_change`` is called when programs come or go; ``topic`` and ``shape`` are what it gives.
     """
 
     kind = zmq.XPUB

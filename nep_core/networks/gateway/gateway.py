@@ -116,6 +116,10 @@ class Gateway:
     ``troubles`` are sentences about ports that other programs use; raises PortTaken when no
     request could come. ``memory`` is a file by which a gateway that is started anew serves the
     programs of the one before.
+
+    ``master`` is the endpoint of ours, ``host`` the address at which programs reach the
+    gateway, ``node`` its name in the network, ``ports`` where it listens (None: where the
+    original does).
     """
 
     def __init__(

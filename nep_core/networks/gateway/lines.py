@@ -26,6 +26,7 @@ import zmq
 
 from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError, PortTaken
 from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.places import whole_file
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 from .doors import Context, Door, Request, Shape, Warner, Watch, WayIn, WayOut
@@ -81,11 +82,10 @@ class KeptLine(msgspec.Struct, frozen=True):
 
 def remember(file: Path, lines: list[KeptLine]) -> None:
     """Write the file anew; a failure is no reason to serve nobody."""
-    unfinished = file.with_suffix(f".{os.getpid()}")
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_bytes(msgspec.json.encode(lines))
-        unfinished.replace(file)
+        with whole_file(file) as new:
+            new.write(msgspec.json.encode(lines))
     except OSError as error:
         log.info("the ports of the original's programs are not kept: %s", error)
 
@@ -139,7 +139,12 @@ OnFrame = Callable[[str, Shape, bytes], None]
 
 
 class Lines:
-    """Opens a line when a program asks, and frees it when its programs are gone."""
+    """Opens a line when a program asks, and frees it when its programs are gone.
+
+    ``context`` makes the sockets, which ``watch`` lets the gateway's thread look at; they are
+    bound at ``host`` from ``first_port`` up. ``on_frame`` gets what programs publish,
+    ``on_change`` the topic of a line whose programs have changed.
+    """
 
     def __init__(
         self,

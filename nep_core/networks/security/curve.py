@@ -326,7 +326,7 @@ class Security:
 
     def __init__(self, file: KeyFile, context: zmq.Context[zmq.Socket[bytes]]) -> None:
         self.file = file
-        self._told: frozenset[str] = frozenset()
+        self._allowed_by_master: frozenset[str] = frozenset()
         self._refusals = Refusals(str(file.path))
         self._doorkeeper = Doorkeeper(context, self.allows, self._refusals)
         self._trusting: WeakSet[zmq.Socket[bytes]] = WeakSet()
@@ -384,11 +384,11 @@ class Security:
 
     def allows(self, key: str) -> bool:
         """Whether a program with this public key may talk with us."""
-        return key in self._told or key in self.file.keys.allowed
+        return key in self._allowed_by_master or key in self.file.keys.allowed
 
     def allow(self, keys: Iterable[str]) -> None:
         """Let in these keys from now on: the master tells which computers there are."""
-        self._told = frozenset(keys)
+        self._allowed_by_master = frozenset(keys)
 
     def take_warning(self) -> Fault | None:
         """Who was refused since the last time, and what to do; None when nobody was."""

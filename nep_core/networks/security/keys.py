@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import socket
 import stat
-import tempfile
 import threading
 import time
 import uuid
@@ -18,6 +17,7 @@ import zmq
 
 from faults import Text, reason_of
 from nep_core.errors import KeyFileError
+from nep_core.places import whole_file
 
 MOST_BYTES = 1_000_000
 LONGEST_NAME = 60
@@ -173,18 +173,11 @@ class KeyFile:
 
 def write_keys(path: Path, keys: Keys) -> None:
     """Write a key file in one step, readable by its owner only; raises KeyFileError."""
-    unfinished = ""
     try:
         path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        number, unfinished = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")  # 0600
-        with os.fdopen(number, "wb") as file:
+        with whole_file(path, is_private=True) as file:
             file.write(msgspec.json.format(msgspec.json.encode(keys), indent=2) + b"\n")
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(unfinished, path)
     except OSError as error:
-        if unfinished:
-            Path(unfinished).unlink(missing_ok=True)
         raise KeyFileError(
             "The key file {path} cannot be written: {reason}.",
             checklist=("May you write in that folder?", "Is there room on the disk?"),

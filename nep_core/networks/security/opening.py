@@ -40,6 +40,9 @@ class Opening:
     be reached at (None: the one in its network). ``on_event`` is told, from a thread of its own,
     who was paired and who tried in vain. The master is not part of it: start it at ``master``,
     with NEP_KEYS set to the key file. Raises KeyFileError, NetworkError.
+
+    ``title`` is what other computers see, ``port`` the master's and ``door_port`` the door's;
+    ``is_announced``: computers of the network find it without its address.
     """
 
     def __init__(
@@ -153,7 +156,7 @@ class Admission:
         self._file = security.file
         self._registry = registry
         self._send = send
-        self._told = self._file.keys.allowed
+        self._announced = self._file.keys.allowed
 
     def hears(self, frame: zmq.Frame) -> bool:
         """Whether a request is listened to: a connection may be older than its refusal."""
@@ -162,7 +165,7 @@ class Admission:
     def admits(self, told: Registration, address: bytes) -> bool:
         """Whether a program may register; if so it is told who else may."""
         self.look()
-        if told.key not in self._told:
+        if told.key not in self._announced:
             return False
         self._send(address, self._news())
         return True
@@ -170,16 +173,16 @@ class Admission:
     def look(self) -> list[Registration]:
         """Tell all programs when the key file has changed; those whose computer was forgotten."""
         allowed = self._file.keys.allowed
-        if allowed == self._told:
+        if allowed == self._announced:
             return []
-        self._told = allowed
+        self._announced = allowed
         entries = self._registry.entries.values()
         for entry in entries:
             self._send(entry.address, self._news())
         return [e.registration for e in entries if e.registration.key not in allowed]
 
     def _news(self) -> bytes:
-        return says.encode(says.Computers(keys=sorted(self._told)))
+        return says.encode(says.Computers(keys=sorted(self._announced)))
 
 
 # What a service of an opened network says on ``/node_state``: it is no node, but has news.

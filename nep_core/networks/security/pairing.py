@@ -104,7 +104,7 @@ class GuestTalk:
         from spake2 import SPAKE2_A
 
         self._spake = SPAKE2_A(_password(code), idA=_GUEST, idB=_DOOR)
-        self._told = encode(guest).decode()
+        self._guest = encode(guest).decode()
         self._secret = b""
 
     def hello(self) -> Hello:
@@ -114,11 +114,11 @@ class GuestTalk:
     def prove(self, offer: Offer) -> Proof:
         """Answer the door's offer; raises PairingError."""
         self._secret = _finish(self._spake, offer.spake, b"B")
-        return Proof(told=self._told, mac=_mac(self._secret, _GUEST, self._told))
+        return Proof(told=self._guest, mac=_mac(self._secret, _GUEST, self._guest))
 
     def read(self, welcome: Welcome) -> Host:
         """What the door told, if it knows the code as well; raises PairingError."""
-        _check(welcome.mac, _mac(self._secret, _DOOR, self._told, welcome.told))
+        _check(welcome.mac, _mac(self._secret, _DOOR, self._guest, welcome.told))
         return msgspec.json.decode(welcome.told, type=Host)
 
 
@@ -480,6 +480,9 @@ def pair(host: str, port: int, code: str, path: Path) -> Keys:
     """Pair this computer at a door and write its key file; raises PairingError, KeyFileError.
 
     A key file that is already there must be one of the same network: its keys are kept.
+
+    ``host`` and ``port`` are the door's, ``code`` is what its computer shows, ``path`` where
+    the key file goes.
     """
     before = KeyFile(path).keys if path.exists() else None
     if before is not None and before.is_owner:

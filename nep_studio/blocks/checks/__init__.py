@@ -10,8 +10,8 @@ from ..program import Project
 from ..slices import Steps, at_once
 from .blocks import check_blocks, check_inside, check_own_blocks
 from .deployment import check_abilities, check_deployment, check_real_robots, check_rules
+from .diagnostic import Diagnostic, Fix, Found
 from .flow import check_flow, check_limits
-from .problem import Fix, Found, Problem
 
 _OfChain = Callable[[Project, Language, list[str]], Found]
 """A check of the blocks of one chain, which looks at no other."""
@@ -22,7 +22,7 @@ class KnownChains:
 
     def __init__(self) -> None:
         self._around: object = None
-        self._found: dict[tuple[_OfChain, str], tuple[int, list[Problem]]] = {}
+        self._found: dict[tuple[_OfChain, str], tuple[int, list[Diagnostic]]] = {}
 
     def begin(self, project: Project, language: Language) -> None:
         """Forget all when something has changed that a check of any chain may look at."""
@@ -49,7 +49,7 @@ class KnownChains:
             key, revision = (check, stack), project.revisions.get(stack, 0)
             known = self._found.get(key)
             if known is None or known[0] != revision:
-                problems = list[Problem]()
+                problems = list[Diagnostic]()
                 for problem in check(project, language, chain):
                     yield None
                     if problem is not None:
@@ -58,19 +58,19 @@ class KnownChains:
             yield from known[1]
 
 
-def check(project: Project, language: Language) -> list[Problem]:
+def check(project: Project, language: Language) -> list[Diagnostic]:
     """The problems of a program, errors first."""
     return at_once(check_steps(project, language))
 
 
 def check_steps(
     project: Project, language: Language, known: KnownChains | None = None
-) -> Steps[list[Problem]]:
+) -> Steps[list[Diagnostic]]:
     """The same in steps: a large program takes longer than a frame of the screen.
 
     ``known`` has what was found the last time.
     """
-    language, problems = language.of(project), list[Problem]()
+    language, problems = language.of(project), list[Diagnostic]()
     known = known or KnownChains()
     known.begin(project, language)
     for found in _finds(project, language, known):
@@ -98,4 +98,4 @@ def _finds(project: Project, language: Language, known: KnownChains) -> Iterable
     yield known.find(check_real_robots, project, language, running)
 
 
-__all__ = ["Fix", "KnownChains", "Problem", "check", "check_steps"]
+__all__ = ["Diagnostic", "Fix", "KnownChains", "check", "check_steps"]

@@ -16,7 +16,7 @@ from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 
-from .problem import Found, Problem, Severity, page_of
+from .diagnostic import Diagnostic, Found, Severity, page_of
 
 
 def check_blocks(project: Project, language: Language, chain: list[str]) -> Found:
@@ -31,9 +31,9 @@ def check_blocks(project: Project, language: Language, chain: list[str]) -> Foun
         yield from _check_block(project, language, page, block, definition)
 
 
-def _unknown(page: str, block: Block) -> Problem:
+def _unknown(page: str, block: Block) -> Diagnostic:
     if procedure_of(block.type):
-        return Problem(
+        return Diagnostic(
             "error",
             "unknown_own_block",
             page,
@@ -41,7 +41,7 @@ def _unknown(page: str, block: Block) -> Problem:
             "This block belongs to an own block that is not like this any more.",
             ("Take it out, or put another block in its place.",),
         )
-    return Problem(
+    return Diagnostic(
         "error",
         "unknown_block",
         page,
@@ -61,9 +61,9 @@ _Misplaced = tuple[Severity, str, Text, str]
 
 def _check_block(
     project: Project, language: Language, page: str, block: Block, definition: Definition
-) -> Iterator[Problem]:
+) -> Iterator[Diagnostic]:
     if definition.page != project.kind_of_page(page):
-        yield Problem(
+        yield Diagnostic(
             "error",
             "wrong_page",
             page,
@@ -79,7 +79,7 @@ def _check_block(
         if wrong is not None:
             kind, reason, remedy = wrong
             told = sentence(project, language, block.id)
-            yield Problem(
+            yield Diagnostic(
                 "error",
                 kind,
                 page,
@@ -174,12 +174,12 @@ def _inner(definition: Definition, place: _Place) -> _Place:
 
 def _misplaced(
     project: Project, language: Language, block: Block, definition: Definition, place: _Place
-) -> Iterator[Problem]:
-    told = _told(block, definition, place)
+) -> Iterator[Diagnostic]:
+    told = _misplacement(block, definition, place)
     if told is None:
         return
     severity, kind, reason, remedy = told
-    yield Problem(
+    yield Diagnostic(
         severity,
         kind,
         page_of(project, block.id),
@@ -189,7 +189,7 @@ def _misplaced(
     )
 
 
-def _told(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
+def _misplacement(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
     """How bad it is, the kind, the sentence and the remedy of what is wrong, or None."""
     if "in_loop" in definition.flags and not place.loop:
         return ("error", "outside_loop", Text("it is in no loop."), "Put it into a “repeat” block.")
@@ -253,8 +253,8 @@ def _gives_back(blocks: list[Block]) -> bool:
     return any(block.type == RETURN for block in blocks)
 
 
-def _twice(project: Project, header: Block) -> Problem:
-    return Problem(
+def _twice(project: Project, header: Block) -> Diagnostic:
+    return Diagnostic(
         "error",
         "defined_twice",
         page_of(project, header.id),
@@ -267,8 +267,8 @@ def _twice(project: Project, header: Block) -> Problem:
     )
 
 
-def _gives_nothing(project: Project, header: Block) -> Problem:
-    return Problem(
+def _gives_nothing(project: Project, header: Block) -> Diagnostic:
+    return Diagnostic(
         "warning",
         "gives_nothing",
         page_of(project, header.id),
@@ -283,11 +283,11 @@ def _gives_nothing(project: Project, header: Block) -> Problem:
 
 def _undefined(
     project: Project, headers: dict[str, str], calls: dict[str, dict[str, str]]
-) -> Iterator[Problem]:
+) -> Iterator[Diagnostic]:
     missing = {p: block for called in calls.values() for p, block in called.items()}
     for procedure, block in missing.items():
         if procedure in project.procedures and procedure not in headers:
-            yield Problem(
+            yield Diagnostic(
                 "error",
                 "no_definition",
                 page_of(project, block),
@@ -303,10 +303,10 @@ def _undefined(
 
 def _circles(
     project: Project, headers: dict[str, str], calls: dict[str, dict[str, str]]
-) -> Iterator[Problem]:
+) -> Iterator[Diagnostic]:
     for procedure, header in headers.items():
         if _reaches(procedure, calls):
-            yield Problem(
+            yield Diagnostic(
                 "info",
                 "calls_itself",
                 page_of(project, header),

@@ -21,7 +21,7 @@ from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import sentence
 
-from .problem import Fix, Found, Problem, page_of
+from .diagnostic import Diagnostic, Fix, Found, page_of
 
 
 def check_deployment(project: Project, language: Language) -> Found:
@@ -42,7 +42,7 @@ def _missing_robots(project: Project, language: Language) -> Found:
         else:
             sentence = text_of("{name} is not on the Robots page.", name=name)
         robot = language.profile.title if name == ALL_ROBOTS else name
-        yield Problem(
+        yield Diagnostic(
             "error",
             "robot_missing",
             page_of(project, block),
@@ -63,7 +63,7 @@ def _unrecognised_gestures(project: Project, language: Language) -> Found:
         elif gesture in trained or not gesture.strip():
             continue  # the project's own recogniser is started with the program
         elif not is_recognised(gesture, nodes, shipped, trained):
-            yield Problem(
+            yield Diagnostic(
                 "warning",
                 "gesture_unrecognised",
                 page_of(project, block),
@@ -80,8 +80,8 @@ def _unrecognised_gestures(project: Project, language: Language) -> Found:
             )
 
 
-def _untrained(title: str, page: str, block: str) -> Problem:
-    return Problem(
+def _untrained(title: str, page: str, block: str) -> Diagnostic:
+    return Diagnostic(
         "warning",
         "gesture_untrained",
         page,
@@ -91,7 +91,7 @@ def _untrained(title: str, page: str, block: str) -> Problem:
     )
 
 
-def _names(project: Project, language: Language) -> Iterator[Problem]:
+def _names(project: Project, language: Language) -> Iterator[Diagnostic]:
     """Robots are nodes too, so that all their names must differ."""
     robots = [("robots", e.name, e.block_id) for e in robot_entries(project, language)]
     nodes = [("nodes", e.name, e.block_id) for e in node_entries(project, language)]
@@ -104,9 +104,9 @@ def _names(project: Project, language: Language) -> Iterator[Problem]:
                 all_robots=ALL_ROBOTS,
             )
         if reason is not None:
-            yield Problem("error", "bad_name", page, block, reason, ("Give it another name.",))
+            yield Diagnostic("error", "bad_name", page, block, reason, ("Give it another name.",))
         elif name in seen:
-            yield Problem(
+            yield Diagnostic(
                 "error",
                 "same_name",
                 page,
@@ -131,7 +131,7 @@ def check_abilities(project: Project, language: Language, chain: list[str]) -> F
 
 def _lacking(
     project: Project, language: Language, block: Block, robots: list[str]
-) -> Iterator[Problem]:
+) -> Iterator[Diagnostic]:
     definition = language.definitions[block.type]
     for key, slot in definition.keys(block.groups):
         value = definition.value(block, key)
@@ -141,7 +141,7 @@ def _lacking(
         lacking = [name for name in robots if not _has(language, name, table, value)]
         if lacking:
             label = language.label_of(slot, value, block, key)
-            yield Problem(
+            yield Diagnostic(
                 "error",
                 "robot_lacks",
                 page_of(project, block.id),
@@ -201,7 +201,7 @@ def check_real_robots(project: Project, language: Language, chain: list[str]) ->
         robot = str(definition.value(block, "robot"))
         if robot not in virtual and not (robot == ALL_ROBOTS and virtual):
             continue
-        yield Problem(
+        yield Diagnostic(
             "warning",
             "needs_real_robot",
             "behaviour",
@@ -221,11 +221,11 @@ def check_real_robots(project: Project, language: Language, chain: list[str]) ->
 # Checks of rules: nothing starts, two rules for the same thing, blocks under no rule.
 
 
-def check_rules(project: Project, language: Language) -> Iterator[Problem]:
+def check_rules(project: Project, language: Language) -> Iterator[Diagnostic]:
     """Problems of how stacks begin."""
     chains = list(rules(project, language))
     if not chains:
-        yield Problem(
+        yield Diagnostic(
             "error",
             "no_rule",
             "behaviour",
@@ -239,12 +239,12 @@ def check_rules(project: Project, language: Language) -> Iterator[Problem]:
 
 def _same_trigger(
     project: Project, language: Language, chains: list[list[str]]
-) -> Iterator[Problem]:
+) -> Iterator[Diagnostic]:
     first: dict[str, str] = {}
     for chain in chains:
         hat = project.blocks[chain[0]]
         if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
-            yield Problem(
+            yield Diagnostic(
                 "warning",
                 "same_trigger",
                 page_of(project, hat.id),
@@ -274,12 +274,12 @@ def _goal_name(definition: Definition, hat: Block) -> str:
     return f" goal {definition.value(hat, 'name')}" if "name" in definition.slots else ""
 
 
-def _loose(project: Project, language: Language) -> Iterator[Problem]:
+def _loose(project: Project, language: Language) -> Iterator[Diagnostic]:
     for page, stack in project.stacks_of_kind("behaviour"):
         first = project.blocks[stack.body[0]]
         definition = language.definitions.get(first.type)
         if definition is not None and definition.shape != "hat" and definition.page == "behaviour":
-            yield Problem(
+            yield Diagnostic(
                 "info",
                 "loose_block",
                 page,

@@ -13,7 +13,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.text import sentence
 
-from .problem import Fix, Found, Problem, page_of
+from .diagnostic import Diagnostic, Fix, Found, page_of
 
 _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
 """The postures after blocks with such a flag."""
@@ -37,7 +37,7 @@ def _loops_without_pause(project: Project, language: Language, blocks: list[Bloc
         if takes_time or not pauses.isdisjoint(block.children()):
             pauses.add(block.id)
         elif "needs_pause" in flags:
-            yield Problem(
+            yield Diagnostic(
                 "warning",
                 "no_pause",
                 page_of(project, block.id),
@@ -67,7 +67,7 @@ def _never_reached(
         for upper, lower in pairwise(enabled):
             definition = language.definitions.get(upper.type)
             if definition is not None and definition.is_last:
-                yield Problem(
+                yield Diagnostic(
                     "warning",
                     "never_reached",
                     page_of(project, lower.id),
@@ -100,7 +100,7 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
         if posture is not None and posture not in language.standing:
             label = language.choices.get("postures", {}).get(posture, posture)
             name = "A robot" if robot == ALL_ROBOTS else robot
-            yield Problem(
+            yield Diagnostic(
                 "warning",
                 "not_standing",
                 page_of(project, block.id),
@@ -148,7 +148,7 @@ def check_limits(project: Project, language: Language, chain: list[str]) -> Foun
         if not _is_too_deep(inside, definition):
             waiting += [(child, inside) for child in block.children()]
             continue
-        yield Problem(
+        yield Diagnostic(
             "error",
             "too_deep",
             page_of(project, block_id),

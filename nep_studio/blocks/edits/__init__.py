@@ -7,87 +7,14 @@ editor.py. All edits can be written as JSON: a journal of them is a crash-safe a
 
 from __future__ import annotations
 
-from .content import (
-    AddGroup,
-    AddNote,
-    AddProcedure,
-    ChangeNote,
-    ChangeProcedure,
-    RemoveGroup,
-    RemoveNote,
-    RemoveProcedure,
-    SetComment,
-    SetCommentSize,
-    SetExtra,
-    SetField,
-    SetFlag,
-)
-from .placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from .project import (
-    AddPage,
-    AddVariable,
-    MovePage,
-    MoveStack,
-    RemovePage,
-    RemoveVariable,
-    RenamePage,
-    RenameProject,
-    RenameVariable,
-)
+from functools import reduce
+from operator import or_
+from typing import Any
 
-Edit = (
-    CreateBlocks
-    | DeleteBlocks
-    | MoveBlocks
-    | SetField
-    | SetFlag
-    | SetComment
-    | AddGroup
-    | RemoveGroup
-    | MoveStack
-    | RenameProject
-    | AddVariable
-    | RemoveVariable
-    | RenameVariable
-    | AddNote
-    | RemoveNote
-    | ChangeNote
-    | SetCommentSize
-    | AddPage
-    | RemovePage
-    | RenamePage
-    | MovePage
-    | AddProcedure
-    | RemoveProcedure
-    | ChangeProcedure
-    | SetExtra
-)
+from . import content, placing, project
+from .edit import Edit
 
-__all__ = [
-    "AddGroup",
-    "AddNote",
-    "AddPage",
-    "AddProcedure",
-    "AddVariable",
-    "ChangeNote",
-    "ChangeProcedure",
-    "CreateBlocks",
-    "DeleteBlocks",
-    "Edit",
-    "MoveBlocks",
-    "MovePage",
-    "MoveStack",
-    "RemoveGroup",
-    "RemoveNote",
-    "RemovePage",
-    "RemoveProcedure",
-    "RemoveVariable",
-    "RenamePage",
-    "RenameProject",
-    "RenameVariable",
-    "SetComment",
-    "SetCommentSize",
-    "SetExtra",
-    "SetField",
-    "SetFlag",
-]
+ANY_EDIT: Any = reduce(or_, Edit.__subclasses__())
+"""All kinds of edits, to read one from JSON."""
+
+__all__ = ["ANY_EDIT", "Edit", "content", "placing", "project"]

@@ -12,10 +12,11 @@ from nep_studio.blocks.file_text import is_deeper
 from nep_studio.blocks.program import Block, Note, Parameter, Parent, Procedure, Project
 from nep_studio.blocks.slots import FieldValue
 
+from .edit import Edit
 from .placing import require_block
 
 
-class SetField(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class SetField(Edit, frozen=True):
     """Set the value of a field; None takes it away, so that the default holds."""
 
     label: ClassVar[str] = "change a field"
@@ -33,7 +34,7 @@ class SetField(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return SetField(self.block, self.slot, old)
 
 
-class SetFlag(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class SetFlag(Edit, frozen=True):
     """Disable or collapse a block, or the opposite."""
 
     label: ClassVar[str] = "disable or collapse a block"
@@ -50,7 +51,7 @@ class SetFlag(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return SetFlag(self.block, self.flag, old)
 
 
-class SetComment(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class SetComment(Edit, frozen=True):
     """Write the comment of a block; an empty one is none."""
 
     label: ClassVar[str] = "write a comment"
@@ -65,7 +66,7 @@ class SetComment(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return SetComment(self.block, old)
 
 
-class AddGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class AddGroup(Edit, frozen=True):
     """Add a group to a sentence (an else-if), as number ``index`` from 1; later ones move up.
 
     ``slots`` are the names of the group's slots; ``fields`` the values of its fields by name.
@@ -94,7 +95,7 @@ class AddGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return RemoveGroup(self.block, self.group, self.index, self.slots)
 
 
-class RemoveGroup(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RemoveGroup(Edit, frozen=True):
     """Take a group out of a sentence; no blocks may be in it. Later groups move down."""
 
     label: ClassVar[str] = "remove a part"
@@ -137,7 +138,7 @@ def _renumber(project: Project, block: Block, old: str, new: str) -> None:
 # Edits of the notes on pages, and of the room that the comment of a block takes.
 
 
-class AddNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class AddNote(Edit, frozen=True):
     """Put a note on a page."""
 
     label: ClassVar[str] = "add a note"
@@ -154,7 +155,7 @@ class AddNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return RemoveNote(self.note.id)
 
 
-class RemoveNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RemoveNote(Edit, frozen=True):
     """Delete a note."""
 
     label: ClassVar[str] = "delete a note"
@@ -168,7 +169,7 @@ class RemoveNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return AddNote(old)
 
 
-class ChangeNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class ChangeNote(Edit, frozen=True):
     """Move a note, make it larger or smaller, write in it: all that it is is said again."""
 
     label: ClassVar[str] = "change a note"
@@ -183,7 +184,7 @@ class ChangeNote(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return ChangeNote(old)
 
 
-class SetCommentSize(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class SetCommentSize(Edit, frozen=True):
     """Make the comment of a block larger or smaller; 0 is as large as it needs to be."""
 
     label: ClassVar[str] = "change the size of a comment"
@@ -252,7 +253,7 @@ _LARGEST_OF = {
 DEEPEST = 20
 
 
-class SetExtra(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class SetExtra(Edit, frozen=True):
     """Keep a JSON value under a key of the project's file; None takes it away.
 
     Programs that do not know the key save it as it was.
@@ -291,7 +292,7 @@ def why_not_extra(key: str, value: object) -> Text | None:
 # Edits of the list of own blocks; editor.py sees to it that the blocks that call them follow.
 
 
-class AddProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class AddProcedure(Edit, frozen=True):
     """Make an own block, at a position of the list of own blocks."""
 
     label: ClassVar[str] = "make an own block"
@@ -313,7 +314,7 @@ class AddProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return RemoveProcedure(self.procedure.id)
 
 
-class RemoveProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RemoveProcedure(Edit, frozen=True):
     """Delete an own block from the list."""
 
     label: ClassVar[str] = "delete an own block"
@@ -328,7 +329,7 @@ class RemoveProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return AddProcedure(old, position)
 
 
-class ChangeProcedure(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class ChangeProcedure(Edit, frozen=True):
     """Change the sentence of an own block, and whether it gives a value."""
 
     label: ClassVar[str] = "change an own block"

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-import msgspec
-
 from ..errors import EditRefused
 from ..places import InBody, InInput, InStack, NewStack, Place, place_of, put, take
 from ..program import Block, Parent, Project
+from .edit import Edit
 
 
-class CreateBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class CreateBlocks(Edit, frozen=True):
     """Make blocks, those inside others too; ``roots`` are the ones that go into the place."""
 
     label: ClassVar[str] = "add blocks"
@@ -34,7 +33,7 @@ class CreateBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return DeleteBlocks(self.roots[0], len(self.roots))
 
 
-class DeleteBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class DeleteBlocks(Edit, frozen=True):
     """Delete ``count`` blocks of a chain from ``first`` on, with all that is inside them."""
 
     label: ClassVar[str] = "delete blocks"
@@ -54,7 +53,7 @@ class DeleteBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return CreateBlocks(tuple(roots), blocks, place)
 
 
-class MoveBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class MoveBlocks(Edit, frozen=True):
     """Move ``count`` blocks of a chain from ``first`` on, with all that is inside them."""
 
     label: ClassVar[str] = "move blocks"

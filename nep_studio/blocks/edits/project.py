@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.program import PAGES, Project, Stack, Variable
 
+from .edit import Edit
 
-class MoveStack(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+
+class MoveStack(Edit, frozen=True):
     """Move a stack on its page, in canvas units."""
 
     label: ClassVar[str] = "move a stack"
@@ -29,7 +29,7 @@ class MoveStack(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return old
 
 
-class RenameProject(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RenameProject(Edit, frozen=True):
     """Give the project another name."""
 
     label: ClassVar[str] = "rename the project"
@@ -42,7 +42,7 @@ class RenameProject(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return RenameProject(old)
 
 
-class AddVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class AddVariable(Edit, frozen=True):
     """Make a variable, at a position of the list of variables."""
 
     label: ClassVar[str] = "make a variable"
@@ -62,7 +62,7 @@ class AddVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return RemoveVariable(self.variable)
 
 
-class RemoveVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RemoveVariable(Edit, frozen=True):
     """Delete a variable; blocks that name it stay, and are told by the checks."""
 
     label: ClassVar[str] = "delete a variable"
@@ -77,7 +77,7 @@ class RemoveVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return AddVariable(variable.id, variable.name, position)
 
 
-class RenameVariable(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RenameVariable(Edit, frozen=True):
     """Give a variable another name; blocks name it by its id and follow."""
 
     label: ClassVar[str] = "rename a variable"
@@ -102,7 +102,7 @@ def _require_variable(project: Project, variable_id: str) -> Variable:
 # Edits of the list of pages: add, remove, rename, move.
 
 
-class AddPage(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class AddPage(Edit, frozen=True):
     """Add a page for behaviour, at a position of the list of pages."""
 
     label: ClassVar[str] = "add a page"
@@ -122,7 +122,7 @@ class AddPage(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return RemovePage(self.page)
 
 
-class RemovePage(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RemovePage(Edit, frozen=True):
     """Take an empty page away that was added."""
 
     label: ClassVar[str] = "delete a page"
@@ -141,7 +141,7 @@ class RemovePage(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return AddPage(self.page, title, position)
 
 
-class RenamePage(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class RenamePage(Edit, frozen=True):
     """Give a page another title; an empty one is the title that it has by itself."""
 
     label: ClassVar[str] = "rename a page"
@@ -158,7 +158,7 @@ class RenamePage(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         return RenamePage(self.page, old)
 
 
-class MovePage(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
+class MovePage(Edit, frozen=True):
     """Move a page to another position of the list of pages."""
 
     label: ClassVar[str] = "move a page"

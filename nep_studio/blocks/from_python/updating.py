@@ -17,14 +17,13 @@ from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBloc
 from nep_studio.blocks.errors import CodeRefused, EditRefused
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
-from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.selection import chain_around
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Block, Project
 
 from .learning import CodeUnread, Made, blocks_of
-from .reading import ReadRule, Source, create_chain, read_rules, read_source, scratch_of
+from .reading import ReadRule, Source, create_chain, read_rules, read_source
 
 # Change a chain of blocks to another one, keeping the blocks whose Python is the same.
 
@@ -154,16 +153,6 @@ class _Written:
     stack: str
     function: str
     text: str
-
-
-def read_program(text: str, language: Language, base: Project | None = None) -> Project:
-    """The project that a whole program says; of ``base``, what is not said in Python stays.
-
-    Raises CodeUnread, with the line.
-    """
-    editor = scratch_of(base or Project(), language)
-    update_from_python(editor, text)
-    return editor.project
 
 
 def update_from_python(editor: Editor, text: str) -> None:

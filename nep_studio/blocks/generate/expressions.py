@@ -343,22 +343,10 @@ def _constant(node: ast.Constant) -> tuple[str, int]:
     return literal(value), _ATOM if is_number else _TARGET  # a dot after a number is its point
 
 
-def _name(node: ast.Name) -> tuple[str, int]:
-    return node.id, _TARGET
-
-
-def _attribute(node: ast.Attribute) -> tuple[str, int]:
-    return f"{show(node.value, _TARGET)}.{node.attr}", _TARGET
-
-
 def _call(node: ast.Call) -> tuple[str, int]:
     arguments = [show(argument) for argument in node.args]
     arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
     return f"{show(node.func, _TARGET)}({', '.join(arguments)})", _TARGET
-
-
-def _list(node: ast.List) -> tuple[str, int]:
-    return f"[{', '.join(map(show, node.elts))}]", _TARGET
 
 
 def _binary(node: ast.BinOp) -> tuple[str, int]:
@@ -386,17 +374,9 @@ def _compare(node: ast.Compare) -> tuple[str, int]:
     return text, _COMPARE
 
 
-def _lambda(node: ast.Lambda) -> tuple[str, int]:
-    return f"lambda: {show(node.body)}", _LAMBDA
-
-
 def _choose(node: ast.IfExp) -> tuple[str, int]:
     test, body = show(node.test, _OR), show(node.body, _OR)
     return f"{body} if {test} else {show(node.orelse)}", _LAMBDA
-
-
-def _subscript(node: ast.Subscript) -> tuple[str, int]:
-    return f"{show(node.value, _TARGET)}[{show(node.slice)}]", _TARGET
 
 
 def _slice(node: ast.Slice) -> tuple[str, int]:
@@ -405,25 +385,21 @@ def _slice(node: ast.Slice) -> tuple[str, int]:
     return f"{low}:{high}", _LAMBDA
 
 
-def _verbatim(node: Verbatim) -> tuple[str, int]:
-    return node.text, _TARGET if node.is_closed else _LAMBDA
-
-
 _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
     ast.Constant: _constant,
-    ast.Name: _name,
-    ast.Attribute: _attribute,
+    ast.Name: lambda node: (node.id, _TARGET),
+    ast.Attribute: lambda node: (f"{show(node.value, _TARGET)}.{node.attr}", _TARGET),
     ast.Call: _call,
-    ast.List: _list,
+    ast.List: lambda node: (f"[{', '.join(map(show, node.elts))}]", _TARGET),
     ast.BinOp: _binary,
     ast.UnaryOp: _unary,
     ast.BoolOp: _junction,
     ast.Compare: _compare,
-    ast.Lambda: _lambda,
+    ast.Lambda: lambda node: (f"lambda: {show(node.body)}", _LAMBDA),
     ast.IfExp: _choose,
-    ast.Subscript: _subscript,
+    ast.Subscript: lambda node: (f"{show(node.value, _TARGET)}[{show(node.slice)}]", _TARGET),
     ast.Slice: _slice,
-    Verbatim: _verbatim,
+    Verbatim: lambda node: (node.text, _TARGET if node.is_closed else _LAMBDA),
 }
 
 

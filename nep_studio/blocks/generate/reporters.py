@@ -82,10 +82,6 @@ def _constrain(code: Expressions, block: Block) -> ast.expr:
     return call("min", at_least, code.slot(block, "high"))
 
 
-def _random_fraction(code: Expressions, block: Block) -> ast.expr:
-    return code.module_call("random", "random")
-
-
 def _of_list(code: Expressions, block: Block) -> ast.expr:
     name, items = code.choice(block, "function"), code.slot(block, "list")
     if name in ("sum", "min", "max"):
@@ -117,10 +113,6 @@ def _choose(code: Expressions, block: Block) -> ast.expr:
     return ast.IfExp(code.slot(block, "condition"), code.slot(block, "a"), code.slot(block, "b"))
 
 
-def _text_length(code: Expressions, block: Block) -> ast.expr:
-    return call("len", code.slot(block, "text"))
-
-
 def _text_is_empty(code: Expressions, block: Block) -> ast.expr:
     return compare(code.slot(block, "text"), ast.Eq(), ast.Constant(""))
 
@@ -149,14 +141,6 @@ def _text_replace(code: Expressions, block: Block) -> ast.expr:
     return method_call(code.slot(block, "text"), "replace", changed)
 
 
-def _text_number(code: Expressions, block: Block) -> ast.expr:
-    return call("float", code.slot(block, "text"))
-
-
-def _colour(code: Expressions, block: Block) -> ast.expr:
-    return code.slot(block, "colour")
-
-
 def _colour_from(code: Expressions, block: Block) -> ast.expr:
     parts = [code.slot(block, part) for part in ("red", "green", "blue")]
     return code.api_call("colour_from", *parts)
@@ -174,21 +158,21 @@ NUMBER_REPORTERS: dict[str, ValueGenerator] = {
     "constant": _constant,
     "round": _round,
     "constrain": _constrain,
-    "random_fraction": _random_fraction,
+    "random_fraction": lambda code, block: code.module_call("random", "random"),
     "of_list": _of_list,
     "random_item": _random_item,
     "number_is": _number_is,
     "divisible": _divisible,
     "choose": _choose,
-    "text_length": _text_length,
+    "text_length": lambda code, block: call("len", code.slot(block, "text")),
     "text_is_empty": _text_is_empty,
     "text_contains": _text_contains,
     "text_find": _text_find,
     "letter": _letter,
     "text_case": _text_case,
     "text_replace": _text_replace,
-    "text_number": _text_number,
-    "colour": _colour,
+    "text_number": lambda code, block: call("float", code.slot(block, "text")),
+    "colour": lambda code, block: code.slot(block, "colour"),
     "colour_from": _colour_from,
     "colour_mix": _colour_mix,
 }
@@ -211,18 +195,6 @@ _COMPARISONS: dict[str, ast.cmpop] = {
     "greater": ast.Gt(),
     "greater_or_equal": ast.GtE(),
 }
-
-
-def _number(code: Expressions, block: Block) -> ast.expr:
-    return code.slot(block, "number")
-
-
-def _text(code: Expressions, block: Block) -> ast.expr:
-    return code.slot(block, "text")
-
-
-def _variable(code: Expressions, block: Block) -> ast.expr:
-    return ast.Name(code.variable(block))
 
 
 def _arithmetic(code: Expressions, block: Block) -> ast.expr:
@@ -254,29 +226,21 @@ def _junction(code: Expressions, block: Block) -> ast.expr:
     return ast.BoolOp(word, values)
 
 
-def _not(code: Expressions, block: Block) -> ast.expr:
-    return ast.UnaryOp(ast.Not(), code.slot(block, "a"))
-
-
-def _truth(code: Expressions, block: Block) -> ast.expr:
-    return ast.Constant(code.choice(block, "truth") == "true")
-
-
 def _human_state_is(code: Expressions, block: Block) -> ast.expr:
     return ast.Compare(code.api_call("human_state"), [ast.Eq()], [code.slot(block, "state")])
 
 
 REPORTERS: dict[str, ValueGenerator] = {
-    "number": _number,
-    "text": _text,
-    "variable": _variable,
+    "number": lambda code, block: code.slot(block, "number"),
+    "text": lambda code, block: code.slot(block, "text"),
+    "variable": lambda code, block: ast.Name(code.variable(block)),
     "arithmetic": _arithmetic,
     "random_integer": _random_integer,
     "join": _join,
     "compare": _compare,
     "junction": _junction,
-    "not": _not,
-    "truth": _truth,
+    "not": lambda code, block: ast.UnaryOp(ast.Not(), code.slot(block, "a")),
+    "truth": lambda code, block: ast.Constant(code.choice(block, "truth") == "true"),
     "human_state_is": _human_state_is,
     **LIST_REPORTERS,
     **NUMBER_REPORTERS,
@@ -320,14 +284,6 @@ def _wait_for_word(code: Expressions, block: Block) -> list[Piece]:
     return [show(method_call(code.slot(block, "robot"), "wait_for_word", arguments, seconds))]
 
 
-def _one_of(code: Expressions, block: Block) -> list[Piece]:
-    return _parts(code, block, "one_of")
-
-
-def _in_turn(code: Expressions, block: Block) -> list[Piece]:
-    return _parts(code, block, "in_turn")
-
-
 def _parts(code: Expressions, block: Block, name: str) -> list[Piece]:
     functions = [Function(code.part_name(), f"do.{number}") for number in _numbers(block, "part")]
     chosen = code.api_call(name, *(ast.Name(function.name) for function in functions))
@@ -368,8 +324,8 @@ EMOTION_S = 3
 ROBOT_STATEMENTS: dict[str, StatementGenerator] = {
     "ask": _ask,
     "wait_for_word": _wait_for_word,
-    "one_of": _one_of,
-    "in_turn": _in_turn,
+    "one_of": lambda code, block: _parts(code, block, "one_of"),
+    "in_turn": lambda code, block: _parts(code, block, "in_turn"),
     "until_state": _until_state,
     "until_state_at_most": _until_state_at_most,
 }

@@ -54,14 +54,6 @@ def _when_started(code: Expressions, block: Block) -> Hat:
     return Hat(ast.Attribute(ast.Name("behavior"), "when_started"), "when_started")
 
 
-def _when_gesture(code: Expressions, block: Block) -> Hat:
-    return _when(code, block, "gesture")
-
-
-def _when_human_state(code: Expressions, block: Block) -> Hat:
-    return _when(code, block, "state")
-
-
 def _when(code: Expressions, block: Block, key: str) -> Hat:
     state = code.slot(block, key)
     again = code.choice(block, "again")
@@ -80,8 +72,8 @@ def _own_define(code: Expressions, block: Block) -> Hat:
 
 EVENT_HATS: dict[str, HatGenerator] = {
     "when_started": _when_started,
-    "when_gesture": _when_gesture,
-    "when_human_state": _when_human_state,
+    "when_gesture": lambda code, block: _when(code, block, "gesture"),
+    "when_human_state": lambda code, block: _when(code, block, "state"),
     "own_define": _own_define,
 }
 
@@ -100,18 +92,6 @@ def _heard(code: Expressions, block: Block) -> Hat:
     word = code.slot(block, "word")
     name = f"when_heard_{field_text(code, block, 'word')}"
     return Hat(_behavior("when_heard", [word], _again(code, block)), name)
-
-
-def _sees(code: Expressions, block: Block) -> Hat:
-    return _noticed(code, block, code.choice(block, "thing"))
-
-
-def _sees_face_of(code: Expressions, block: Block) -> Hat:
-    return _noticed(code, block, "face", "name")
-
-
-def _sees_mark(code: Expressions, block: Block) -> Hat:
-    return _noticed(code, block, "mark", "number")
 
 
 def _noticed(code: Expressions, block: Block, thing: str, key: str = "") -> Hat:
@@ -189,9 +169,9 @@ def _behavior(method: str, arguments: list[ast.expr], options: dict[str, ast.exp
 GOAL_HATS: dict[str, HatGenerator] = {
     "when_touched": _touched,
     "when_heard": _heard,
-    "when_sees": _sees,
-    "when_sees_face_of": _sees_face_of,
-    "when_sees_mark": _sees_mark,
+    "when_sees": lambda code, block: _noticed(code, block, code.choice(block, "thing")),
+    "when_sees_face_of": lambda code, block: _noticed(code, block, "face", "name"),
+    "when_sees_mark": lambda code, block: _noticed(code, block, "mark", "number"),
     "when_person": _person,
     "when_emotion": _emotion,
     "when_sensor": _sensor,

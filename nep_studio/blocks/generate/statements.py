@@ -39,10 +39,6 @@ from .expressions import (
 from .names import API, MODULES
 
 
-def _create(code: Expressions, block: Block) -> ast.expr:
-    return ast.List(code.slots(block, "item", "item"))
-
-
 def _filled(code: Expressions, block: Block) -> ast.expr:
     one = ast.List([code.slot(block, "item")])
     return ast.BinOp(one, ast.Mult(), whole(code.slot(block, "times")))
@@ -50,10 +46,6 @@ def _filled(code: Expressions, block: Block) -> ast.expr:
 
 def _length(code: Expressions, block: Block) -> ast.expr:
     return call("len", code.slot(block, "list"))
-
-
-def _is_empty(code: Expressions, block: Block) -> ast.expr:
-    return compare(_length(code, block), ast.Eq(), ast.Constant(0))
 
 
 def _contains(code: Expressions, block: Block) -> ast.expr:
@@ -87,10 +79,6 @@ def _sorted(code: Expressions, block: Block) -> ast.expr:
     return call("sorted", code.slot(block, "list"), **keywords)
 
 
-def _reversed(code: Expressions, block: Block) -> ast.expr:
-    return call("list", call("reversed", code.slot(block, "list")))
-
-
 def _split(code: Expressions, block: Block) -> ast.expr:
     text, mark = code.slot(block, "text"), code.slot(block, "mark")
     if isinstance(mark, ast.Constant) and mark.value == "":
@@ -122,10 +110,6 @@ def _insert(code: Expressions, block: Block) -> list[Piece]:
     return [show(method_call(items, "insert", [plus(_minus(number), 1), value]))]
 
 
-def _remove(code: Expressions, block: Block) -> list[Piece]:
-    return [f"del {show(_get(code, block))}"]
-
-
 def _index(code: Expressions, block: Block) -> ast.expr:
     """Item 1 from the start is item 0 of Python, item 1 from the end is item -1."""
     number = whole(code.slot(block, "number"))
@@ -143,17 +127,17 @@ def plus_one(number: ast.expr) -> ast.expr:
 
 
 LIST_REPORTERS: dict[str, ValueGenerator] = {
-    "list_create": _create,
+    "list_create": lambda code, block: ast.List(code.slots(block, "item", "item")),
     "list_filled": _filled,
     "list_length": _length,
-    "list_is_empty": _is_empty,
+    "list_is_empty": lambda code, block: compare(_length(code, block), ast.Eq(), ast.Constant(0)),
     "list_contains": _contains,
     "list_find": _find,
     "list_get": _get,
     "list_take": _take,
     "list_part": _part,
     "list_sorted": _sorted,
-    "list_reversed": _reversed,
+    "list_reversed": lambda code, block: call("list", call("reversed", code.slot(block, "list"))),
     "list_split": _split,
     "list_joined": _joined,
 }
@@ -161,7 +145,7 @@ LIST_STATEMENTS: dict[str, StatementGenerator] = {
     "list_add": _add,
     "list_set": _set,
     "list_insert": _insert,
-    "list_remove": _remove,
+    "list_remove": lambda code, block: [f"del {show(_get(code, block))}"],
 }
 
 
@@ -195,10 +179,6 @@ def note_names(code: Expressions, read: CodeText) -> frozenset[str]:
     return read.set_here & frozenset(code.names.variables.values())
 
 
-def _own_block_call(code: Expressions, block: Block) -> ast.expr:
-    return call_of(code, block, procedure_of(block.type))
-
-
 def _own_parameter(code: Expressions, block: Block) -> ast.expr:
     if procedure_of(block.type) != code.procedure:
         raise CodeRefused(
@@ -222,7 +202,7 @@ def _code_value(code: Expressions, block: Block) -> ast.expr:
 
 
 OWN_REPORTERS: dict[str, ValueGenerator] = {
-    "own_call": _own_block_call,
+    "own_call": lambda code, block: call_of(code, block, procedure_of(block.type)),
     "own_parameter": _own_parameter,
     "code_value": _code_value,
 }
@@ -242,10 +222,6 @@ def _wait_until(code: Expressions, block: Block) -> list[Piece]:
 def _repeat(code: Expressions, block: Block) -> list[Piece]:
     times = whole(code.slot(block, "times"))
     return [f"for _ in range({show(times)}):", Body("do", loop=True)]
-
-
-def _forever(code: Expressions, block: Block) -> list[Piece]:
-    return ["while True:", Body("do", loop=True)]
 
 
 def _while(code: Expressions, block: Block) -> list[Piece]:
@@ -280,18 +256,6 @@ def _for_each(code: Expressions, block: Block) -> list[Piece]:
     return [Assignment(name, f"for {name} in {show(items)}:"), Body("do", loop=True)]
 
 
-def _leave_loop(code: Expressions, block: Block) -> list[Piece]:
-    return [Leave("break")]
-
-
-def _next_round(code: Expressions, block: Block) -> list[Piece]:
-    return [Leave("continue")]
-
-
-def _stop_rule(code: Expressions, block: Block) -> list[Piece]:
-    return ["return"]
-
-
 def _note(code: Expressions, block: Block) -> list[Piece]:
     return list(comment_lines(str(code.definition(block).value(block, "text"))))
 
@@ -307,14 +271,6 @@ def _code_lines(code: Expressions, block: Block) -> list[Piece]:
     assigned = note_names(code, read)
     written = Written(read.lines, read.inside_texts, assigned)
     return [written, "pass"] if read.is_empty else [written]
-
-
-def _own_call(code: Expressions, block: Block) -> list[Piece]:
-    return [show(call_of(code, block, procedure_of(block.type)))]
-
-
-def _own_return(code: Expressions, block: Block) -> list[Piece]:
-    return [GiveBack(f"return {show(code.slot(block, 'value'))}")]
 
 
 def _if(code: Expressions, block: Block) -> list[Piece]:
@@ -353,7 +309,7 @@ def _append_text(code: Expressions, block: Block) -> list[Piece]:
 STATEMENTS: dict[str, StatementGenerator] = {
     "wait_until": _wait_until,
     "repeat": _repeat,
-    "forever": _forever,
+    "forever": lambda code, block: ["while True:", Body("do", loop=True)],
     "while": _while,
     "if": _if,
     "together": _together,
@@ -362,13 +318,13 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "repeat_until": _repeat_until,
     "count": _count,
     "for_each": _for_each,
-    "leave_loop": _leave_loop,
-    "next_round": _next_round,
-    "stop_rule": _stop_rule,
+    "leave_loop": lambda code, block: [Leave("break")],
+    "next_round": lambda code, block: [Leave("continue")],
+    "stop_rule": lambda code, block: ["return"],
     "note": _note,
     "code_lines": _code_lines,
-    "own_call": _own_call,
-    "own_return": _own_return,
+    "own_call": lambda code, block: [show(call_of(code, block, procedure_of(block.type)))],
+    "own_return": lambda code, block: [GiveBack(f"return {show(code.slot(block, 'value'))}")],
     "append_text": _append_text,
     **LIST_STATEMENTS,
 }

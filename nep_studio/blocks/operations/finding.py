@@ -17,9 +17,6 @@ from nep_studio.blocks.deployment import (
     robot_entries,
 )
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits.content import SetField
-from nep_studio.blocks.edits.project import RenameVariable
-from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import header_of, parameter_of, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, Block, Parent, Project
@@ -161,39 +158,16 @@ def _own_block(block: Block) -> Iterator[Subject]:
         yield Subject("procedure", procedure)
 
 
-# Rename what blocks name, everywhere in one step.
-
-
-def rename_variable(editor: Editor, variable: str, name: str) -> None:
-    """Give a variable another name; blocks name it by its id and follow."""
-    editor.apply(RenameVariable(variable, name), "rename a variable")
-
-
-def rename_robot(editor: Editor, old: str, new: str) -> None:
-    """Give a robot another name, on the Robots page and in all blocks that name it."""
-    if (reason := why_not_rename_robot(editor, old, new)) is not None:
-        raise EditRefused(reason)
-    with editor.transaction("rename a robot"):
-        for block in list(editor.project.blocks.values()):
-            definition = editor.language.definitions.get(block.type)
-            if definition is None:
-                continue
-            for key, slot in list(definition.keys(block.groups)):
-                is_name = slot.kind.name == "robot" or (block.type == ROBOT_BLOCK and key == "name")
-                if is_name and definition.value(block, key) == old:
-                    editor.apply(SetField(block.id, key, new))
-
-
-def why_not_rename_robot(editor: Editor, old: str, new: str) -> Text | None:
-    """Why a robot cannot have another name, or None when it can."""
-    if old == ALL_ROBOTS or new == ALL_ROBOTS:
+def why_not_robot_name(editor: Editor, name: str) -> Text | None:
+    """Why a new robot cannot have this name, or None when it can."""
+    if name == ALL_ROBOTS:
         return text_of(
             "“{all_robots}” stands for all robots, and cannot be the name of one.",
             all_robots=ALL_ROBOTS,
         )
-    if new != old and any(e.name == new for e in robot_entries(editor.project, editor.language)):
-        return text_of("There is a robot “{new}” already.", new=new)
-    return why_not_name(new)
+    if any(entry.name == name for entry in robot_entries(editor.project, editor.language)):
+        return text_of("There is a robot “{new}” already.", new=name)
+    return why_not_name(name)
 
 
 # What is different between two versions of a project, in words, block by block.

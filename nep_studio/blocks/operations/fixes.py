@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping
 
 from faults import Words
-from nep_studio.blocks.checks.problem import Fix, Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic, Fix
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NODE_BLOCK,
@@ -25,7 +26,7 @@ Data = Mapping[str, str]
 WAIT, POSTURE = "control.wait", "robot.do"
 
 
-def apply_fix(editor: Editor, problem: Problem) -> str:
+def apply_fix(editor: Editor, problem: Diagnostic) -> str:
     """Carry out the fix of a problem; gives the block that it made or changed, to be shown.
 
     Raises EditRefused when there is no fix, or when the program has changed too much for it.
@@ -52,7 +53,7 @@ def _add_gesture_node(editor: Editor, data: Data) -> str:
     gesture = data["gesture"]
     fields: dict[str, FieldValue] = {
         "node": GESTURE_NODE,
-        "name": _free_name(editor, gesture),
+        "name": free_name(editor, gesture),
         "parameters": {"gesture": gesture},
     }
     return append_entry(editor, "nodes", NODE_BLOCK, fields)
@@ -122,15 +123,13 @@ def _create(editor: Editor, block_type: str, place: Place, fields: Mapping[str, 
     return block
 
 
-def _free_name(editor: Editor, wanted: str) -> str:
-    """A name that no robot and no node has."""
+def free_name(editor: Editor, wanted: str) -> str:
+    """A name that no robot and no node has: the wanted one, or with a number."""
     project, language = editor.project, editor.language
     taken = {entry.name for entry in robot_entries(project, language)}
     taken |= {entry.name for entry in node_entries(project, language)}
-    name, number = wanted, 2
-    while name in taken:
-        name, number = f"{wanted} {number}", number + 1
-    return name
+    names = (f"{wanted} {number}" if number > 1 else wanted for number in itertools.count(1))
+    return next(name for name in names if name not in taken)
 
 
 FIXES: dict[str, Callable[[Editor, Data], str]] = {
@@ -189,7 +188,7 @@ def use_watch(
     """
     entries = node_entries(editor.project, editor.language)
     changed = watch_entry(entries, name)
-    name = name or (changed.name if changed is not None else free_watch_name(editor))
+    name = name or (changed.name if changed is not None else free_name(editor, USUAL_NAME))
     gone = [one.block_id for one in entries if one.node in STAND_INS and one != changed]
     fields: dict[str, FieldValue] = {"node": node, "name": name, "parameters": dict(settings)}
     with editor.transaction(label):
@@ -212,17 +211,6 @@ def watch_entry(entries: tuple[NodeEntry, ...], name: str = "") -> NodeEntry | N
     wanted = [*([] if name else [WATCH]), *STAND_INS]
     found = [one for node in wanted for one in entries if one.node == node]
     return found[0] if found else None
-
-
-def free_watch_name(editor: Editor) -> str:
-    """A name for another watch: "watch", or with a number."""
-    project, language = editor.project, editor.language
-    taken = {one.name for one in robot_entries(project, language)}
-    taken |= {one.name for one in node_entries(project, language)}
-    name, number = USUAL_NAME, 2
-    while name in taken:
-        name, number = f"{USUAL_NAME} {number}", number + 1
-    return name
 
 
 # Let a program that has no beginning begin when it starts.

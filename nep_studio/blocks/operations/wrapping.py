@@ -8,7 +8,7 @@ from typing import Literal
 from faults import Text
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits.content import AddGroup, RemoveGroup, SetComment, SetField, SetFlag
+from nep_studio.blocks.edits.content import AddGroup, RemoveGroup, SetField, SetFlag
 from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.places import InBody, InInput, InStack, place_of
@@ -144,11 +144,6 @@ def toggle(editor: Editor, ids: Iterable[str], flag: Flag) -> bool:
     return on
 
 
-def set_comment(editor: Editor, block: str, comment: str) -> None:
-    """Write the comment of a block; an empty one takes it away."""
-    editor.apply(SetComment(block, comment), "write a comment")
-
-
 def _outer(editor: Editor, ids: Iterable[str]) -> list[str]:
     """The selected blocks that are not inside other selected ones."""
     chosen = require_runs(editor.project, ids)
@@ -187,15 +182,6 @@ def remove_part(
             set_aside(editor, run, beside)
             beside = (beside[0], beside[1] + 60.0) if beside else None
         editor.apply(RemoveGroup(block_id, group, index, slots))
-
-
-def why_not_remove_part(editor: Editor, block_id: str, group: str, index: int) -> Text | None:
-    """Why a part cannot be removed, or None when it can."""
-    try:
-        _, definition = _require(editor, block_id, group)
-    except EditRefused as refused:
-        return refused.sentence
-    return editor.why_not(RemoveGroup(block_id, group, index, definition.group_slots(group)))
 
 
 def move_part(editor: Editor, block_id: str, group: str, index: int, to: int) -> None:

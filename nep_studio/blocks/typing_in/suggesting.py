@@ -75,7 +75,7 @@ _TIMES = re.compile(
 REPEAT, REPEAT_SLOT, REPEAT_BODY = "control.repeat", "times", "do"
 
 # What counts beside the typed words themselves (EXACT to NEAR in vocabulary.py) and what they are
-# in slots (qualities in filling.py). All of it together weighs less than one word more that fits.
+# in slots (CHOSEN to FREE there). All of it together weighs less than one word more that fits.
 
 IN_ORDER = 1.0
 """A word that stands right behind the one before, as in the sentence."""
@@ -271,7 +271,7 @@ def _suggestion(attempt: _Try, filler: Filler, recents: Sequence[str]) -> Sugges
             made.inputs[slot] = filling.value
         else:
             made.fields[slot] = filling.value
-    return _told(
+    return _as_suggestion(
         made,
         filler,
         attempt.score + _recency(definition.id, recents),
@@ -280,7 +280,7 @@ def _suggestion(attempt: _Try, filler: Filler, recents: Sequence[str]) -> Sugges
     )
 
 
-def _told(
+def _as_suggestion(
     made: Made,
     filler: Filler,
     score: float,
@@ -308,7 +308,7 @@ def _values(typed: str, filler: Filler, fits: Fits | None) -> list[Suggestion]:
         variable = filler.variables[folded(typed)]
         made.append((Made("variable.get", {"variable": variable}), LITERAL))
     return [
-        _told(one, filler, score, [typed])
+        _as_suggestion(one, filler, score, [typed])
         for one, score in made
         if fits is None or fits(definitions[one.type])
     ]
@@ -345,7 +345,7 @@ def _recent(
     known = [language.definitions[name] for name in recents if name in language.definitions]
     filler = Filler(language, project)
     return [
-        _told(Made(definition.id), filler, _recency(definition.id, recents))
+        _as_suggestion(Made(definition.id), filler, _recency(definition.id, recents))
         for definition in known
         if fits is None or fits(definition)
     ]

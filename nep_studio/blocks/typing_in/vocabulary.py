@@ -70,6 +70,12 @@ def _split(run: str, words: Container[str], *, is_behind: bool) -> list[str]:
 
 EXACT, BEGUN, ALIKE, NEAR = 10.0, 7.0, 6.0, 3.0
 """How much a typed word counts that is a word, begins one, means one, or is nearly one."""
+WHOLE = 2.0
+"""What a beginning counts more the more of the word it is, so that less is left to guess."""
+NEAR_LETTERS = 4
+"""Shorter words are nearly too many others."""
+MOST_LANGUAGES = 8
+"""So many vocabularies are kept: the languages that a person may change between, and more."""
 
 _SYNONYMS = {
     "say": "speak talk tell speech voice",
@@ -126,8 +132,8 @@ class Vocabulary:
             if word == typed:
                 found[word] = EXACT
             elif word.startswith(typed) or (is_glued and typed in word):
-                found[word] = max(found.get(word, 0), BEGUN + 2 * len(typed) / len(word))
-        if not found and len(typed) >= 4:
+                found[word] = max(found.get(word, 0), BEGUN + WHOLE * len(typed) / len(word))
+        if not found and len(typed) >= NEAR_LETTERS:
             found = {word: NEAR for word in self.by_word if is_near(typed, word)}
         return found
 
@@ -138,7 +144,7 @@ def vocabulary(language: Language) -> Vocabulary:
     known = _KNOWN.get(key)
     now = tuple(language.definitions.values()), dict(language.choices)
     if known is None or known[0] != now:
-        if len(_KNOWN) > 8:
+        if len(_KNOWN) > MOST_LANGUAGES:
             _KNOWN.clear()
         known = _KNOWN[key] = (now, _made(language))
     return known[1]
@@ -223,6 +229,25 @@ _LONGER_SIGNS = (("≤", "<="), ("≥", ">="), ("≠", "!="), ("^", "**"))
 _OPERATORS = re.compile(r"[-+*/%<>=×÷−≤≥≠^]|\b(and|or|not)\b")  # noqa: RUF001 signs that people type
 
 
+# How sure a filling is, beside what words of the sentence count (EXACT to NEAR).
+
+CHOSEN = 8.0
+"""What a choice begins with, or is: it was meant, more than any begun word (BEGUN)."""
+CHOICE_BEGUN, CHOICE_WHOLE = 4.0, 2.0
+"""The beginnings of a choice's words, and more the more of it was typed: together less than a
+begun word of a sentence, since many choices begin alike."""
+NAMED = 6.0
+"""A robot, a variable or an expression that is there can hardly mean anything else."""
+FITTING = 5.0
+"""A value of the kind that the slot wants, such as a number; a variable among other values."""
+OTHER_NUMBER = 4.0
+"""A number in a slot that takes other values too."""
+QUOTED, FREE = 3.0, 2.0
+"""A text: in quotes it was meant as one; without, it may be anything, and so may a new name."""
+LONGEST_EXPRESSION = 300
+"""Longer ones are pasted, not typed, and could take long to read."""
+
+
 @dataclass(slots=True)
 class Filling:
     """What goes into a slot, how sure that is, and variables (by name) that have to be made."""
@@ -258,11 +283,11 @@ class Filler:
             return _choice(entry, slot, plain) or self._free_gesture(slot, plain)
         if kind == "robot":
             name = self.robots.get(plain)
-            return Filling(name, 6) if name is not None else None
+            return Filling(name, NAMED) if name is not None else None
         if kind == "variable":
             return self._variable(plain, text.strip())
         if slot.kind.words:
-            return self._checked(slot, slot.kind.words.get(plain, plain), 5)
+            return self._checked(slot, slot.kind.words.get(plain, plain), FITTING)
         return self._value(slot, text.strip(), plain)
 
     def expression(self, text: str) -> tuple[Made, str] | None:
@@ -280,29 +305,29 @@ class Filler:
             getter = self._reader().type_of("variable")
             result = self.language.definitions[getter].result if getter else ""
             if result in slot.kind.fits:
-                return Filling(Made(getter, {"variable": self.variables[plain]}), 5)
+                return Filling(Made(getter, {"variable": self.variables[plain]}), FITTING)
         if slot.kind.pluggable and _OPERATORS.search(text) and not _NUMBER.fullmatch(text):
             found = self.expression(text)
             if found is not None and found[1] in slot.kind.fits:
-                return Filling(found[0], 6)
+                return Filling(found[0], NAMED)
         number = number_in(text)
         if slot.kind.is_number:
-            return self._checked(slot, number, 5) if number is not None else None
+            return self._checked(slot, number, FITTING) if number is not None else None
         if number is not None and slot.why_not(number) is None:
-            return Filling(number, 4)
+            return Filling(number, OTHER_NUMBER)
         unquoted = text[1:-1] if is_quoted(text) else text
-        return self._checked(slot, unquoted, 3 if is_quoted(text) else 2)
+        return self._checked(slot, unquoted, QUOTED if is_quoted(text) else FREE)
 
     def _variable(self, plain: str, text: str) -> Filling | None:
         if plain in self.variables:
-            return Filling(self.variables[plain], 6)
+            return Filling(self.variables[plain], NAMED)
         if " " in text or not python_name(text, "").isidentifier() or number_in(text) is not None:
             return None
-        return Filling("", 2, new_variable=text)
+        return Filling("", FREE, new_variable=text)
 
     def _free_gesture(self, slot: Slot, plain: str) -> Filling | None:
         if slot.kind.name == "gesture" and plain and not self.language.choices_of(slot):
-            return Filling(plain.replace(" ", "_"), 2)
+            return Filling(plain.replace(" ", "_"), FREE)
         return None
 
     def _checked(self, slot: Slot, value: FieldValue, quality: float) -> Filling | None:
@@ -346,10 +371,10 @@ def _choice(entry: Entry, slot: Slot, plain: str) -> Filling | None:
 
 def _likeness(plain: str, label: str) -> float:
     if label == plain or label.startswith(f"{plain} "):
-        return 8.0
+        return CHOSEN
     words = label.split()
     if all(any(word.startswith(typed) for word in words) for typed in plain.split()):
-        return 4.0 + 2.0 * len(plain) / max(len(label), 1)
+        return CHOICE_BEGUN + CHOICE_WHOLE * len(plain) / max(len(label), 1)
     return 0.0
 
 
@@ -357,7 +382,7 @@ def _parsed(text: str) -> ast.expr | None:
     for sign, python in _LONGER_SIGNS:
         text = text.replace(sign, python)
     text = re.sub(r"(?<![<>=!])=(?!=)", "==", text.translate(_TYPED_SIGNS))
-    if len(text) > 300:
+    if len(text) > LONGEST_EXPRESSION:
         return None
     try:
         with warnings.catch_warnings():

@@ -75,7 +75,7 @@ class Motion:
     def go(self, state: RobotState, now_s: float) -> bool:
         """Take in a new state; whether anything is seen of it."""
         since, self._heard_s = now_s - self._heard_s, now_s
-        if looks(state) == looks(self.goal):
+        if visible_state(state) == visible_state(self.goal):
             self.shown = state if self.shown is self.goal else self.shown
             self.goal = state
             return False
@@ -95,7 +95,7 @@ class Motion:
         return True
 
 
-def looks(state: RobotState) -> tuple[object, ...]:
+def visible_state(state: RobotState) -> tuple[object, ...]:
     """All of a state that is seen; equal for states that look the same."""
     felt = tuple(sorted(name for name, value in state.sensors.items() if value > 0))
     names = (name for name in state.__struct_fields__ if name not in UNSEEN)

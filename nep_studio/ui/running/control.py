@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from nep_core.errors import NepError
-from nep_studio.blocks.checks.problem import Problem as BlockProblem
-from nep_studio.blocks.checks.problem import page_of
+from nep_studio.blocks.checks.diagnostic import Diagnostic, page_of
 from nep_studio.blocks.deployment import gestures_used, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.source_map import Code
@@ -263,6 +262,6 @@ class RunControl(QObject):
         workbench = self._host.workbench
         page = page_of(workbench.canvas.editor.project, block)
         sentence, steps = problem.sentence, problem.checklist
-        shown = BlockProblem("error", "run", page, block, sentence, steps)
+        shown = Diagnostic("error", "run", page, block, sentence, steps)
         workbench.show_run_problem(shown)
         workbench.show_block(block)

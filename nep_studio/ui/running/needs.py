@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import rules
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import add_start
@@ -66,11 +66,11 @@ class Need:
     fixes: tuple[NeedFix, ...] = ()
     block: str = ""
     node: PlannedNode | None = None
-    problem: Problem | None = None
+    problem: Diagnostic | None = None
 
 
 def needs_of(
-    problems: Sequence[Problem],
+    problems: Sequence[Diagnostic],
     nodes: Sequence[PlannedNode],
     board: Mapping[str, NodeStatus],
     answers: Mapping[str, bool],
@@ -117,7 +117,7 @@ def _rules() -> Need:
     return Need("missing", title, sentence, (fix,))
 
 
-def _problem(problem: Problem) -> Need:
+def _problem(problem: Diagnostic) -> Need:
     fixes = [NeedFix("fix_problem", tr(problem.fix.label))] if problem.fix is not None else []
     if problem.block:
         fixes.append(NeedFix("show_block", tr("Show the block")))

@@ -44,8 +44,8 @@ from nep_studio.ui.words import count_words, is_right_to_left, tr
 
 # How the gallery says what an example needs, how hard and how long it is, and what it is about.
 
-Sign = tuple[str, str]
-"""The name of an icon, and words."""
+Feature = tuple[str, str]
+"""What an example needs or takes: the name of an icon, and words."""
 
 NEEDS = {
     "watch": "A watch, or the virtual one",
@@ -85,7 +85,7 @@ TAGS = {
 """What a tag is called."""
 
 
-def signs_of(example: Example) -> list[Sign]:
+def signs_of(example: Example) -> list[Feature]:
     """How hard an example is, what one needs for it, how long it takes, each with its icon."""
     hard = example.difficulty
     needs = [(ICONS[need], tr(NEEDS[need])) for need in example.needs if need in NEEDS]
@@ -101,7 +101,7 @@ def search_text(example: Example) -> str:
     return " ".join([*shown, *example.words(), *tags, *example.tags, *signs]).casefold()
 
 
-def _length(example: Example) -> Sign:
+def _length(example: Example) -> Feature:
     if not example.seconds:
         return "repeat", tr("Until you stop it")
     if example.seconds < 60:

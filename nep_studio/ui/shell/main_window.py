@@ -37,7 +37,7 @@ from .plugin_host import WindowHost
 from .start_page import StartPage
 
 if TYPE_CHECKING:
-    from nep_studio.blocks.checks.problem import Problem
+    from nep_studio.blocks.checks.diagnostic import Diagnostic
     from nep_studio.ui.documents import Document, Opening
     from nep_studio.ui.running.control import RunControl
     from nep_studio.ui.workbench.workbench import Workbench
@@ -354,7 +354,7 @@ class MainWindow(QMainWindow):
         can_compare = document is not None and document.path is not None and document.is_modified
         self.actions_by_name.enable(can_compare, "compare")
 
-    def _on_problems_found(self, problems: Sequence[Problem]) -> None:
+    def _on_problems_found(self, problems: Sequence[Diagnostic]) -> None:
         document = self.files.document
         is_open = document is not None
         if document is not None and not document.project.blocks:

@@ -28,7 +28,7 @@ from .dialogs import show_about, show_report, show_shortcuts
 from .gallery import example_files, example_words
 
 if TYPE_CHECKING:
-    from nep_studio.blocks.checks.problem import Problem
+    from nep_studio.blocks.checks.diagnostic import Diagnostic
     from nep_studio.ui.canvas.editing.commands import Commands
     from nep_studio.ui.theme.colours import Theme
     from nep_studio.ui.workbench.find_bar import FindBar
@@ -507,7 +507,7 @@ def _add_choices(
 # What the action that checks says on the toolbar.
 
 
-def summary(problems: Sequence[Problem]) -> str:
+def summary(problems: Sequence[Diagnostic]) -> str:
     """How many problems there are, in a few words."""
     if not problems:
         return tr("Nothing to correct")
@@ -515,7 +515,7 @@ def summary(problems: Sequence[Problem]) -> str:
 
 
 def style_check(
-    check: QAction, problems: Sequence[Problem], theme: Theme, *, is_open: bool
+    check: QAction, problems: Sequence[Diagnostic], theme: Theme, *, is_open: bool
 ) -> None:
     """Let the action that checks say how many problems there are, and how bad they are."""
     worst = next(iter(problems), None)

@@ -319,9 +319,9 @@ def ask_if_due(window: MainWindow) -> Asking | None:
 
 def _tell(window: MainWindow, choice: UpdateChoice, newest: Newest | None) -> None:
     """Tell of a newer version, of each only once."""
-    if newest is None or not newest.is_newer or newest.version == choice.told:
+    if newest is None or not newest.is_newer or newest.version == choice.announced:
         return
-    choice.told = newest.version
+    choice.announced = newest.version
     title = tr("There is a new version of NEP Studio: {version}", version=newest.version)
     sentence = tr("You have {version}. Nothing changes unless you get it.", version=__version__)
     show = Answer(tr("Show its page"), lambda: show_page(newest.page))

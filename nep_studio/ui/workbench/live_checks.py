@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.slices import Sliced
 from nep_studio.run.installation import KnownProblems, problem_steps
@@ -30,10 +30,10 @@ class LiveChecks(QObject):
         self._edits: Edits | None = None
         self._folder: Callable[[], Path] = Path.cwd
         self._known = KnownProblems()
-        self._check: Sliced[list[Problem]] | None = None
+        self._check: Sliced[list[Diagnostic]] | None = None
         self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next.timeout.connect(self._on_next_slice)
-        self.problems: list[Problem] = []
+        self.problems: list[Diagnostic] = []
 
     def follow(self, editor: Editor | None, folder: Callable[[], Path] = Path.cwd) -> None:
         """Check another project; None checks nothing."""
@@ -66,7 +66,7 @@ class LiveChecks(QObject):
         self._known = KnownProblems()
         self.start()
 
-    def take(self, problems: list[Problem]) -> None:
+    def take(self, problems: list[Diagnostic]) -> None:
         """Take what somebody else has just found: it need not be looked for again."""
         self.cancel()
         self._tell(problems)
@@ -88,6 +88,6 @@ class LiveChecks(QObject):
         else:
             self._next.start()
 
-    def _tell(self, problems: list[Problem]) -> None:
+    def _tell(self, problems: list[Diagnostic]) -> None:
         self.problems = problems
         self.found.emit(problems)

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from faults import Words, text_of
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import ChecklistStep, MessageText
 from nep_studio.ui.messages import KIND_ICONS, Message
@@ -31,14 +31,14 @@ from nep_studio.ui.widgets.forms import hint, room_around
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.blocks.checks import Problem
+    from nep_studio.blocks.checks import Diagnostic
 
 
 SEVERITIES = {"error": "Error", "warning": "Warning", "info": "Note"}
 """How bad it is, in a word."""
 
 
-def fix_button(problem: Problem) -> QPushButton | None:
+def fix_button(problem: Diagnostic) -> QPushButton | None:
     """The button for what the program can do about it."""
     if problem.fix is None:
         return None
@@ -63,7 +63,7 @@ class ProblemsPanel(QScrollArea):
     def __init__(self, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._look = look
-        self._problems: Sequence[Problem] = ()
+        self._problems: Sequence[Diagnostic] = ()
         self.rows: list[ProblemRow] = []
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
@@ -71,7 +71,7 @@ class ProblemsPanel(QScrollArea):
         self._is_old = True
         look.theme_changed.connect(self._refresh)
 
-    def show_problems(self, problems: Sequence[Problem]) -> None:
+    def show_problems(self, problems: Sequence[Diagnostic]) -> None:
         """Show these; nothing is drawn again when they are the same."""
         if list(problems) != list(self._problems):
             self._problems = tuple(problems)
@@ -113,7 +113,7 @@ class ProblemsPanel(QScrollArea):
 class ProblemRow(QFrame):
     """One problem. A click or Enter shows its block."""
 
-    def __init__(self, problem: Problem, look: Look, panel: ProblemsPanel) -> None:
+    def __init__(self, problem: Diagnostic, look: Look, panel: ProblemsPanel) -> None:
         super().__init__(panel)
         self.problem, self._panel = problem, panel
         self.setProperty("kind", problem.severity)
@@ -147,7 +147,7 @@ class ProblemRow(QFrame):
             super().keyPressEvent(event)
 
 
-def _sign(problem: Problem, look: Look, widget: QWidget) -> QLabel:
+def _sign(problem: Diagnostic, look: Look, widget: QWidget) -> QLabel:
     label, size = QLabel(), round(widget.fontMetrics().height() * 1.2)
     colour, ratio = look.theme.colour(problem.severity), widget.devicePixelRatioF()
     label.setPixmap(icon_pixmap(KIND_ICONS[problem.severity], colour, size, ratio))
@@ -183,7 +183,7 @@ class ProblemBubble(QFrame):
 
     fix_asked = Signal(object)
 
-    def __init__(self, problems: list[Problem], parent: QWidget) -> None:
+    def __init__(self, problems: list[Diagnostic], parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setAttribute(Qt.WidgetAttribute.WA_TranslucentBackground)
@@ -225,7 +225,7 @@ class ProblemBubble(QFrame):
         else:
             super().keyPressEvent(event)
 
-    def _add_fix(self, problem: Problem, box: QVBoxLayout) -> None:
+    def _add_fix(self, problem: Diagnostic, box: QVBoxLayout) -> None:
         button = fix_button(problem)
         if button is None:
             return

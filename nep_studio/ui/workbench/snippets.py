@@ -8,6 +8,7 @@ import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 
+from nep_core.places import whole_file
 from nep_studio.blocks.errors import BlocksError, EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, from_text, to_text
@@ -132,9 +133,8 @@ def _checked(name: str) -> str:
 def _write(path: Path, text: str) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        beside = path.with_name(f".{path.name}.part")
-        beside.write_text(text, encoding="utf-8")
-        beside.replace(path)
+        with whole_file(path) as file:
+            file.write(text.encode())
     except OSError as error:
         raise _refused(path, error) from error
 

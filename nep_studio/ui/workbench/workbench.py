@@ -10,7 +10,7 @@ from PySide6.QtGui import QFont, QFontInfo
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
 from faults import Words
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import apply_fix
@@ -105,7 +105,7 @@ class Workbench(QWidget):
         self.checks = LiveChecks(self)
         self.helpers = CanvasHelpers(self.canvas, studio.settings)
         self.bubble: ProblemBubble | None = None
-        self._run_problem: Problem | None = None
+        self._run_problem: Diagnostic | None = None
         self._usual_scale = usual_scale(studio)
         self.panels = Panels(self._middle(), studio.look, studio.settings, self)
         self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left")
@@ -214,7 +214,7 @@ class Workbench(QWidget):
         if block in self.canvas.editor.project.blocks:
             self.canvas.selection.set([block])
 
-    def fix(self, problem: Problem) -> None:
+    def fix(self, problem: Diagnostic) -> None:
         """Put a problem right as far as the program can, and show what it did."""
         changed: list[str] = []
         try:
@@ -225,7 +225,7 @@ class Workbench(QWidget):
         self.show_block(changed[0])
         self.checks.start()
 
-    def show_run_problem(self, problem: Problem | None) -> None:
+    def show_run_problem(self, problem: Diagnostic | None) -> None:
         """Show at its block why the program stopped, until it is run again or changed there."""
         self._run_problem = problem
         self._show_problems()
@@ -244,11 +244,11 @@ class Workbench(QWidget):
         bubble.fix_asked.connect(self.fix)
         bubble.show_at(QRect(viewport.mapToGlobal(corner), size))
 
-    def _on_problems_found(self, problems: list[Problem]) -> None:
+    def _on_problems_found(self, problems: list[Diagnostic]) -> None:
         self._show_problems()
         self.problems_found.emit(problems)
 
-    def _all_problems(self) -> list[Problem]:
+    def _all_problems(self) -> list[Diagnostic]:
         """What is not right, and why the program stopped."""
         stopped = self._run_problem
         if stopped is None or stopped.block not in self.canvas.editor.project.blocks:
@@ -263,7 +263,7 @@ class Workbench(QWidget):
         if self.canvas.problems.problems != before:
             self.canvas.viewport().update()
 
-    def _on_problem_opened(self, problem: Problem) -> None:
+    def _on_problem_opened(self, problem: Diagnostic) -> None:
         if problem.block:
             self.show_block(problem.block)
         elif problem.page in self.canvas.editor.project.pages:

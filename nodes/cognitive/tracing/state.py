@@ -231,7 +231,7 @@ class ProgramValues:
 
     def __init__(self, names: frozenset[str]) -> None:
         self._names = sorted(names)
-        self._told: dict[str, str] = {}
+        self._last_sent: dict[str, str] = {}
         self._reports: dict[str, object] = {}
         self.namespace: Mapping[str, object] = {}
 
@@ -246,14 +246,14 @@ class ProgramValues:
             now = self._now()
         except RuntimeError:  # a collection grew while it was read: the next time will tell
             return {}
-        changed = {name: text for name, text in now.items() if self._told.get(name) != text}
-        self._told |= changed
+        changed = {name: text for name, text in now.items() if self._last_sent.get(name) != text}
+        self._last_sent |= changed
         return changed
 
     def _now(self) -> dict[str, str]:
         now = {place: shown(value) for place, value in self._reports.copy().items()}
         for name in self._names:
             value = self.namespace.get(name, self)
-            if value is not self and (is_plain(value) or name in self._told):
+            if value is not self and (is_plain(value) or name in self._last_sent):
                 now[name] = shown(value)
         return now

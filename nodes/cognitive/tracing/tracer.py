@@ -156,6 +156,8 @@ class Tracer:
     """Traces the program ``file`` between begin() and end(), which the same thread calls.
 
     ``send`` is called, from several threads, with each state; ``name`` is the program's.
+
+    ``make_watch`` makes what follows the lines (None: as costs least).
     """
 
     def __init__(
@@ -169,9 +171,9 @@ class Tracer:
         self._pace = Pace(source, self._tell)
         self._watch = (make_watch or cheapest_watch())(file, self._threads, self)
         self._lock = threading.Lock()
-        self._telling = threading.Lock()
+        self._sending = threading.Lock()
         self._refreshes = 0
-        self._told: dict[str, list[int]] = {}
+        self._last_lines: dict[str, list[int]] = {}
         self._over = threading.Event()
         self._teller = threading.Thread(target=self._keep_telling, name="nep-trace", daemon=True)
 
@@ -235,7 +237,7 @@ class Tracer:
             if self._refreshes and not self._over.is_set():
                 self._refreshes -= 1
                 self._watch.refresh()
-        with self._telling:
+        with self._sending:
             self._tell_lines(self._threads.lines())
         self._tell_values()
 
@@ -253,8 +255,8 @@ class Tracer:
             pause_s = max(PERIOD_S, (time.thread_time() - began_s) / LOOKING_SHARE)
 
     def _tell_lines(self, lines: dict[str, list[int]]) -> None:
-        if lines != self._told:
-            self._told = lines
+        if lines != self._last_lines:
+            self._last_lines = lines
             self._send(ProgramState(program=self._name, event="line", lines=lines))
 
     def _tell_values(self) -> None:
@@ -265,7 +267,7 @@ class Tracer:
         state = ProgramState(
             program=self._name, event=event, thread=thread, line=line, description=why
         )
-        with self._telling:  # no line that was read before a pause is told after it
+        with self._sending:  # no line that was read before a pause is told after it
             self._send(state)
         if event == "paused":
             self._set_lines()  # a breakpoint of one thread pauses all

@@ -167,6 +167,9 @@ def collect(
     """All examples of the scans, whose windows are in ``folds`` and takes in ``takes_folds``.
 
     What holds a gesture is there three times, each time as others would make it.
+
+    ``gestures`` are those to be learned, ``channels`` the signals of which features are made,
+    ``seed`` that of the chance.
     """
     idle, held = [], []
     for number, (found, fold, of_takes) in enumerate(zip(scans, folds, takes_folds, strict=True)):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import struct
+import tempfile
 import tokenize
 import zipfile
 import zlib
@@ -20,7 +20,9 @@ from numpy.typing import NDArray
 
 from faults import reason_of
 from nep_core.errors import RecordingError
+from nep_core.places import whole_file
 from nep_core.wire.messages import Wrist
+from nodes.recordings import writing
 
 from .features import (
     Channels,
@@ -367,10 +369,6 @@ _TRAIN_AGAIN = (
     "Choose a file that `nep-studio train` has written.",
     "Or train the gestures again from their recordings.",
 )
-_ANOTHER_PLACE = (
-    "Choose a folder that you may write into, such as one in your home folder.",
-    "Is there room on the disk?",
-)
 
 
 class _Version(msgspec.Struct):
@@ -380,24 +378,14 @@ class _Version(msgspec.Struct):
 
 def check_writable(path: Path) -> None:
     """Tell before the work that a model cannot be written there: RecordingError."""
-    unfinished = _unfinished(path)
-    try:
-        unfinished.touch()
-        unfinished.unlink()
-    except OSError as error:
-        raise _not_written(path, error) from error
+    with writing(path), tempfile.TemporaryFile(dir=path.parent):
+        pass
 
 
 def write_model(path: Path, model: Model) -> None:
     """Write a model; the file is whole or as it was before. RecordingError when that fails."""
-    unfinished = _unfinished(path)
-    try:
-        unfinished.write_bytes(model_bytes(model))
-        unfinished.replace(path)
-    except OSError as error:
-        raise _not_written(path, error) from error
-    finally:
-        unfinished.unlink(missing_ok=True)
+    with writing(path), whole_file(path) as file:
+        file.write(model_bytes(model))
 
 
 def model_bytes(model: Model) -> bytes:
@@ -427,20 +415,6 @@ def read_model(path: Path) -> Model:
             details=str(error),
             name=path.name,
         ) from error
-
-
-def _unfinished(path: Path) -> Path:
-    return path.with_name(f".{path.name}.{os.getpid()}.unfinished")
-
-
-def _not_written(path: Path, error: OSError) -> RecordingError:
-    return RecordingError(
-        "{path} cannot be written: {reason}.",
-        checklist=_ANOTHER_PLACE,
-        details=str(error),
-        path=path,
-        reason=reason_of(error),
-    )
 
 
 def _content(path: Path) -> bytes:

@@ -201,17 +201,6 @@ class MovementFinder:
         return max((float(t[last] - t[first]) for first, last in _spans(energy < calm)), default=0)
 
 
-def find_movements(t: Floats, acc: Floats, gyr: Floats | None) -> list[Movement]:
-    """All movements of a recording, as they would be found while it is made."""
-    finder = MovementFinder()
-    found: list[Movement] = []
-    step = max(1, round(_rate_hz(t) / 10))
-    for at in range(0, len(t), step):
-        part = slice(at, at + step)
-        found += finder.hear(t[part], acc[part], None if gyr is None else gyr[part])
-    return found + finder.finish()
-
-
 def _fault(t: Floats, peak: float, usual: float) -> Fault:
     duration_s = float(t[-1] - t[0])
     if len(t) > 1 and float(np.diff(t).max()) > GAP_S:
@@ -354,16 +343,6 @@ class PerformanceFinder:
         if len(self._t) and self._t[-1] - self._t[0] > 2 * _KEPT_S:
             first = int(np.searchsorted(self._t, self._t[-1] - _KEPT_S))
             self._t, self._acc = self._t[first:], self._acc[first:]
-
-
-def find_performances(t: Floats, acc: Floats, gyr: Floats | None) -> list[Movement]:
-    """All performances of a recording, as they would be found while it is made."""
-    finder = PerformanceFinder()
-    found: list[Movement] = []
-    for at in range(0, len(t), 5):
-        part = slice(at, at + 5)
-        found += finder.hear(t[part], acc[part], None if gyr is None else gyr[part])
-    return found + finder.finish()
 
 
 def _gesture_in(parts: list[Movement]) -> Movement:

@@ -47,6 +47,9 @@ class SensorInput:
 
     ``tell`` gets a sentence when it finds out how the watch is worn, ``warn`` one for each trouble.
     RecordingError when the sensor lacks what the model needs.
+
+    ``first`` is the sensor's first message, ``model`` what was learned, ``make_spotter`` makes
+    what finds gestures, ``worn`` is how the watch sits.
     """
 
     def __init__(
@@ -149,7 +152,7 @@ class _Troubles:
     def __init__(self, source: Words, warn: Callable[[Text], None]) -> None:
         self._source = source
         self._warn = warn
-        self._told: set[str] = set()
+        self._warned: set[str] = set()
         self._batches = self._breaks = self._samples = self._numbers = self._steps = 0
         self._moving_s = 0.0
         self._last_s = np.nan
@@ -213,8 +216,8 @@ class _Troubles:
         self._moving_s = 0.0
 
     def _once(self, trouble: str, sentence: Text) -> None:
-        if trouble not in self._told:
-            self._told.add(trouble)
+        if trouble not in self._warned:
+            self._warned.add(trouble)
             self._warn(sentence)
 
 

@@ -183,6 +183,9 @@ def train(
 
     With gyroscopes in all recordings the model also works without one. The same recordings and
     seed give the same model. RecordingError says which recordings cannot be used.
+
+    ``methods`` are the recognisers to fit, ``seed`` is that of the chance; ``tell`` gets
+    sentences about how far it is.
     """
     gyroscope = all(recording.gyr is not None for recording in (*recordings, *everyday))
     gravity = all(recording.gravity_included for recording in (*recordings, *everyday))

@@ -227,7 +227,11 @@ class Validation:
 def cross_validate(
     fit: Fit, examples: Examples, scans: Sequence[Scan], folds: Sequence[Integers]
 ) -> dict[str, Validation]:
-    """Score every window of the scans by recognisers fitted without its fold, and spot in that."""
+    """Score every window of the scans by recognisers fitted without its fold, and spot in that.
+
+    ``fit`` makes a recogniser of ``examples`` without those of one fold; ``folds`` has, by
+    scan, the fold of each window.
+    """
     every = _left_out_scores(fit, examples, scans, folds)
     return {method: _validate(examples.gestures, scans, scores) for method, scores in every.items()}
 
@@ -272,7 +276,11 @@ def _validate(
 def spot(
     found: Scan, gestures: Sequence[Gesture], certainties: Floats, trigger: float = TRIGGER
 ) -> list[Detection]:
-    """What a spotter finds in a scanned passage; certainties (windows, gestures)."""
+    """What a spotter finds in a scanned passage; certainties (windows, gestures).
+
+    ``found`` is the passage, ``gestures`` are the columns of the certainties, ``trigger`` is
+    the certainty from which one counts.
+    """
     lengths = window_lengths(gestures)
     looks = np.zeros((found.hop[-1] + 1, len(lengths), len(gestures)))
     looks[found.hop, found.which] = certainties

@@ -66,7 +66,7 @@ def main(arguments: list[str]) -> int:
 
     The argument is the id of the process that orders it.
     """
-    told = _Told(sys.stdout.buffer)
+    told = _JsonLines(sys.stdout.buffer)
     sys.stdout = sys.stderr  # what libraries print is no answer
     orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=_read, args=(sys.stdin.buffer, orders), daemon=True).start()
@@ -98,7 +98,7 @@ def _train_without_delay() -> None:
     importlib.import_module("sklearn.ensemble")
 
 
-def _do(line: bytes, told: _Told) -> None:
+def _do(line: bytes, told: _JsonLines) -> None:
     """Do one order, and tell how it ended."""
     try:
         order = msgspec.json.decode(line, type=_Order)
@@ -133,7 +133,7 @@ def _do(line: bytes, told: _Told) -> None:
         )
 
 
-def _train(order: _Order, told: _Told) -> None:
+def _train(order: _Order, told: _JsonLines) -> None:
     started_s = time.monotonic()
     output = Path(order.output)
     told.progress(0.0, READING)
@@ -158,7 +158,7 @@ def _train(order: _Order, told: _Told) -> None:
 class _Learning:
     """The progress of a training, which tells when it begins to check, and to learn for good."""
 
-    def __init__(self, told: _Told, count: int) -> None:
+    def __init__(self, told: _JsonLines, count: int) -> None:
         self._told = told
         self._steps = iter(
             [(_READ, CHECKING)]
@@ -172,7 +172,7 @@ class _Learning:
             return
 
 
-class _Told:
+class _JsonLines:
     """What is told, a line of JSON each."""
 
     def __init__(self, out: BinaryIO) -> None:

@@ -20,7 +20,11 @@ _JOLT_S = 0.05
 def settle(
     motion: Motion, start_s: float, pose: Pose, rng: np.random.Generator, haste: float = 1.0
 ) -> float:
-    """Go to about this pose, slower where it is farther; tells when it is reached."""
+    """Go to about this pose, slower where it is farther; tells when it is reached.
+
+    ``motion`` gets the movement, from ``start_s``; ``rng`` is the chance, ``haste`` 2 twice as
+    fast.
+    """
     goal = {
         joint: value if joint in LENGTHS else value + rng.normal(0.0, 4.0)
         for joint, value in pose.items()
@@ -42,7 +46,11 @@ def shift(
     rng: np.random.Generator,
     lasting_s: tuple[float, float] = (0.35, 0.9),
 ) -> float:
-    """A free movement about a pose; tells when it ends."""
+    """A free movement about a pose; tells when it ends.
+
+    ``motion`` gets the movement, from ``start_s``, about ``wide_deg`` wide; ``rng`` is the
+    chance, ``lasting_s`` the shortest and longest time.
+    """
     duration_s = rng.uniform(*lasting_s)
     around = {joint: value + rng.normal(0.0, wide_deg) for joint, value in pose.items()}
     motion.move(around, start_s, duration_s)
@@ -57,7 +65,11 @@ def sway(
     pose: Pose,
     rng: np.random.Generator,
 ) -> None:
-    """An oscillation; ``pose`` holds how far, in degrees (hips in m)."""
+    """An oscillation; ``pose`` holds how far, in degrees (hips in m).
+
+    ``motion`` gets it from ``start_s`` to ``end_s``, ``frequency_hz`` times a second; ``rng``
+    is the chance.
+    """
     phase = float(rng.uniform(0, 2 * np.pi))
     motion.swing(Swing(start_s, end_s, frequency_hz, phase, joint_values(pose)))
 

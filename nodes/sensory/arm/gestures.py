@@ -34,7 +34,11 @@ class Gesture:
 
 
 def arm(flexion: float, abduction: float, rotation: float, elbow: float, pronation: float) -> Pose:
-    """A pose of the five joints of the arm, in degrees."""
+    """A pose of the five joints of the arm, in degrees.
+
+    ``flexion``, ``abduction`` and ``rotation`` are the shoulder's, ``elbow`` and ``pronation``
+    the forearm's.
+    """
     return {
         Joint.FLEXION: flexion,
         Joint.ABDUCTION: abduction,

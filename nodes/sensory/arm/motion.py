@@ -230,7 +230,11 @@ class Sensor:
     def feel(
         self, motion: Motion, body: Body, t: Floats, rng: np.random.Generator
     ) -> tuple[Floats, Floats]:
-        """Acceleration (n, 3) with gravity and rotation rate (n, 3), with the sensor's errors."""
+        """Acceleration (n, 3) with gravity and rotation rate (n, 3), with the sensor's errors.
+
+        ``motion`` is what the arm of ``body`` does, ``t`` (n,) the times in s, ``rng`` the
+        chance.
+        """
         acc, gyr = felt_exactly(motion, body, t)
         if self.left_wrist:
             acc, gyr = acc * _LEFT_ACC, gyr * _LEFT_GYR

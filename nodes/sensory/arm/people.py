@@ -134,6 +134,9 @@ class Performer:
     """Plans movements one after the other, and gives out what the watch feels.
 
     The same person, rate and seed, asked for the same movements, give the same samples.
+
+    ``person`` is who moves, ``rate_hz`` how often it is measured, ``seed`` that of the chance,
+    ``start_s`` the time of the first sample.
     """
 
     def __init__(self, person: Person, rate_hz: float, seed: int, start_s: float = 0.0) -> None:
@@ -219,7 +222,11 @@ MOST_WAITING = 20
 
 
 class LivePerson:
-    """Somebody who wears the watch: gestures wait for each other, everyday movement gives way."""
+    """Somebody who wears the watch: gestures wait for each other, everyday movement gives way.
+
+    ``person`` is the number of who wears it, ``rate_hz`` how often it measures, ``seed`` that
+    of the chance, ``start_s`` the time of the first sample.
+    """
 
     def __init__(self, person: int, rate_hz: float, seed: int, start_s: float = 0.0) -> None:
         self.number = person
@@ -275,6 +282,8 @@ def perform(gesture: str, person: int, take: int, rate_hz: float = 50.0) -> Reco
     """One gesture with rest before and after it; each ``take`` is another performance.
 
     Raises ParameterError for a gesture that the simulated people do not know.
+
+    ``person`` is the number of who makes it, ``rate_hz`` how often it is measured.
     """
     performer = Performer(person_numbered(person), rate_hz, take)
     performer.live(rest)
@@ -286,7 +295,11 @@ def perform(gesture: str, person: int, take: int, rate_hz: float = 50.0) -> Reco
 def simulate_session(
     person: int, gestures: Sequence[str], repetitions: int, rate_hz: float = 50.0, seed: int = 0
 ) -> Recording:
-    """One labelled stream: every gesture so many times in random order, pauses in between."""
+    """One labelled stream: every gesture so many times in random order, pauses in between.
+
+    ``person`` is the number of who makes them, ``gestures`` are by name, ``repetitions`` how
+    often each; ``rate_hz`` is how often it is measured, ``seed`` that of the chance.
+    """
     order = [gesture_named(name) for name in gestures for _ in range(repetitions)]
     chance = np.random.default_rng([3, person, seed])
     performer = Performer(person_numbered(person), rate_hz, seed)
@@ -312,6 +325,9 @@ def simulate_everyday(
     """Everyday movement without any gesture: walking, drinking, typing, sitting down, ...
 
     ``activities``: EVERYDAY, or LIVELY for what is harder to tell from a gesture.
+
+    ``person`` is the number of who moves for so many ``seconds``, ``rate_hz`` how often it is
+    measured, ``seed`` that of the chance.
     """
     chance = np.random.default_rng([4, person, seed])
     performer = Performer(person_numbered(person), rate_hz, seed)

@@ -22,9 +22,9 @@ class WayKind:
 
 
 def _phone_page(settings: Settings) -> Connector:
-    from nodes.sensory.phone_page.server import PhonePageConnector
+    from nodes.sensory.phone_page.server import PhonePage
 
-    return PhonePageConnector(settings)
+    return PhonePage(settings)
 
 
 def _sensor_logger(settings: Settings) -> Connector:

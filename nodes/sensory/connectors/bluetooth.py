@@ -224,16 +224,16 @@ UNKNOWN = (
 )
 
 
-class BluetoothConnector:
+class BluetoothConnector(Background):
     """Looks for a device, listens to it, and looks again when it is gone.
 
     ``address`` in the settings is its name or Bluetooth address; empty: any that is known.
     """
 
     def __init__(self, settings: Settings, known: Mapping[str, Profile] | None = None) -> None:
+        super().__init__(self._follow)
         self._wanted = settings.address.strip()
         self._known = known
-        self._background = Background(self._follow)
 
     @property
     def where(self) -> Text:
@@ -264,15 +264,7 @@ class BluetoothConnector:
             )
         if self._known is None:
             self._known = profiles()
-        self._background.start()
-
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What the device has sent up to then."""
-        return self._background.take(until_s)
-
-    def close(self) -> None:
-        """Leave the device."""
-        self._background.stop()
+        self.start()
 
     async def _follow(self) -> None:
         from bleak import BleakScanner
@@ -322,7 +314,7 @@ class BluetoothConnector:
             await gone.wait()
 
     async def _begin(self, client: BleakClient, profile: Profile, name: str) -> None:
-        self._background.put(Arrived(name, arrived_s=time.monotonic()))
+        self.put(Arrived(name, arrived_s=time.monotonic()))
         for write in profile.writes:
             await client.write_gatt_char(write.uuid, bytes.fromhex(write.bytes), response=True)
         for characteristic in profile.characteristics:
@@ -337,12 +329,12 @@ class BluetoothConnector:
             if readings is None:
                 self._say(text_of(LEFT_OUT, name=name), name)
             else:
-                self._background.put(Arrived(name, readings, time.monotonic()))
+                self.put(Arrived(name, readings, time.monotonic()))
 
         return hear
 
     def _say(self, trouble: Words, sender: str = "") -> None:
-        self._background.put(
+        self.put(
             Arrived(
                 sender or self._wanted or "Bluetooth", arrived_s=time.monotonic(), trouble=trouble
             )

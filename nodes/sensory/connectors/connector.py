@@ -37,7 +37,7 @@ class Settings:
         return ADDRESSES[self.listen_on]
 
     @property
-    def who(self) -> Text:
+    def where(self) -> Text:
         """Who may send, for a sentence."""
         is_closed = self.listen_on == "this computer"
         return Text("from this computer only" if is_closed else "from the network")
@@ -50,7 +50,7 @@ class Arrived:
     ``sender`` names it to the user and tells senders apart ("192.168.1.7", "Ana's iPhone");
     ``arrived_s`` is ``time.monotonic()``; ``readings`` are in the order of their stamps. A
     ``trouble`` is a whole sentence about what could not be used; the node warns of it at most
-    every few seconds. ``told`` is how its numbers are understood, without words that need
+    every few seconds. ``columns`` is how its numbers are understood, without words that need
     translating ("t (ms), ax, ay, az (m/s²)"): the node adds it to "connected". ``number`` counts
     the sender's messages, where it does, so that a lost one is noticed; messages are then handed
     over in this order. ``dropped`` are readings that were left out because too many came.
@@ -61,7 +61,7 @@ class Arrived:
     readings: Sequence[Reading] = ()
     arrived_s: float = 0.0
     trouble: Words = ""
-    told: str = ""
+    columns: str = ""
     number: int | None = None
     dropped: int = 0
 

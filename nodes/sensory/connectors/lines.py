@@ -6,6 +6,7 @@ import selectors
 import socket
 import time
 from dataclasses import dataclass
+from typing import ClassVar
 
 from faults import Text, text_of
 from nodes.sensory.line_reader import LineSenders, own_columns
@@ -39,29 +40,36 @@ class Client:
         return whole
 
 
-class TcpConnector:
-    """A server for lines: many may connect, the node follows one of them."""
+class LineConnector:
+    """What both servers for lines are: a door of this computer, and readers of their lines."""
+
+    waits_for: ClassVar[Text]
 
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
-        self._selector: selectors.BaseSelector | None = None
         self._door: socket.socket | None = None
-        self._clients: dict[socket.socket, Client] = {}
         self._senders = LineSenders(settings.columns)
 
     @property
     def where(self) -> Text:
         """What the node is ready for."""
-        return text_of(
-            "waits for a watch on TCP port {port} ({where})",
-            port=self._settings.port,
-            where=self._settings.who,
-        )
+        return text_of(self.waits_for.text, port=self._settings.port, where=self._settings.where)
 
     @property
     def missing(self) -> Text:
         """What to check when nothing has arrived."""
         return missing_words(self._settings, "the app")
+
+
+class TcpConnector(LineConnector):
+    """A server for lines: many may connect, the node follows one of them."""
+
+    waits_for = Text("waits for a watch on TCP port {port} ({where})")
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(settings)
+        self._selector: selectors.BaseSelector | None = None
+        self._clients: dict[socket.socket, Client] = {}
 
     def open(self) -> None:
         """Open the port; raises PortTaken, and ParameterError for columns that are none."""
@@ -166,27 +174,10 @@ _MOST_PACKETS = 500  # in one batch; a flood beyond that is left to the system, 
 _PACKET_BYTES = 65_536
 
 
-class UdpConnector:
+class UdpConnector(LineConnector):
     """Packets of one or more lines each; every address is a sender."""
 
-    def __init__(self, settings: Settings) -> None:
-        self._settings = settings
-        self._door: socket.socket | None = None
-        self._senders = LineSenders(settings.columns)
-
-    @property
-    def where(self) -> Text:
-        """What the node is ready for."""
-        return text_of(
-            "waits for a watch on UDP port {port} ({where})",
-            port=self._settings.port,
-            where=self._settings.who,
-        )
-
-    @property
-    def missing(self) -> Text:
-        """What to check when nothing has arrived."""
-        return missing_words(self._settings, "the app")
+    waits_for = Text("waits for a watch on UDP port {port} ({where})")
 
     def open(self) -> None:
         """Open the port; raises PortTaken, and ParameterError for columns that are none."""

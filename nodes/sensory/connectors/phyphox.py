@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from faults import Text, Words, text_of
-from nodes.sensory.reading import Reading, finite_number, scaled, vector
+from faults import Text, text_of
+from nep_core.processes.manifest import finite_number
+from nodes.sensory.reading import Reading, scaled, vector
 
 from .connector import Arrived, Settings, Timed, nearest
-from .servers import Background, phone_address
+from .servers import OutboundConnector
 
 if TYPE_CHECKING:
     from aiohttp import ClientSession
@@ -182,18 +183,18 @@ _LOST_S = 2.0  # so long without anything new, and its times are asked for anew
 _MOST_READINGS = 2_000  # of one answer: the last ones, after a pause
 
 
-class PhyphoxConnector:
+class PhyphoxConnector(OutboundConnector):
     """Asks a phone some twenty times a second, and again when it was away."""
 
+    app = "phyphox"
+
     def __init__(self, settings: Settings) -> None:
-        self._settings = settings
-        self._host, self._port = settings.address, settings.port
-        self._background = Background(self._ask)
+        super().__init__(settings, self._ask)
 
     @property
     def where(self) -> Text:
         """What the node is ready for."""
-        return text_of("asks phyphox at {host}, port {port}", host=self._host, port=self._port)
+        return text_of("asks phyphox at {host}, port {port}", **self._place)
 
     @property
     def missing(self) -> Text:
@@ -201,24 +202,8 @@ class PhyphoxConnector:
         return text_of(
             "Nothing has arrived for 10 seconds. Does phyphox show the address {host} and the port "
             "{port} under “Allow remote access”, and is its experiment running?",
-            host=self._host,
-            port=self._port,
+            **self._place,
         )
-
-    def open(self) -> None:
-        """Begin to ask; raises ParameterError for an address that is none."""
-        self._host, self._port = phone_address(
-            self._settings.address, self._settings.port, "phyphox"
-        )
-        self._background.start()
-
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What the phone answered until then."""
-        return self._background.take(until_s)
-
-    def close(self) -> None:
-        """Stop asking."""
-        self._background.stop()
 
     async def _ask(self) -> None:
         from aiohttp import ClientError, ClientSession, ClientTimeout
@@ -233,12 +218,8 @@ class PhyphoxConnector:
                 failures = 0
             except (ClientError, OSError, TimeoutError, ValueError):
                 self._say(
-                    text_of(
-                        "phyphox at {host}, port {port} does not answer. Is “Allow remote access” "
-                        "on, and the phone in the same network?",
-                        host=self._host,
-                        port=self._port,
-                    )
+                    "phyphox at {host}, port {port} does not answer. Is “Allow remote access” "
+                    "on, and the phone in the same network?"
                 )
             await asyncio.sleep(_TRY_AGAIN_S[min(failures, len(_TRY_AGAIN_S) - 1)])
             failures += 1
@@ -247,21 +228,13 @@ class PhyphoxConnector:
         """Read one experiment until another is opened."""
         experiment = read_config(await _body(session, "/config"))
         if experiment is None:
-            self._say(
-                text_of(
-                    "What answers at {host}, port {port} is not phyphox.",
-                    host=self._host,
-                    port=self._port,
-                )
-            )
+            self._say("What answers at {host}, port {port} is not phyphox.")
             return
         if experiment.acc is None:
             self._say(
-                text_of(
-                    "phyphox shows “{title}”, which has no accelerometer. Open an experiment with "
-                    "an accelerometer, such as “Acceleration with g”.",
-                    title=experiment.title,
-                )
+                "phyphox shows “{title}”, which has no accelerometer. Open an experiment with "
+                "an accelerometer, such as “Acceleration with g”.",
+                title=experiment.title,
             )
             return
         await self._read(session, experiment)
@@ -272,13 +245,7 @@ class PhyphoxConnector:
         while True:
             answer = read_answer(await _body(session, "/get", experiment.query()))
             if answer is None:
-                self._say(
-                    text_of(
-                        "What answers at {host}, port {port} is not phyphox.",
-                        host=self._host,
-                        port=self._port,
-                    )
-                )
+                self._say("What answers at {host}, port {port} is not phyphox.")
                 return
             is_apple = self._settings.units == "apple"
             readings = experiment.take(answer, is_apple=is_apple)
@@ -303,11 +270,7 @@ class PhyphoxConnector:
 
     def _put(self, experiment: Experiment, readings: Sequence[Reading], now_s: float) -> None:
         sources = " + ".join(sensor.source for sensor in experiment.sensors)
-        self._background.put(Arrived(self._host, readings, now_s, told=sources))
-
-    def _say(self, trouble: Words) -> None:
-        arrived = Arrived(self._host, arrived_s=time.monotonic(), trouble=trouble)
-        self._background.put(arrived)
+        self.put(Arrived(self._host, readings, now_s, columns=sources))
 
 
 async def _body(session: ClientSession, path: str, query: Sequence[tuple[str, str]] = ()) -> bytes:

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from faults import Text, text_of
-from nodes.sensory.reading import G_M_S2, NS, Reading, Vector, added, finite_number, scaled, vector
+from nep_core.processes.manifest import finite_number
+from nodes.sensory.reading import G_M_S2, NS, Reading, Vector, added, scaled, vector
 
 from .connector import Arrived, Ordering, Settings, Timed, nearest
 from .servers import Background, body_of, missing_words, open_tcp, own_addresses, serve
@@ -207,14 +208,14 @@ class _Device:
         self.wears_watch = False
 
 
-class SensorLoggerConnector:
+class SensorLoggerConnector(Background):
     """A web server that takes what the app pushes, at every path."""
 
     def __init__(self, settings: Settings) -> None:
+        super().__init__(self._serve)
         self._settings = settings
         self._door: socket.socket | None = None
         self._devices: dict[tuple[str, str], _Device] = {}
-        self._background = Background(self._serve)
 
     @property
     def where(self) -> Text:
@@ -222,7 +223,7 @@ class SensorLoggerConnector:
         return text_of(
             "waits for Sensor Logger on HTTP port {port} ({where})",
             port=self._settings.port,
-            where=self._settings.who,
+            where=self._settings.where,
         )
 
     @property
@@ -240,15 +241,11 @@ class SensorLoggerConnector:
     def open(self) -> None:
         """Open the port and serve; raises PortTaken."""
         self._door = open_tcp(self._settings)
-        self._background.start()
-
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What was pushed until then."""
-        return self._background.take(until_s)
+        self.start()
 
     def close(self) -> None:
         """Stop serving."""
-        self._background.stop()
+        super().close()
         if self._door is not None:
             self._door.close()
             self._door = None
@@ -314,10 +311,10 @@ class SensorLoggerConnector:
         device.wears_watch = device.wears_watch or pushed.has_wrist
         trouble = _trouble(device.name, pushed, is_watch=device.wears_watch)
         told = pushed.used if pushed.readings else ""
-        self._background.put(Arrived(device.name, pushed.readings, now_s, trouble, told, number))
+        self.put(Arrived(device.name, pushed.readings, now_s, trouble, told, number))
 
     def _complain(self, sender: str, trouble: Text) -> None:
-        self._background.put(Arrived(sender, arrived_s=time.monotonic(), trouble=trouble))
+        self.put(Arrived(sender, arrived_s=time.monotonic(), trouble=trouble))
 
 
 def _trouble(sender: str, pushed: Pushed, *, is_watch: bool) -> Text:

@@ -15,11 +15,11 @@ import json
 import time
 from typing import TYPE_CHECKING
 
-from faults import Text, Words, text_of
+from faults import Text, text_of
 from nodes.sensory.reading import read_android, read_json
 
 from .connector import Arrived, Settings
-from .servers import Background, phone_address
+from .servers import OutboundConnector
 
 if TYPE_CHECKING:
     from aiohttp import ClientSession
@@ -33,20 +33,18 @@ _MOST_BYTES = 8_192
 _LONG_S = 3.0  # a connection that lasted so long was a good one
 
 
-class SensorServerConnector:
+class SensorServerConnector(OutboundConnector):
     """Connects to a phone, and again when it was away."""
 
+    app = "SensorServer"
+
     def __init__(self, settings: Settings) -> None:
-        self._settings = settings
-        self._host, self._port = settings.address, settings.port
-        self._background = Background(self._listen)
+        super().__init__(settings, self._listen)
 
     @property
     def where(self) -> Text:
         """What the node is ready for."""
-        return text_of(
-            "connects to SensorServer at {host}, port {port}", host=self._host, port=self._port
-        )
+        return text_of("connects to SensorServer at {host}, port {port}", **self._place)
 
     @property
     def missing(self) -> Text:
@@ -54,24 +52,8 @@ class SensorServerConnector:
         return text_of(
             "Nothing has arrived for 10 seconds. Does SensorServer show the address {host} and the "
             "port {port}, and is its server started?",
-            host=self._host,
-            port=self._port,
+            **self._place,
         )
-
-    def open(self) -> None:
-        """Begin to connect; raises ParameterError for an address that is none."""
-        self._host, self._port = phone_address(
-            self._settings.address, self._settings.port, "SensorServer"
-        )
-        self._background.start()
-
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What the phone sent until then."""
-        return self._background.take(until_s)
-
-    def close(self) -> None:
-        """End the connection."""
-        self._background.stop()
 
     async def _listen(self) -> None:
         from aiohttp import ClientError, ClientSession, ClientTimeout
@@ -85,12 +67,8 @@ class SensorServerConnector:
                     await self._both(session)
             except (ClientError, OSError, TimeoutError, ValueError):  # the last: no name of a host
                 self._say(
-                    text_of(
-                        "SensorServer at {host}, port {port} does not answer. Is its server "
-                        "started, and the phone in the same network?",
-                        host=self._host,
-                        port=self._port,
-                    )
+                    "SensorServer at {host}, port {port} does not answer. Is its server "
+                    "started, and the phone in the same network?"
                 )
             failures = 0 if time.monotonic() - began_s > _LONG_S else failures + 1
             await asyncio.sleep(_TRY_AGAIN_S[min(failures, len(_TRY_AGAIN_S) - 1)])
@@ -100,12 +78,7 @@ class SensorServerConnector:
         types = json.dumps([ACCELEROMETER, GYROSCOPE], separators=(",", ":"))
         code = await self._connection(session, "/sensors/connect", {"types": types})
         if code not in (NOT_FOUND, UNSUPPORTED):
-            self._say(
-                text_of(
-                    "SensorServer at {host} ended the connection. Is it still started?",
-                    host=self._host,
-                )
-            )
+            self._say("SensorServer at {host} ended the connection. Is it still started?")
             return
         turning = asyncio.create_task(self._one(session, GYROSCOPE))
         try:
@@ -114,11 +87,7 @@ class SensorServerConnector:
             turning.cancel()
             await asyncio.gather(turning, return_exceptions=True)
         if code == NOT_FOUND:
-            self._say(
-                text_of(
-                    "The phone at {host} has no accelerometer. Use another one.", host=self._host
-                )
-            )
+            self._say("The phone at {host} has no accelerometer. Use another one.")
 
     async def _one(self, session: ClientSession, kind: str) -> int:
         return await self._connection(session, "/sensor/connect", {"type": kind}, kind)
@@ -133,7 +102,7 @@ class SensorServerConnector:
         async with session.ws_connect(
             url, params=query, heartbeat=_HEARTBEAT_S, max_msg_size=_MOST_BYTES
         ) as socket:
-            self._background.put(Arrived(self._host, arrived_s=time.monotonic()))
+            self.put(Arrived(self._host, arrived_s=time.monotonic()))
             async for message in socket:
                 if message.type is WSMsgType.TEXT:
                     self._take(message.data, kind)
@@ -143,14 +112,6 @@ class SensorServerConnector:
         message = read_json(text)
         readings = None if message is None else read_android(message, kind)
         if readings:
-            self._background.put(Arrived(self._host, readings, time.monotonic()))
+            self.put(Arrived(self._host, readings, time.monotonic()))
         elif readings is None:
-            self._say(
-                text_of(
-                    "{host} sends values that are not numbers; they are left out.", host=self._host
-                )
-            )
-
-    def _say(self, trouble: Words) -> None:
-        arrived = Arrived(self._host, arrived_s=time.monotonic(), trouble=trouble)
-        self._background.put(arrived)
+            self._say("{host} sends values that are not numbers; they are left out.")

@@ -11,7 +11,7 @@ import time
 from collections import deque
 from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import psutil
 
@@ -166,7 +166,10 @@ _STOP_S = 0.9
 
 
 class Background:
-    """Runs ``serve`` until it is stopped; what it puts in is taken out in batches."""
+    """Runs ``serve`` from ``start`` to ``close``; what it puts in comes out in batches.
+
+    A connector with a thread of its own is one.
+    """
 
     def __init__(self, serve: Callable[[], Coroutine[Any, Any, None]]) -> None:
         self._serve = serve
@@ -180,7 +183,7 @@ class Background:
         self._fault: BaseException | None = None
 
     def start(self) -> None:
-        """Start the thread; an error of ``serve`` is raised by the next ``take``."""
+        """Start the thread; an error of ``serve`` is raised by the next ``readings``."""
         self._is_stopped = False
         self._thread = threading.Thread(target=self._run, name="way", daemon=True)
         self._thread.start()
@@ -193,8 +196,8 @@ class Background:
         if len(self._arrived) >= _ENOUGH:
             self._has_enough.set()
 
-    def take(self, until_s: float) -> list[Arrived]:
-        """What was put in up to then."""
+    def readings(self, until_s: float = 0.0) -> list[Arrived]:
+        """What was put in up to then (``time.monotonic()``)."""
         self._has_enough.wait(max(0.0, until_s - time.monotonic()))
         if self._fault is not None:
             raise self._fault
@@ -207,8 +210,8 @@ class Background:
             self._lost = 0
         return found
 
-    def stop(self) -> None:
-        """Cancel ``serve`` and wait for it, but not long."""
+    def close(self) -> None:
+        """Cancel ``serve``, if it runs, and wait for it, but not long."""
         if self._thread is None:
             return
         self._is_stopped = True  # a thread that has no task yet sees it before it serves
@@ -232,6 +235,33 @@ class Background:
         self._task = asyncio.current_task()
         if not self._is_stopped:
             await self._serve()
+
+
+class OutboundConnector(Background):
+    """Asks the ``app`` of a phone, and again when it was away."""
+
+    app: ClassVar[str]
+
+    def __init__(self, settings: Settings, serve: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        super().__init__(serve)
+        self._settings = settings
+        self._host, self._port = settings.address, settings.port
+
+    def open(self) -> None:
+        """Begin to ask; raises ParameterError for an address that is none."""
+        settings = self._settings
+        self._host, self._port = phone_address(settings.address, settings.port, self.app)
+        self.start()
+
+    @property
+    def _place(self) -> dict[str, object]:
+        """The values of the places that sentences about the phone have."""
+        return {"host": self._host, "port": self._port}
+
+    def _say(self, template: str, **values: object) -> None:
+        """Tell of a trouble."""
+        trouble = text_of(template, **self._place, **values)
+        self.put(Arrived(self._host, arrived_s=time.monotonic(), trouble=trouble))
 
 
 # A small HTTP server that nobody can fill: few connections, small bodies, short waits.

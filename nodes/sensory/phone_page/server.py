@@ -6,10 +6,8 @@ import asyncio
 import contextlib
 import dataclasses
 import ipaddress
-import os
 import socket
 import ssl
-import tempfile
 import threading
 from collections.abc import AsyncIterator, Iterable, Sequence
 from dataclasses import dataclass
@@ -17,12 +15,10 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import platformdirs
-
 from faults import Text, reason_of, text_of
 from nep_core.errors import NodeStartError
-from nep_core.places import portable_folder
-from nodes.sensory.connectors.connector import Arrived, Settings
+from nep_core.places import own_folder, whole_file
+from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.connectors.servers import Background, lan_addresses, open_tcp
 
 from .site import PageFiles, Receiving, Site, new_token, page_files
@@ -74,12 +70,7 @@ class Certificate:
 
 def certificate_folder() -> Path:
     """Where the key is kept: among this user's settings."""
-    if folder := portable_folder():
-        return folder / "keys"
-    try:
-        return Path(platformdirs.user_config_dir("nep-studio", appauthor=False))
-    except RuntimeError:  # a user without a home
-        return Path(tempfile.gettempdir()) / "nep-studio"
+    return own_folder("config", "keys")
 
 
 def own_certificate(addresses: Sequence[str], folder: Path | None = None) -> Certificate:
@@ -140,7 +131,8 @@ def _make(path: Path, names: Sequence[str]) -> None:
     private = key.private_bytes(
         pem, serialization.PrivateFormat.PKCS8, serialization.NoEncryption()
     )
-    _write(path, private + builder.sign(key, hashes.SHA256()).public_bytes(pem))
+    with whole_file(path, is_private=True) as file:
+        file.write(private + builder.sign(key, hashes.SHA256()).public_bytes(pem))
 
 
 def _general_name(name: str) -> x509.GeneralName:
@@ -150,20 +142,6 @@ def _general_name(name: str) -> x509.GeneralName:
         return x509.IPAddress(ipaddress.ip_address(name))
     except ValueError:
         return x509.DNSName(name)
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Write a file that only this user may read, at no moment another."""
-    number, name = tempfile.mkstemp(dir=path.parent, prefix=path.name)  # is made with 0600
-    try:
-        with os.fdopen(number, "wb") as file:
-            file.write(content)
-        Path(name).chmod(_OWNER_ONLY)
-        Path(name).replace(path)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            Path(name).unlink()
-        raise
 
 
 LOOPBACK = "127.0.0.1"
@@ -185,19 +163,45 @@ def page_urls(port: int, token: str, addresses: Iterable[str] | None = None) -> 
     return [f"https://{address}:{port}/{token}/" for address in found]
 
 
-class PhonePage:
-    """The page on one port of this computer, for who has the token in the link.
+class PhonePage(Background):
+    """The connector that serves a page on one port, for who has the token in the link.
 
     A token is made when the settings have none; ``folder`` is where the certificate is kept, this
     user's settings when it is None. Port 0 is any free one.
     """
 
     def __init__(self, settings: Settings, folder: Path | None = None) -> None:
+        super().__init__(self._serve)
         self.token = settings.token or new_token()
         self.certificate: Certificate | None = None
         self._settings, self._folder = settings, folder
-        self._background: Background | None = None
-        self._receiving: Receiving | None = None
+        self._door: socket.socket | None = None
+        self._is_ready = threading.Event()
+        self._receiving = Receiving(self.put)
+
+    @property
+    def where(self) -> Text:
+        """What the node is ready for; the link is told only where nobody else knows its token."""
+        is_known = bool(self._settings.token)
+        page = text_of("its page on port {port}", port=self.port)
+        return text_of(
+            "waits for a phone that opens {told} ({where})",
+            told=page if is_known else self.urls[0],
+            where=self._settings.where,
+        )
+
+    @property
+    def missing(self) -> str:
+        """What to check when no phone has come."""
+        if self._settings.listen_on == "this computer":
+            return (
+                "No phone has come yet. Only this computer is let in: for a phone, set "
+                "“listen on” to network."
+            )
+        return (
+            "No phone has come yet. Is it in the same Wi-Fi as this computer, was the warning of "
+            "the browser accepted, and does this computer's firewall let it in?"
+        )
 
     @property
     def port(self) -> int:
@@ -212,30 +216,15 @@ class PhonePage:
     @property
     def hand(self) -> str:
         """Where the followed phone is, as chosen on it: left, right, hand; empty: not known."""
-        return "" if self._receiving is None else self._receiving.hand
+        return self._receiving.hand
 
-    def start(self) -> str:
-        """Serve; the first link. Raises PortTaken, NodeStartError."""
-        files, self.certificate = self._prepared()
-        door = open_tcp(self._settings)
-        self._settings = dataclasses.replace(self._settings, port=door.getsockname()[1])
-        ready = threading.Event()
-        background = Background(lambda: self._serve(door, files, ready))
-        self._receiving = Receiving(background.put)
-        self._background = background
-        background.start()
-        ready.wait(START_S)
-        return self.urls[0]
-
-    def take(self, until_s: float = 0.0) -> list[Arrived]:
-        """What has arrived up to then (``time.monotonic()``)."""
-        return self._background.take(until_s) if self._background else []
-
-    def stop(self) -> None:
-        """Serve no more; also when it was never started."""
-        if self._background is not None:
-            self._background.stop()
-        self._background = None
+    def open(self) -> None:
+        """Serve. Raises PortTaken, NodeStartError."""
+        self._files, self.certificate = self._prepared()
+        self._door = open_tcp(self._settings)
+        self._settings = dataclasses.replace(self._settings, port=self._door.getsockname()[1])
+        self.start()
+        self._is_ready.wait(START_S)
 
     def _addresses(self) -> list[str]:
         return [] if self._settings.own_address == LOOPBACK else lan_addresses()
@@ -254,22 +243,23 @@ class PhonePage:
                 reason=reason_of(error),
             ) from error
 
-    async def _serve(self, door: socket.socket, files: PageFiles, ready: threading.Event) -> None:
+    async def _serve(self) -> None:
+        assert self._door is not None
         try:
-            async with self._serving(door, files) as connections:
-                ready.set()
+            async with self._serving(self._door) as connections:
+                self._is_ready.set()
                 await connections.let_in()
         finally:
-            ready.set()
-            door.close()
+            self._is_ready.set()
+            self._door.close()
 
     @contextlib.asynccontextmanager
-    async def _serving(self, door: socket.socket, files: PageFiles) -> AsyncIterator[_Connections]:
+    async def _serving(self, door: socket.socket) -> AsyncIterator[_Connections]:
         from aiohttp import web
 
-        assert self._receiving is not None and self.certificate is not None
+        assert self.certificate is not None
         runner = web.AppRunner(
-            Site(self.token, files, self._receiving).app(),
+            Site(self.token, self._files, self._receiving).app(),
             handle_signals=False,
             access_log=None,  # the links have the token in them
             keepalive_timeout=IDLE_CONNECTION_S,
@@ -346,55 +336,3 @@ class _Connections:
             caller.close()
             return
         self._open = [one for one in self._open if one.transport is not None] + [handler]
-
-
-# The phone page as a way that a phone's sensors reach the node.
-
-
-class PhonePageConnector:
-    """Serves the page while the node runs; ``folder`` is where the certificate is kept."""
-
-    def __init__(self, settings: Settings, folder: Path | None = None) -> None:
-        self._settings = settings
-        self.page = PhonePage(settings, folder)
-
-    @property
-    def where(self) -> Text:
-        """What the node is ready for; the link is told only where nobody else knows its token."""
-        is_known = bool(self._settings.token)
-        page = text_of("its page on port {port}", port=self.page.port)
-        return text_of(
-            "waits for a phone that opens {told} ({where})",
-            told=page if is_known else self.page.urls[0],
-            where=self._settings.who,
-        )
-
-    @property
-    def missing(self) -> str:
-        """What to check when no phone has come."""
-        if self._settings.listen_on == "this computer":
-            return (
-                "No phone has come yet. Only this computer is let in: for a phone, set "
-                "“listen on” to network."
-            )
-        return (
-            "No phone has come yet. Is it in the same Wi-Fi as this computer, was the warning of "
-            "the browser accepted, and does this computer's firewall let it in?"
-        )
-
-    @property
-    def hand(self) -> str:
-        """Where the phone is, as chosen on it: left, right or hand; empty: not known yet."""
-        return self.page.hand
-
-    def open(self) -> None:
-        """Serve the page. Raises PortTaken, NodeStartError."""
-        self.page.start()
-
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What the phone has sent up to then."""
-        return self.page.take(until_s)
-
-    def close(self) -> None:
-        """Serve it no more."""
-        self.page.stop()

@@ -448,7 +448,7 @@ class _Talk:
         self._receiving, self._socket, self._address = receiving, socket, address
         self.phone = ""
         self.followed_s = 0.0
-        self._told, self._told_s = "", 0.0
+        self._answered, self._answered_s = "", 0.0
 
     async def go_on(self) -> None:
         """Hear and answer until the end of the talk."""
@@ -476,8 +476,8 @@ class _Talk:
         state, now_s = self._receiving.take(message, self._address), time.monotonic()
         if state == FOLLOWED and message.t:
             self.followed_s = self._receiving.followed_s
-        if state != self._told or now_s - self._told_s >= ANSWER_S:
-            self._told, self._told_s = state, now_s
+        if state != self._answered or now_s - self._answered_s >= ANSWER_S:
+            self._answered, self._answered_s = state, now_s
             await self._socket.send_str(_answer(state))
 
 

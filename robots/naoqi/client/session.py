@@ -318,6 +318,8 @@ class Session:
     after connecting. ``on_lost`` is called once for each connection that is lost, from a thread,
     with a sentence; not after ``close``. Services, objects and signals belong to one connection:
     ask for them again after connecting again.
+
+    ``address`` is host and port; ``timeout_s`` is how long an answer may take.
     """
 
     def __init__(

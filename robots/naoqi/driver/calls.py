@@ -74,6 +74,8 @@ class Calls:
         """Call, and return the robot's answer; ``uses`` are the joints that a movement moves.
 
         Raises ActionFailed: the robot's own words, or that it took longer than ``limit_s``.
+
+        ``service`` and ``method`` are by name.
         """
         pending = self.begin(service, method, *args)
         end_s = time.monotonic() + limit_s

@@ -380,7 +380,10 @@ TARGETS: dict[str, tuple[str, object]] = {
 
 
 def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task:
-    """Walk over the floor, turning by ``turn`` rad on the way, and look how far it got."""
+    """Walk over the floor, turning by ``turn`` rad on the way, and look how far it got.
+
+    ``robot`` walks ``forward_m`` and ``left_m``.
+    """
     _check_standing(robot)
     if not (forward_m or left_m or turn):
         return ""

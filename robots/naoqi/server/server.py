@@ -405,6 +405,9 @@ class Server:
     """A robot for NAOqi programs; one thread for each that is connected.
 
     ``port`` 0 takes any that is free. ``knows_authenticate`` False plays a robot of 2013.
+
+    ``services`` are what it offers, by name; ``host`` is the address that it binds; ``login``
+    is who may enter (None: everybody); ``tls_files`` encrypt it.
     """
 
     def __init__(

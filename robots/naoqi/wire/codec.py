@@ -258,7 +258,11 @@ def encode(type_text: str, value: Any, host: ObjectHost | None = None) -> bytes:
 
 
 def write_value(write: Write, out: bytearray, value: Any, host: ObjectHost | None) -> None:
-    """Write one value. Raises WrongArguments, whatever the value is."""
+    """Write one value. Raises WrongArguments, whatever the value is.
+
+    ``write`` puts ``value`` at the end of ``out``; ``host`` takes the objects in it (None: it
+    may hold none).
+    """
     try:
         write(out, value, host)
     except (struct.error, TypeError, ValueError, OverflowError, RecursionError) as problem:

@@ -93,7 +93,12 @@ class Peer:
         read: Read,
         flags: int = 0,
     ) -> Pending:
-        """Call the other side. Raises ConnectionLost."""
+        """Call the other side. Raises ConnectionLost.
+
+        ``service``, ``thing`` and ``action`` are the numbers of service, object and method;
+        ``payload`` holds the arguments, ``read`` reads the answer; ``flags`` are those of
+        the frame.
+        """
         number = next(self._numbers) & 0xFFFFFFFF
         pending = Pending(lambda: self._cancel(number, service, thing))
         with self._lock:
@@ -108,7 +113,11 @@ class Peer:
         return pending
 
     def post(self, service: int, thing: int, action: int, payload: bytes) -> None:
-        """Call the other side without an answer. Raises ConnectionLost."""
+        """Call the other side without an answer. Raises ConnectionLost.
+
+        ``service``, ``thing`` and ``action`` are the numbers of service, object and method;
+        ``payload`` holds the arguments.
+        """
         number = next(self._numbers) & 0xFFFFFFFF
         self.send(Frame(Kind.POST, number, service, thing, action, payload))
 

@@ -78,7 +78,11 @@ NO_ANSWER = (
 
 
 class RemoteObject:
-    """An object on the robot. All calls may be made from any thread, but not from the reader's."""
+    """An object on the robot. All calls may be made from any thread, but not from the reader's.
+
+    ``peer`` is the connection, ``meta`` what the object can do, ``service`` and ``number`` are
+    the numbers by which it is called.
+    """
 
     def __init__(self, peer: Peer, meta: MetaObject, service: int, number: int = 1) -> None:
         self._peer = peer

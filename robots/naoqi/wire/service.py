@@ -74,7 +74,11 @@ class Mark:
 def method(
     signature: str, *, uid: int = 0, description: str = "", blocks: bool = False
 ) -> Callable[[Method], Method]:
-    """Offer a method under this signature, such as ``goToPosture::b(sf)``."""
+    """Offer a method under this signature, such as ``goToPosture::b(sf)``.
+
+    ``uid`` is its number, where a robot has one for it; ``description`` is for people;
+    ``blocks``: it may wait, and gets a thread.
+    """
     mark = Mark(Signature.parse(signature, uid=uid, description=description), blocks)
 
     def note(function: Method) -> Method:

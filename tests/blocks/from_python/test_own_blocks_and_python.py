@@ -6,13 +6,13 @@ from block_building import B, build
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddProcedure
-from nep_studio.blocks.from_python.updating import read_program
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import copy, from_text, paste, to_text
 from nep_studio.blocks.operations.finding import definition_of, subjects_of, uses_of
 from nep_studio.blocks.operations.moving import create_and_drop, reporter_of
 from nep_studio.blocks.places import InInput
 from nep_studio.blocks.program import Parameter, Procedure, Project
+from tests.blocks.block_building import read_program
 
 GREET = Procedure("greet", ("greet", Parameter("who", "person", "text")))
 

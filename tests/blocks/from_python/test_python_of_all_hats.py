@@ -7,9 +7,10 @@ from block_building import B, build
 from sound_programs import block_of
 
 from nep_studio.blocks.files import to_bytes
-from nep_studio.blocks.from_python.updating import read_program, update_from_python
+from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import ALL_ROBOTS
+from tests.blocks.block_building import read_program
 
 HATS = [
     "robot_events.touched",

@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 from sound_programs import sound
 
 from nep_studio.blocks.files import to_bytes
-from nep_studio.blocks.from_python.updating import read_program, update_from_python
+from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import Project
+from tests.blocks.block_building import read_program
 
 NUMBERS = st.integers(-9, 99) | st.sampled_from([0.5, -2.25, 1e-7])
 TIMES = st.integers(0, 99) | st.just(0.5)

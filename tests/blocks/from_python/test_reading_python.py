@@ -11,10 +11,11 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.files import load, to_bytes
 from nep_studio.blocks.from_python.learning import CodeUnread
 from nep_studio.blocks.from_python.reading import read_snippet
-from nep_studio.blocks.from_python.updating import read_program, update_from_python
+from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import paste
 from nep_studio.blocks.program import Project
+from tests.blocks.block_building import read_program
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "resources/examples").glob("*.nep"))
 

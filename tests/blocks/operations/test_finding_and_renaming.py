@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 from block_building import B, build, karate
 from operating import one_step, rule, say
-from sound_programs import WAIT, kinds, sound
+from sound_programs import WAIT, sound
 
 from nep_studio.blocks import checks
 from nep_studio.blocks.checks import check
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
+from nep_studio.blocks.edits.project import RenameVariable
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.operations.copying import python_of
@@ -23,8 +24,6 @@ from nep_studio.blocks.operations.finding import (
     compare,
     definition_of,
     find,
-    rename_robot,
-    rename_variable,
     subjects_of,
     uses_of,
 )
@@ -36,7 +35,7 @@ def test_blocks_are_found_by_words_without_case_and_accents(language):
     editor, (_, a, b, c) = rule(language, say("Olé, José"), say("hola"), B("variable.set"))
     editor.apply(SetField(c, "variable", "v1"))
     project = editor.project
-    rename_variable(editor, "v1", "Größe")
+    editor.apply(RenameVariable("v1", "Größe"))
 
     assert find(project, language, "ole JOSE") == (a,)
     assert find(project, language, "says") == (a, b)
@@ -73,21 +72,6 @@ def test_uses_and_definitions_of_what_blocks_name(language):
     assert definition_of(project, language, Subject("robot", "Pepper")) is None
 
 
-def test_a_robot_is_renamed_on_its_page_and_in_all_blocks_in_one_step(language):
-    editor = sound(language, [B("event.started"), say("a"), B("robot.say", {"robot": "Pepper"})])
-
-    with one_step(editor):
-        rename_robot(editor, "NAO", "Anna")
-
-    names = [block.fields.get("robot") for block in editor.project.blocks.values()]
-    assert names.count("Anna") == 1 and names.count("Pepper") == 1
-    assert "robot_missing" in kinds(editor, language)
-    with pytest.raises(EditRefused, match="already"):
-        rename_robot(editor, "Pepper", "Anna")
-    with pytest.raises(EditRefused, match="letter"):
-        rename_robot(editor, "Pepper", " ")
-
-
 def test_two_versions_are_compared_in_words(language):
     editor, (_, a, b, _, d) = rule(language, say("a"), say("b"), say("c"), say("d"))
     old = from_bytes(to_bytes(editor.project), "old.nep", language)
@@ -117,7 +101,7 @@ def faulty(language):
     }
 
 
-def problem_of(editor, language, name) -> Problem:
+def problem_of(editor, language, name) -> Diagnostic:
     return next(p for p in check(editor.project, language) if p.fix and p.fix.name == name)
 
 
@@ -153,7 +137,7 @@ def test_a_problem_without_a_fix_is_refused(language):
     editor = karate(language)
 
     with pytest.raises(EditRefused, match="by itself"):
-        apply_fix(editor, Problem("error", "x", "behaviour", "", "Something."))
+        apply_fix(editor, Diagnostic("error", "x", "behaviour", "", "Something."))
 
 
 def test_selected_blocks_are_copied_as_python(language):

@@ -10,7 +10,7 @@ from operating import one_step
 
 from nep_studio.blocks.deployment import NODE_BLOCK, node_entries
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.operations.fixes import WATCH, free_watch_name, use_watch
+from nep_studio.blocks.operations.fixes import USUAL_NAME, WATCH, free_name, use_watch
 from nep_studio.run.installation import load_language
 
 RESOURCES = Path(__file__).resolve().parents[3] / "resources"
@@ -78,7 +78,7 @@ def test_a_virtual_watch_gives_way_and_nothing_else_does(language) -> None:
 
 def test_another_watch_comes_beside_the_first(language) -> None:
     editor = with_nodes(language, launch(WATCH, "watch", through="udp"))
-    name = free_watch_name(editor)
+    name = free_name(editor, USUAL_NAME)
 
     with one_step(editor):
         use_watch(editor, PHONE, "connect a watch", name=name)

@@ -50,7 +50,7 @@ def test_a_machine_gets_the_same_findings(
     assert findings["ZeroMQ"]["state"] == "ok"
     assert findings[NODES_VARIABLE]["state"] == "look"
     assert findings[NODES_VARIABLE]["steps"]
-    assert "nowhere" in findings[BROKER_VARIABLE]["told"]
+    assert "nowhere" in findings[BROKER_VARIABLE]["sentence"]
     assert all(isinstance(step, str) for step in findings[BROKER_VARIABLE]["steps"])
 
 
@@ -59,7 +59,7 @@ def test_a_port_that_another_program_has_is_told_with_its_name(taken_port: int) 
     [original] = network.original_ports((taken_port,))
 
     assert found.state == "look"
-    assert f"(process {os.getpid()}), which is no NEP master" in found.told
+    assert f"(process {os.getpid()}), which is no NEP master" in found.sentence
     assert original.state == "note"
 
 
@@ -75,7 +75,7 @@ def test_no_master_is_only_noted(free_port: int) -> None:
     found = network.master(f"tcp://127.0.0.1:{free_port}")
 
     assert found.state == "note"
-    assert "nep master" in found.told
+    assert "nep master" in found.sentence
 
 
 @pytest.mark.parametrize(
@@ -94,7 +94,7 @@ def test_a_wrong_variable_is_told(
     [found] = [one for one in network.variables() if one.about == name]
 
     assert found.state == "look"
-    assert hint in " ".join((found.told, *found.steps))
+    assert hint in " ".join((found.sentence, *found.steps))
 
 
 def test_a_password_is_never_shown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -109,7 +109,7 @@ def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     found = system.folder("logs", tmp_path / "file" / "logs")
 
     assert found.state == "look"
-    assert "not a folder" in found.told
+    assert "not a folder" in found.sentence
 
 
 def test_a_folder_that_is_not_there_yet_is_no_fault(tmp_path: Path) -> None:
@@ -142,7 +142,7 @@ def test_a_wrong_manifest_is_told_with_its_place(
     found = system.manifests()
 
     assert found.state == "look"
-    assert "sensory/lamp.toml cannot be used" in found.told
+    assert "sensory/lamp.toml cannot be used" in found.sentence
 
 
 @pytest.mark.parametrize(
@@ -163,7 +163,7 @@ def test_a_firewall_is_told_as_far_as_it_can_be_known(
 
     found = system.firewalls(ufw, programs)
 
-    assert told in found[0].told
+    assert told in found[0].sentence
     assert found[0].state == "note"
 
 
@@ -202,7 +202,7 @@ def test_the_service_of_another_network_is_looked_for(
     broker.close()
 
     assert (none.state, none.steps[0]) == ("look", "Start one in another terminal: nep broker")
-    assert (found.state, found.told) == ("ok", "0 programs over broker")
+    assert (found.state, found.sentence) == ("ok", "0 programs over broker")
 
 
 @pytest.mark.parametrize("kind", ["broker", "zenoh"])

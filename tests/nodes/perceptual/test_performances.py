@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nodes.perceptual.recognition.segments import Movement, PerformanceFinder, find_performances
+from nodes.perceptual.recognition.segments import Movement, PerformanceFinder
 from nodes.recordings import read_recording
 from nodes.sensory.arm.people import perform
-from tests.nodes.perceptual.test_segments import marked, overlap, signal
+from tests.nodes.perceptual.test_segments import found_by, marked, overlap, signal
 
 RATE_HZ = 50.0
 
@@ -31,7 +31,7 @@ def good(movements: list[Movement]) -> list[Movement]:
 def test_raising_the_arm_and_lowering_it_are_part_of_one_performance(gesture: str) -> None:
     t, acc, gyr, made = session(gesture, person=1, count=4)
 
-    found = good(find_performances(t, acc, gyr))
+    found = good(found_by(PerformanceFinder(), t, acc, gyr))
 
     assert len(found) == 4
     middles = [(one.start_s + one.end_s) / 2 for one in found]
@@ -46,7 +46,7 @@ def test_without_gravity_each_movement_is_a_performance(person: str, shared_data
     made, found, others = 0, 0, 0
     for path in sorted((shared_data / "uhh_gestures").glob(f"{person}_*.csv"))[::3]:
         recording = read_recording(path)
-        movements = good(find_performances(recording.t, recording.acc, recording.gyr))
+        movements = good(found_by(PerformanceFinder(), recording.t, recording.acc, recording.gyr))
         spans = marked(recording)
         made += len(spans)
         found += sum(max(overlap(span, one) for one in movements) >= 0.5 for span in spans)
@@ -64,7 +64,7 @@ def test_a_hand_that_stays_up_has_made_its_gesture_and_lowering_it_is_none() -> 
     again = [np.concatenate(parts) for parts in zip(moves[1:], (acc, gyr), strict=True)]
     whole_t = np.arange(len(again[0])) / RATE_HZ
 
-    found = good(find_performances(whole_t, *again))
+    found = good(found_by(PerformanceFinder(), whole_t, *again))
 
     assert len(found) == 2
     assert found[1].end_s < 4.8 + 3.2

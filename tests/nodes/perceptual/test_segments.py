@@ -14,12 +14,27 @@ from nodes.perceptual.recognition.segments import (
     LONGEST_S,
     Movement,
     MovementFinder,
+    PerformanceFinder,
     energy_of,
-    find_movements,
 )
 from nodes.recordings import Recording, read_recording
 
 RATE_HZ = 50.0
+
+
+def found_by(
+    finder: MovementFinder | PerformanceFinder,
+    t: np.ndarray,
+    acc: np.ndarray,
+    gyr: np.ndarray | None,
+) -> list[Movement]:
+    """What is found in a recording, as it would be while it is made."""
+    found: list[Movement] = []
+    step = max(1, round(0.1 / np.median(np.diff(t)))) if len(t) > 1 else 1
+    for at in range(0, len(t), step):
+        part = slice(at, at + step)
+        found += finder.hear(t[part], acc[part], None if gyr is None else gyr[part])
+    return found + finder.finish()
 
 
 def signal(*parts: tuple[float, float]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -54,7 +69,7 @@ def test_the_gestures_of_real_people_are_found_with_sensible_borders(
     made, found, others = 0, 0, 0
     for path in sorted((shared_data / "uhh_gestures").glob(f"{person}_*.csv")):
         recording = read_recording(path)
-        movements = find_movements(recording.t, recording.acc, recording.gyr)
+        movements = found_by(MovementFinder(), recording.t, recording.acc, recording.gyr)
         good = [one for one in movements if not one.fault]
         spans = marked(recording)
         made += len(spans)
@@ -69,8 +84,9 @@ def test_each_movement_is_told_once_it_is_over() -> None:
     t, acc, gyr = signal((1.5, 0), (0.8, 8), (1.5, 0), (0.8, 8), (1.5, 0))
     finder, told = MovementFinder(), []
 
-    for at in range(0, len(t), 5):
-        part = slice(at, at + 5)
+    step = max(1, round(0.1 / np.median(np.diff(t)))) if len(t) > 1 else 1
+    for at in range(0, len(t), step):
+        part = slice(at, at + step)
         told += [(t[at], one) for one in finder.hear(t[part], acc[part], gyr[part])]
 
     assert len(told) == 2
@@ -79,18 +95,20 @@ def test_each_movement_is_told_once_it_is_over() -> None:
 
 
 def test_a_short_pause_is_part_of_a_movement() -> None:
-    movements = find_movements(*signal((1.5, 0), (0.6, 8), (0.2, 0), (0.6, 8), (1.5, 0)))
+    movements = found_by(
+        MovementFinder(), *signal((1.5, 0), (0.6, 8), (0.2, 0), (0.6, 8), (1.5, 0))
+    )
 
     assert [round(one.duration_s, 1) for one in movements] == [pytest.approx(1.4, abs=0.4)]
 
 
 def test_what_is_wrong_with_a_movement_is_said() -> None:
     normal = [(0.8, 9.0), (1.5, 0.0)] * 3
-    weak = find_movements(*signal((1.5, 0), *normal, (0.8, 2.2), (1.5, 0)))
-    endless = find_movements(*signal((1.5, 0), (LONGEST_S + 1, 9), (1.5, 0)))
+    weak = found_by(MovementFinder(), *signal((1.5, 0), *normal, (0.8, 2.2), (1.5, 0)))
+    endless = found_by(MovementFinder(), *signal((1.5, 0), (LONGEST_S + 1, 9), (1.5, 0)))
     t, acc, gyr = signal((1.5, 0), (1.0, 9), (1.5, 0))
     kept = (t < 1.8) | (t > 2.3)
-    cut = find_movements(t[kept], acc[kept], gyr[kept])
+    cut = found_by(MovementFinder(), t[kept], acc[kept], gyr[kept])
 
     assert [one.fault for one in weak] == ["", "", "", "still"]
     assert [one.fault for one in endless] == ["long"]
@@ -100,15 +118,15 @@ def test_what_is_wrong_with_a_movement_is_said() -> None:
 def test_rest_is_no_movement_and_nothing_is_no_stream() -> None:
     t, acc, gyr = signal((20, 0))
 
-    assert find_movements(t, acc, gyr) == []
-    assert find_movements(t[:0], acc[:0], gyr[:0]) == []
-    assert find_movements(t[:1], acc[:1], None) == []
+    assert found_by(MovementFinder(), t, acc, gyr) == []
+    assert found_by(MovementFinder(), t[:0], acc[:0], gyr[:0]) == []
+    assert found_by(MovementFinder(), t[:1], acc[:1], None) == []
 
 
 def test_without_rotation_movements_are_found_too() -> None:
     t, acc, _ = signal((1.5, 0), (0.8, 8), (1.5, 0), (0.8, 8), (1.5, 0))
 
-    assert len(find_movements(t, acc, None)) == 2
+    assert len(found_by(MovementFinder(), t, acc, None)) == 2
 
 
 @settings(max_examples=25)

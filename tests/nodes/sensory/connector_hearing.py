@@ -50,8 +50,8 @@ class Collected:
         return " ".join(str(arrived.trouble) for arrived in self.arrivals if arrived.trouble)
 
     @property
-    def told(self) -> str:
-        return next((one.told for one in reversed(self.arrivals) if one.told), "")
+    def columns(self) -> str:
+        return next((one.columns for one in reversed(self.arrivals) if one.columns), "")
 
     def until(self, wanted: Callable[[], object]) -> None:
         """Listen until something is so; fails when it does not become so."""

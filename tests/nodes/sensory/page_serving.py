@@ -26,9 +26,9 @@ def client():
 @contextlib.contextmanager
 def served(folder, port=0, token=TOKEN):
     page = PhonePage(Settings(port=port, token=token), folder / "nep-studio")
-    page.start()
+    page.open()
     yield page
-    page.stop()
+    page.close()
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +40,7 @@ def shared_page(folder):
 @pytest.fixture
 def page(shared_page):
     """The page, with nothing in it from the test before."""
-    shared_page.take()
+    shared_page.readings()
     return shared_page
 
 

@@ -32,7 +32,7 @@ def test_a_way_that_is_stopped_as_soon_as_it_was_started_ends():
         background.start()
         thread = background._thread
         began_s = time.monotonic()
-        background.stop()
+        background.close()
 
         assert thread is not None and not thread.is_alive()
         assert time.monotonic() - began_s < 0.5
@@ -84,7 +84,7 @@ def test_times_that_no_clock_has_are_no_times(step):
         line = f"{number * step!r},0.1,0.2,9.8"
         reader.read([line.encode()], number * 0.05)
 
-    assert "t" not in reader.told.split(", ")
+    assert "t" not in reader.columns.split(", ")
 
 
 def gravity_told(accelerations):

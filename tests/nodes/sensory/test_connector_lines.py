@@ -40,7 +40,7 @@ def test_columns_by_udp_are_guessed_and_told():
         sender.start(turned(2.0), speed=2)
         heard.until(lambda: len(heard.readings) >= 150)
 
-    assert heard.told == "t (ms), ax, ay, az (m/s²), gx, gy, gz (rad/s)"
+    assert heard.columns == "t (ms), ax, ay, az (m/s²), gx, gy, gz (rad/s)"
 
 
 def test_lines_by_tcp_are_put_together_from_pieces():

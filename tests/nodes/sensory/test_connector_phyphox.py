@@ -38,7 +38,7 @@ def test_the_phones_movement_is_heard_whatever_its_buffers_are_called(names):
     )  # it is heard from the moment on that it was asked
     assert_same(heard.readings, later)
     assert phone.asked[:3] == ["/config", "/get", "/control"]
-    assert heard.told == "accelerometer + gyroscope"
+    assert heard.columns == "accelerometer + gyroscope"
     assert heard.troubles == ""
 
 

@@ -39,7 +39,7 @@ def test_what_a_phone_or_watch_pushes_is_its_movement(watch, standardised):
 
     assert_same(heard.readings, recording)
     assert set(sender.answers) == {200}
-    assert heard.told == ("wrist motion" if watch else "accelerometer + gravity + gyroscope")
+    assert heard.columns == ("wrist motion" if watch else "accelerometer + gravity + gyroscope")
     assert all(one.gravity_included for one in heard.readings)
 
 
@@ -230,7 +230,7 @@ def test_a_flood_of_messages_keeps_memory_bounded():
             sender.push(message | {"messageId": count, "deviceId": str(random.random())})
 
         assert len(heard.connector._devices) <= 16
-        assert len(heard.connector._background._arrived) <= 256
+        assert len(heard.connector._arrived) <= 256
 
 
 parts = st.dictionaries(

@@ -60,8 +60,8 @@ class Scene:
                 if not skip or self.count % skip:
                     stamp = about.get("clock_s", 0) + self.count / rate_hz
                     readings.append(Reading(ACC, GYR, stamp, 1.0))
-            told = about.get("told", "")
-            self.hear(Arrived(sender, readings, self.now_s + 0.02, told=told))
+            told = about.get("columns", "")
+            self.hear(Arrived(sender, readings, self.now_s + 0.02, columns=told))
 
 
 @pytest.fixture
@@ -70,7 +70,7 @@ def scene():
 
 
 def test_a_watch_is_told_with_its_rate_and_columns_and_becomes_imu(scene):
-    scene.send(2, told="t (ms), ax, ay, az (g)")
+    scene.send(2, columns="t (ms), ax, ay, az (g)")
 
     assert scene.node.states == [
         ("connected", "a watch sends 50 samples a second: t (ms), ax, ay, az (g)")

@@ -46,7 +46,7 @@ def test_the_unit_of_time_is_told_by_when_the_lines_arrive(name, unit_s):
     readings, reader = heard(lines)
 
     assert readings[-1].stamp_unit_s == unit_s
-    assert reader.told.startswith("t (" + ("us" if name == "µs" else name))
+    assert reader.columns.startswith("t (" + ("us" if name == "µs" else name))
     assert len(readings) == len(lines)
 
 
@@ -56,7 +56,7 @@ def test_the_unit_of_acceleration_is_told_by_gravity(unit, size):
 
     readings, reader = heard(lines)
 
-    assert reader.told == f"t (s), ax, ay, az ({unit})"
+    assert reader.columns == f"t (s), ax, ay, az ({unit})"
     assert math.hypot(*readings[0].acc) == pytest.approx(G, rel=0.02)
     assert readings[0].gravity_included
 
@@ -71,7 +71,7 @@ def test_the_unit_of_rotation_is_told_by_how_gravity_turns(unit, size, turn_rad_
 
     readings, reader = heard(lines)
 
-    assert reader.told == f"t (s), ax, ay, az (m/s²), gx, gy, gz ({unit})"
+    assert reader.columns == f"t (s), ax, ay, az (m/s²), gx, gy, gz ({unit})"
     assert max(reading.gyr[0] for reading in readings[-100:]) == pytest.approx(turn_rad_s, rel=0.02)
 
 
@@ -80,7 +80,7 @@ def test_a_magnetometer_and_other_columns_are_left_out():
 
     _, reader = heard(lines)
 
-    assert reader.told == "-, t (ms), ax, ay, az (m/s²), -, -, -, gx, gy, gz (rad/s), -"
+    assert reader.columns == "-, t (ms), ax, ay, az (m/s²), -, -, -, gx, gy, gz (rad/s), -"
 
 
 def test_a_rotation_before_the_acceleration_is_found():
@@ -88,7 +88,7 @@ def test_a_rotation_before_the_acceleration_is_found():
 
     _, reader = heard(lines)
 
-    assert reader.told == "t (s), gx, gy, gz (rad/s), ax, ay, az (m/s²)"
+    assert reader.columns == "t (s), gx, gy, gz (rad/s), ax, ay, az (m/s²)"
 
 
 def test_a_column_that_counts_is_no_time():
@@ -96,7 +96,7 @@ def test_a_column_that_counts_is_no_time():
 
     readings, reader = heard(lines)
 
-    assert reader.told == "-, ax, ay, az (m/s²)"
+    assert reader.columns == "-, ax, ay, az (m/s²)"
     assert readings[-1].stamp is None
 
 
@@ -130,7 +130,7 @@ def test_a_fast_turn_that_comes_later_corrects_the_unit():
 
     readings, reader = heard([*still, *fast])
 
-    assert reader.told.endswith("(°/s)")
+    assert reader.columns.endswith("(°/s)")
     assert readings[-1].gyr[0] == pytest.approx(math.radians(200))
 
 
@@ -140,7 +140,7 @@ def test_a_header_names_the_columns():
 
     readings, reader = heard([header, *lines])
 
-    assert reader.told == "t (ms), gz (°/s), gy, gx, -, ax, ay, az (g)"
+    assert reader.columns == "t (ms), gz (°/s), gy, gx, -, ax, ay, az (g)"
     assert readings[0].acc == pytest.approx((0, 0, G))
     assert readings[0].gyr == pytest.approx([math.radians(one) for one in (1, 2, 3)])
 
@@ -150,7 +150,7 @@ def test_commas_are_points_between_semicolons():
 
     readings, reader = heard(lines)
 
-    assert reader.told == "t (s), ax, ay, az (m/s²)"
+    assert reader.columns == "t (s), ax, ay, az (m/s²)"
     assert math.hypot(*readings[9].acc) == pytest.approx(G, rel=0.02)
 
 
@@ -163,7 +163,7 @@ def test_names_may_stand_before_the_numbers(between):
 
     _, reader = heard(lines)
 
-    assert reader.told == "ax, ay, az (m/s²)"
+    assert reader.columns == "ax, ay, az (m/s²)"
 
 
 def test_a_persons_own_columns_are_taken_whatever_the_numbers_say():
@@ -171,7 +171,7 @@ def test_a_persons_own_columns_are_taken_whatever_the_numbers_say():
 
     readings, reader = heard(lines, columns="-,ay(g),az,ax")
 
-    assert reader.told == "-, ay, az (g), ax"
+    assert reader.columns == "-, ay, az (g), ax"
     assert readings[-1].acc[1] == pytest.approx(0, abs=3)
     assert readings[-1].stamp is None
 
@@ -199,7 +199,7 @@ def test_json_is_read_by_its_names(message):
 
     readings, reader = heard(lines)
 
-    assert reader.told == "t (s), ax, ay, az (m/s²), gx, gy, gz (rad/s)"
+    assert reader.columns == "t (s), ax, ay, az (m/s²), gx, gy, gz (rad/s)"
     assert len(readings) == len(lines)
 
 
@@ -231,7 +231,7 @@ def test_no_numbers_crash_the_guess(rows, more, step_s):
 
     readings, reader = heard(lines, step_s=step_s)
 
-    assert isinstance(reader.told, str)
+    assert isinstance(reader.columns, str)
     assert all(max(map(abs, reading.acc or (0,))) <= 1e5 for reading in readings)
 
 
@@ -253,4 +253,4 @@ def test_a_clock_of_whole_seconds_does_not_take_the_samples_between_them_away(gy
 
     assert len(readings) > 150
     assert {one.stamp for one in readings} == {None}
-    assert reader.told.startswith("-, ax")
+    assert reader.columns.startswith("-, ax")

@@ -101,7 +101,9 @@ def test_a_packet_may_hold_many_lines_and_tells_the_first_that_is_wrong():
     found = read("a;1;1;2;3", "", "what\r", "a;2;4;5;6", "again")
 
     assert [reading.acc for reading in found.readings] == [(1, 2, 3), (4, 5, 6)]
-    assert str(found.fault.told("a watch")) == 'a watch sends a line that cannot be read: "what"'
+    assert (
+        str(found.fault.sentence("a watch")) == 'a watch sends a line that cannot be read: "what"'
+    )
 
 
 @pytest.mark.parametrize(
@@ -115,7 +117,7 @@ def test_a_packet_may_hold_many_lines_and_tells_the_first_that_is_wrong():
     ],
 )
 def test_what_is_wrong_with_a_line_is_told_in_a_sentence(line, words):
-    told = str(read(line).fault.told("192.168.1.7"))
+    told = str(read(line).fault.sentence("192.168.1.7"))
 
     assert words in told
     assert told.isprintable()
@@ -136,7 +138,7 @@ def test_no_bytes_crash_the_reader(lines):
     found = LineReader().read(lines, 0.0)
 
     assert all(reading.acc or reading.gyr for reading in found.readings)
-    assert found.fault is None or str(found.fault.told("somebody"))
+    assert found.fault is None or str(found.fault.sentence("somebody"))
 
 
 values = st.recursive(

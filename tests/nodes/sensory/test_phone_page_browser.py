@@ -74,7 +74,7 @@ def readings(server, at_least=1):
     found = []
 
     def look():
-        found.extend(server.take(time.monotonic() + 0.1))
+        found.extend(server.readings(time.monotonic() + 0.1))
         return sum(len(arrived.readings) for arrived in found)
 
     wait_until(look, lambda count: count >= at_least)
@@ -86,7 +86,7 @@ def test_nothing_is_sent_before_the_tap_and_all_that_is_felt_after_it(phones, se
     phone.feel(acc=(1.0, -2.0, 9.5), gyr=(0.5, 1.0, -2.0))
     phone.until(STATE, "ready")
 
-    before = server.take()
+    before = server.readings()
     allow(phone)
     phone.until(STATE, "live")
     found = readings(server, at_least=30)
@@ -114,13 +114,13 @@ def test_the_hand_that_is_chosen_arrives_and_stopping_stops(phones, server):
     allow(phone)
 
     wait_until(lambda: tap_left(phone), bool)  # the page moves while it begins to send
-    wait_until(lambda: server.take(time.monotonic() + 0.1) and server.hand, "left".__eq__)
+    wait_until(lambda: server.readings(time.monotonic() + 0.1) and server.hand, "left".__eq__)
     phone.tap("#allow")
     phone.until(STATE, "ready")
-    server.take(time.monotonic() + 0.1)  # what was on its way
+    server.readings(time.monotonic() + 0.1)  # what was on its way
 
     assert server.hand == "left"
-    assert server.take(time.monotonic() + 0.3) == []
+    assert server.readings(time.monotonic() + 0.3) == []
 
 
 def test_an_iphone_is_asked_in_the_tap_and_its_acceleration_gets_androids_sign(phones, server):
@@ -273,4 +273,4 @@ def test_pages_of_other_origins_are_refused(phones, server):
     )
 
     assert (by_socket, by_post) == ("refused", "refused")
-    assert server.take() == []
+    assert server.readings() == []

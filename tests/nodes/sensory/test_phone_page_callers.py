@@ -12,7 +12,7 @@ import pytest
 from nep_core.errors import PortTaken
 from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.phone_page import server, site
-from nodes.sensory.phone_page.server import PhonePage, PhonePageConnector
+from nodes.sensory.phone_page.server import PhonePage
 from tests.nodes.sensory.page_client import (
     TOKEN,
     ask,
@@ -31,7 +31,7 @@ __all__ = ["client", "folder", "own_page", "page", "shared_page"]
 def test_a_phone_is_followed_by_websocket(page):
     answers, _ = talk(page, saying(batch(1.0, 2.0)))
 
-    arrived = page.take()
+    arrived = page.readings()
     assert answers == ["followed"]
     assert [len(one.readings) for one in arrived] == [2]
 
@@ -43,7 +43,7 @@ def test_a_second_phone_is_told_to_wait_and_so_is_the_user(page):
     answers, _ = talk(page, saying(batch(1.0)), second)
     status, _, answer = post(page, batch(2.0, phone="b2"))
 
-    first, warning, next_one = page.take()
+    first, warning, next_one = page.readings()
     assert json.loads(answers[1][2]) == {"state": "busy"}
     assert str(warning.trouble).startswith("A second phone (127.0.0.1) has the page open")
     assert len(first.readings) == len(next_one.readings) == 1
@@ -69,7 +69,7 @@ def test_a_flood_is_closed_and_little_of_it_arrives(own_page):
     _, code = talk(own_page, flood)
 
     assert code in (1008, 1006)  # it may still have been sending when the line was closed
-    arrived = own_page.take()
+    arrived = own_page.readings()
     assert len(arrived) < 256
     assert sum(len(one.readings) for one in arrived) < 3000
     assert any(one.dropped for one in arrived)
@@ -120,23 +120,23 @@ def test_plain_noise_on_the_port_harms_nobody(page):
 def test_it_stops_at_once_and_the_port_is_free_again(own_page):
     async def stop(line):
         began_s = time.monotonic()
-        await asyncio.to_thread(own_page.stop)
+        await asyncio.to_thread(own_page.close)
         return time.monotonic() - began_s
 
     [took_s], _ = talk(own_page, stop)
 
     assert took_s < 1.0
     again = PhonePage(Settings(port=own_page.port, token=TOKEN), own_page._folder)
-    again.start()
-    again.stop()
+    again.open()
+    again.close()
 
 
 def test_a_port_that_is_taken_is_told(page):
     second = PhonePage(Settings(port=page.port), page._folder)
 
     with pytest.raises(PortTaken, match=str(page.port)):
-        second.start()
-    second.stop()
+        second.open()
+    second.close()
 
 
 def test_without_a_token_a_new_one_is_made_each_time(folder):
@@ -147,14 +147,14 @@ def test_without_a_token_a_new_one_is_made_each_time(folder):
 
 
 def test_the_way_tells_where_and_keeps_the_users_token_for_itself(folder):
-    own = PhonePageConnector(Settings(port=8443, token="secret"), folder)
-    made = PhonePageConnector(Settings(port=8443), folder)
+    own = PhonePage(Settings(port=8443, token="secret"), folder)
+    made = PhonePage(Settings(port=8443), folder)
 
     assert (
         str(own.where)
         == "waits for a phone that opens its page on port 8443 (from this computer only)"
     )
-    assert made.page.token in str(made.where)
+    assert made.token in str(made.where)
     assert "listen on" in str(own.missing)
     assert own.hand == ""
     own.close()
@@ -166,7 +166,7 @@ def test_callers_who_never_greet_are_turned_away_before_they_take_memory(own_pag
 
     ends = [one for one in silent if _is_left(one)]
     began_s = time.monotonic()
-    own_page.stop()
+    own_page.close()
 
     assert len(ends) == 5
     assert time.monotonic() - began_s < 1.0

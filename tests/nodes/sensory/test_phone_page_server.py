@@ -81,13 +81,13 @@ def test_pages_of_other_origins_cannot_send(page, origin, path):
     status, _, _ = ask(page, f"/{TOKEN}/{path}", method, data=batch(1.0), headers=own)
 
     assert status == 403
-    assert page.take() == []
+    assert page.readings() == []
 
 
 def test_a_batch_by_post_becomes_readings_with_the_phones_clock(page):
     status, _, answer = post(page, batch(1.0, 1.02, device="iPhone", hand="left", lost=3))
 
-    [arrived] = page.take()
+    [arrived] = page.readings()
     assert (status, json.loads(answer)) == (200, {"state": "followed"})
     assert arrived.sender == "iPhone 127.0.0.1"
     assert [reading.stamp for reading in arrived.readings] == [1.0, 1.02]
@@ -103,11 +103,11 @@ def test_rubbish_is_refused_and_nothing_of_it_arrives(page, text):
     status, _, _ = post(page, text)
 
     assert status == 400
-    assert page.take() == []
+    assert page.readings() == []
 
 
 def test_too_much_at_once_is_refused(page):
     status, _, _ = post(page, b" " * 200_000)
 
     assert status == 413
-    assert page.take() == []
+    assert page.readings() == []

@@ -7,7 +7,7 @@ import shiboken6
 from PySide6.QtCore import QPoint
 from PySide6.QtGui import QAccessible
 
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.edits.content import SetComment, SetFlag
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.run.installation import studio_language
@@ -78,7 +78,7 @@ def test_what_a_block_looks_like_is_said_in_words(view: Canvas) -> None:
     wait = block_of(view, "control.wait")
     view.editor.apply(SetFlag(wait, "disabled", True))
     view.editor.apply(SetComment(wait, "a short rest"))
-    view.problems.show([Problem("error", "x", "behaviour", wait, "It waits too long.")])
+    view.problems.show([Diagnostic("error", "x", "behaviour", wait, "It waits too long.")])
 
     item = interface_of(view).block(wait)
 

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.ui.canvas.painting.overlay import badge_rect
 from tests.blocks.block_building import B
 
@@ -162,7 +162,7 @@ def test_a_click_on_a_button_of_a_block_does_what_it_says(desk):
 def test_a_click_on_a_badge_opens_the_problem(desk, qtbot):
     desk = desk(story())
     one = desk.body()[1]
-    problem = Problem("error", "some_kind", "behaviour", one, "This is wrong.")
+    problem = Diagnostic("error", "some_kind", "behaviour", one, "This is wrong.")
     desk.canvas.problems.show([problem])
     badge = badge_rect(desk.canvas.page_layout.placed(one), desk.canvas)
     at = desk.canvas.sight.camera.to_view(badge.center().x() + 4, badge.center().y())

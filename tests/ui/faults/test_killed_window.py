@@ -23,7 +23,7 @@ WORK = """
 import json, sys
 from PySide6.QtCore import QTimer
 from nep_studio import paths
-from nep_studio.blocks.edits import RenameProject
+from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.shell.app import Studio, make_application
 from nep_studio.ui.shell.main_window import MainWindow

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 
-from nep_studio.blocks.checks.problem import Fix, Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic, Fix
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.running.needs import Need, answers_at, needs_of
@@ -60,8 +60,10 @@ def test_a_program_without_a_beginning_can_get_one() -> None:
 
 def test_an_error_comes_first_with_its_fix_and_its_block() -> None:
     fix = Fix("add_robot", "Add the robot")
-    error = Problem("error", "unknown_robot", "behaviour", "b7", "There is no such robot.", (), fix)
-    warning = Problem("warning", "busy", "behaviour", "b8", "It is odd.")
+    error = Diagnostic(
+        "error", "unknown_robot", "behaviour", "b7", "There is no such robot.", (), fix
+    )
+    warning = Diagnostic("warning", "busy", "behaviour", "b8", "It is odd.")
 
     first, second = needs(problems=[warning, error])
 

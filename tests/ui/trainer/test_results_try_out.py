@@ -14,7 +14,7 @@ from nep_core.wire.messages import Imu
 from nep_studio.blocks.own_gestures import OwnGesture, keep_gesture, keep_recogniser
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.results.band import band_of, in_words
-from nep_studio.ui.plugins.gestures.results.certainties import LookedAt, Looks
+from nep_studio.ui.plugins.gestures.results.certainties import Certainties, CertaintyHistory
 from nep_studio.ui.plugins.gestures.results.training import Training
 from nep_studio.ui.plugins.gestures.results.try_out import TryOut
 from nep_studio.ui.running.runner import Heard
@@ -102,7 +102,7 @@ def test_a_trained_project_waits_for_a_sensor(
 def test_a_gesture_that_is_made_flashes_and_is_on_the_timeline(tried: TryOut) -> None:
     assert tried.said.text() == "Karate"
     assert tried.bars["karate"].is_flashing
-    assert [one.gesture for one in tried.looks.triggers] == ["karate"]
+    assert [one.gesture for one in tried.history.triggers] == ["karate"]
     assert tried.timeline.accessibleDescription() == "1 gesture would count as made"
     assert tried.band.band.gesture == "karate"
     assert "Karate" in tried.band.sentence.text()
@@ -113,11 +113,12 @@ def test_a_mark_that_is_dragged_shows_its_effect_at_once_and_is_one_step(
 ) -> None:
     bar, groove = tried.bars["karate"], tried.bars["karate"].groove()
     steps = trained.editor.history.steps
-    tried.looks.add(LookedAt(tried.looks.now_s + 9, np.array([0.8, 0.0]), np.array([1.0, 1.0])))
+    newest = Certainties(tried.history.now_s + 9, np.array([0.8, 0.0]), np.array([1.0, 1.0]))
+    tried.history.add(newest)
     for later in (9.1, 9.2, 9.3):
-        nothing = LookedAt(tried.looks.now_s + later, np.zeros(2), np.array([1.0, 1.0]))
-        tried.looks.add(nothing)
-    before = len(tried.looks.triggers)
+        nothing = Certainties(tried.history.now_s + later, np.zeros(2), np.array([1.0, 1.0]))
+        tried.history.add(nothing)
+    before = len(tried.history.triggers)
 
     def at(share: float) -> QPoint:
         x = groove.left() + groove.width() * share
@@ -126,7 +127,7 @@ def test_a_mark_that_is_dragged_shows_its_effect_at_once_and_is_one_step(
     qtbot.mousePress(bar, Qt.MouseButton.LeftButton, pos=at(0.75))
     qtbot.mouseMove(bar, at(0.85))
     qtbot.mouseMove(bar, at(0.9))
-    assert len(tried.looks.triggers) == before - 1
+    assert len(tried.history.triggers) == before - 1
     assert tried.meaning.text().startswith("Karate: Caught ")
     assert trained.editor.history.steps == steps
     qtbot.mouseRelease(bar, Qt.MouseButton.LeftButton, pos=at(0.9))
@@ -170,7 +171,7 @@ def test_what_was_missed_becomes_a_take_and_nothing_else_of_it_is_learned(
 
 
 def test_a_false_alarm_becomes_everyday_movement(tried: TryOut, trained: GestureController) -> None:
-    trigger = tried.looks.triggers[-1]
+    trigger = tried.history.triggers[-1]
 
     tried.corrections.false_alarm.click()
 
@@ -182,11 +183,11 @@ def test_a_false_alarm_becomes_everyday_movement(tried: TryOut, trained: Gesture
 def test_a_new_recogniser_looks_at_the_last_half_minute_too(
     tried: TryOut, trained: GestureController, qtbot: QtBot
 ) -> None:
-    before = tried.looks
+    before = tried.history
 
     tried.tuning.use_method("gmr")
 
-    qtbot.waitUntil(lambda: tried.looks is not before and len(tried.looks.kept) > 10)
+    qtbot.waitUntil(lambda: tried.history is not before and len(tried.history.kept) > 10)
 
 
 def test_nobody_listens_while_nobody_looks(tried: TryOut) -> None:
@@ -208,33 +209,33 @@ def test_a_damaged_recogniser_is_told(
     assert try_out.steps.text()
 
 
-def looks_with(*certainties: tuple[float, float]) -> Looks:
+def looks_with(*certainties: tuple[float, float]) -> CertaintyHistory:
     """Looks at two gestures, a tenth of a second apart."""
-    found = Looks(small_model().gestures)
+    found = CertaintyHistory(small_model().gestures)
     for at, pair in enumerate(certainties):
-        found.add(LookedAt(10 + at / 10, np.array(pair), np.array([1.0, 1.0])))
+        found.add(Certainties(10 + at / 10, np.array(pair), np.array([1.0, 1.0])))
     return found
 
 
 def test_triggers_follow_the_points_over_what_is_kept() -> None:
-    looks = looks_with((0.2, 0.1), (0.8, 0.1), (0.3, 0.1), (0.1, 0.1), (0.1, 0.0))
+    history = looks_with((0.2, 0.1), (0.8, 0.1), (0.3, 0.1), (0.1, 0.1), (0.1, 0.0))
 
-    found = [[one.gesture for one in looks.triggers]]
+    found = [[one.gesture for one in history.triggers]]
     for point in (0.9, 0.5):
-        looks.set_points({"karate": point, "katana": 0.75})
-        found.append([one.gesture for one in looks.triggers])
+        history.set_points({"karate": point, "katana": 0.75})
+        found.append([one.gesture for one in history.triggers])
 
     assert found == [["karate"], [], ["karate"]]
 
 
 def test_looks_older_than_half_a_minute_are_forgotten() -> None:
-    looks = looks_with((0.2, 0.1), (0.9, 0.1), (0.3, 0.1), (0.1, 0.1))
+    history = looks_with((0.2, 0.1), (0.9, 0.1), (0.3, 0.1), (0.1, 0.1))
 
-    looks.add(LookedAt(60.0, np.array([0.0, 0.0]), np.array([1.0, 1.0])))
+    history.add(Certainties(60.0, np.array([0.0, 0.0]), np.array([1.0, 1.0])))
 
-    assert len(looks.kept) == 1
-    assert not looks.triggers
-    assert looks.best("karate", 0.0).certainty == 0.0
+    assert len(history.kept) == 1
+    assert not history.triggers
+    assert history.best("karate", 0.0).certainty == 0.0
 
 
 def test_the_band_holds_a_take_of_its_gesture_better_than_one_of_another() -> None:

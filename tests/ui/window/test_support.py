@@ -156,7 +156,7 @@ def test_a_newer_version_is_told_once_if_the_person_wants_that(
 
     assert while_off == []
     assert asked == ["/newest"]
-    assert choice.told == "99.0"
+    assert choice.announced == "99.0"
 
 
 def test_the_settings_ask_nobody_until_they_are_told_to_and_cancel_takes_it_back(

@@ -172,7 +172,7 @@ def history(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     ]
 
 
-def adding(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
+def insertion(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Paste or write here."""
     at, commands = place.at, canvas.commands
     return [
@@ -222,7 +222,7 @@ def arranging(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
 
 BLOCK_SECTIONS: tuple[Section, ...] = (clipboard, structure, flags, finding, deleting)
 NOTE_SECTIONS: tuple[Section, ...] = (note,)
-PAGE_SECTIONS: tuple[Section, ...] = (history, adding, arranging)
+PAGE_SECTIONS: tuple[Section, ...] = (history, insertion, arranging)
 
 
 def _block(canvas: CanvasHost, place: MenuPlace) -> Block:

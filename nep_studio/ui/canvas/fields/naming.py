@@ -6,7 +6,7 @@ from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.project import RemoveVariable, RenameVariable
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.blocks.operations.finding import why_not_rename_robot
+from nep_studio.blocks.operations.finding import why_not_robot_name
 from nep_studio.blocks.places import InStack, variable_uses
 from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK
 from nep_studio.ui.words import count_words, tr
@@ -119,7 +119,7 @@ class RobotPopup(ChoicePopup):
 
     def _on_made(self, name: str) -> None:
         editor, name = self._editors.canvas.editor, name.strip()
-        reason = why_not_rename_robot(editor, "", name)
+        reason = why_not_robot_name(editor, name)
         if reason is not None:
             self.reason.tell(reason)
             self.adjustSize()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.ui.canvas.layout.page import Placed
 
 if TYPE_CHECKING:
@@ -74,12 +74,12 @@ class ProblemOverlay:
     """A badge at the corner of every block that has a problem."""
 
     def __init__(self) -> None:
-        self.problems: Mapping[str, Problem] = {}
+        self.problems: Mapping[str, Diagnostic] = {}
 
-    def show(self, problems: Iterable[Problem]) -> None:
+    def show(self, problems: Iterable[Diagnostic]) -> None:
         """Show these; of several at a block, the worst."""
         order = {"info": 0, "warning": 1, "error": 2}
-        worst: dict[str, Problem] = {}
+        worst: dict[str, Diagnostic] = {}
         for problem in problems:
             known = worst.get(problem.block)
             if problem.block and (known is None or order[known.severity] < order[problem.severity]):
@@ -132,7 +132,7 @@ def _frame(painter: QPainter, placed: Placed, colour: QColor, pixel: float) -> N
 _SIGNS = {"error": "!", "warning": "!", "info": "i"}
 
 
-def _badge(painter: QPainter, rect: QRectF, problem: Problem, view: CanvasHost) -> None:
+def _badge(painter: QPainter, rect: QRectF, problem: Diagnostic, view: CanvasHost) -> None:
     """A round, a pointed or a square badge: the shape says how bad it is."""
     painter.setPen(QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit))
     painter.setBrush(view.look.theme.colour(problem.severity))

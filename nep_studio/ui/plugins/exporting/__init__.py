@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PySide6.QtGui import QGuiApplication, QKeySequence
 
+from nep_core.places import whole_file
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.run.python_file import SUFFIX, python_file, write_kept
@@ -37,14 +38,12 @@ def save_python(host: Host, path: Path) -> bool:
     text = python_text(host, document, path.name) if document is not None else None
     if text is None:
         return False
-    beside = path.with_name(f".{path.name}.part")
     try:
         if document is not None:
             write_kept(document.project, document.editor.language, path)
-        beside.write_text(text, encoding="utf-8")
-        beside.replace(path)
+        with whole_file(path) as file:
+            file.write(text.encode())
     except OSError as error:
-        beside.unlink(missing_ok=True)
         host.services.messages.tell(_not_written(error))
         return False
     words = tr("Saved “{name}”. At its top it says how to run it.", name=path.name)

@@ -34,6 +34,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from nep_core.places import whole_file
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.operations.copying import copy, to_text
@@ -215,12 +216,10 @@ def write_picture(canvas: CanvasHost, path: Path, kind: Format, options: Picture
     A file that is there is replaced only once the new one is whole.
     """
     made = {"png": png_of, "svg": svg_of, "pdf": pdf_of}[kind](canvas, options)
-    beside = path.with_name(f".{path.name}.part")
     try:
-        beside.write_bytes(made)
-        beside.replace(path)
+        with whole_file(path) as file:
+            file.write(made)
     except OSError as error:
-        beside.unlink(missing_ok=True)
         raise EditRefused(
             tr(
                 "The picture cannot be written: {reason}.",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -16,6 +15,7 @@ from msgspec.structs import replace
 
 from faults import reason_of, text_of
 from nep_core.errors import RecordingError
+from nep_core.places import whole_file
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.own_gestures import (
@@ -29,7 +29,14 @@ from nep_studio.blocks.own_gestures import (
     keep_recording,
 )
 from nep_studio.project.kept_files import EVERYDAY, NEITHER, spans_of
-from nodes.recordings import Recording, read_recording, read_recordings, write_recording
+from nodes.recordings import (
+    MAY_WRITE,
+    Recording,
+    read_recording,
+    read_recordings,
+    write_recording,
+    writing,
+)
 
 from .gesture_controller import GestureController
 from .live import Samples, packed, thinned, unpacked
@@ -89,12 +96,6 @@ def _gesture(take: ImportedTake, gestures: dict[str, OwnGesture]) -> str:
     return name
 
 
-_MAY_WRITE = (
-    "Choose a folder that you may write into, such as one in your home folder.",
-    "Is there room on the disk?",
-)
-
-
 def read_csv(path: Path) -> list[Imported]:
     """Read a CSV file, or all those of a folder and of its everyday folder.
 
@@ -132,7 +133,7 @@ def write_csv(
             folder=folder,
             reason=reason_of(error),
         )
-        raise RecordingError(sentence, checklist=_MAY_WRITE, details=str(error)) from error
+        raise RecordingError(sentence, checklist=MAY_WRITE, details=str(error)) from error
     return written
 
 
@@ -213,19 +214,8 @@ def write_mcap(
     path: Path, gestures: Mapping[str, OwnGesture], recordings: Mapping[str, OwnRecording]
 ) -> None:
     """Write all recordings and takes; the file is whole or as it was. Raises RecordingError."""
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
-    try:
-        with unfinished.open("wb") as file:
-            _write(file, gestures, recordings)
-        unfinished.replace(path)
-    except OSError as error:
-        sentence = text_of(
-            "{path} cannot be written: {reason}.", path=path, reason=reason_of(error)
-        )
-        raise RecordingError(sentence, checklist=_MAY_WRITE, details=str(error)) from error
-    finally:
-        with contextlib.suppress(OSError):
-            unfinished.unlink(missing_ok=True)
+    with writing(path), whole_file(path) as file:
+        _write(file, gestures, recordings)
 
 
 def _write(

@@ -455,7 +455,9 @@ class Book:
             for slot in definition.slots.values()
             if slot.table
         ]
-        words = f"{definition.told} {told.words} {definition.call.name if definition.call else ''}"
+        words = (
+            f"{definition.in_words} {told.words} {definition.call.name if definition.call else ''}"
+        )
         text = " ".join((told.about, told.tip, *told.slots.values(), *choices))
         title = self.titles[BLOCK + definition.id]
         return Findable(BLOCK + definition.id, title, words, text)

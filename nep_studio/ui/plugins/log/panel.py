@@ -36,7 +36,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import Timeline
 from nep_studio.ui.labels import explained, follow_words, labelled, labelled_items
 from nep_studio.ui.message_cards import MessageText
-from nep_studio.ui.messages import KIND_ICONS, Kind, Messages, Told
+from nep_studio.ui.messages import KIND_ICONS, Kind, LoggedMessage, Messages
 from nep_studio.ui.node_style import TYPE_ICONS
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap
@@ -328,7 +328,7 @@ class ToldMessages(QWidget):
         super().showEvent(event)
         self._fill()
 
-    def _on_told(self, told: Told) -> None:
+    def _on_told(self, told: LoggedMessage) -> None:
         if self.isVisible():
             self._insert(told)
             self._show_list()
@@ -345,7 +345,7 @@ class ToldMessages(QWidget):
         self._fill()
         self.list.setCurrentRow(max(chosen, 0))
 
-    def _insert(self, told: Told) -> None:
+    def _insert(self, told: LoggedMessage) -> None:
         item = QListWidgetItem(f"{_clock(told)}  {told.message.title}")
         item.setData(TOLD, told)
         item.setToolTip(told.message.title)
@@ -366,7 +366,7 @@ class ToldMessages(QWidget):
         if item is None:
             self.detail.setWidget(QWidget())
             return
-        told: Told = item.data(TOLD)
+        told: LoggedMessage = item.data(TOLD)
         page = QWidget()
         box = QVBoxLayout(page)
         row = QHBoxLayout()
@@ -402,11 +402,11 @@ def kind_word(kind: Kind) -> str:
     return words[kind]
 
 
-def _clock(told: Told) -> str:
+def _clock(told: LoggedMessage) -> str:
     return time.strftime("%H:%M:%S", time.localtime(told.time_s))
 
 
-def _as_text(told: Told) -> str:
+def _as_text(told: LoggedMessage) -> str:
     message = told.message
     when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(told.time_s))
     steps = [f"  [ ] {step}" for step in message.checklist]

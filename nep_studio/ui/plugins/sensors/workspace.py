@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -20,8 +19,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from faults import reason_of
 from nep_core.errors import NepError, RecordingError
+from nep_core.places import whole_file
 from nep_core.wire.messages import IMU
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
 from nep_studio.ui.labels import labelled
@@ -32,7 +31,7 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
-from nodes.recordings import Recording, write_recording
+from nodes.recordings import MAY_WRITE, Recording, write_recording, writing
 
 from .curve_list import CurveList, FieldChooser
 from .curves import Curve, CurveKey
@@ -44,10 +43,6 @@ from .tools import Hand, Tools
 
 # Keeps what the plots show: as CSV files that can be replayed, and as a picture.
 
-_MAY_WRITE = (
-    "Choose a folder that you may write into, such as one in your home folder.",
-    "Is there room on the disk?",
-)
 _SHARPNESS = 2.0
 
 
@@ -85,7 +80,7 @@ def export_picture(path: Path, widget: QWidget) -> None:
     widget.render(pixmap, QPoint())
     if not pixmap.save(str(path), "PNG"):
         raise RecordingError(
-            "The picture {path} cannot be written.", checklist=_MAY_WRITE, path=path
+            "The picture {path} cannot be written.", checklist=MAY_WRITE, path=path
         )
 
 
@@ -116,19 +111,8 @@ def _write_numbers(path: Path, curve: Curve, samples: Samples) -> None:
     times = samples.t - samples.t[0]
     pairs = zip(times, samples.values[0], strict=True)
     lines += [f"{time_s:.6f},{value:.9g}\n" for time_s, value in pairs]
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
-    try:
-        unfinished.write_text("".join(lines), encoding="utf-8", newline="\n")
-        unfinished.replace(path)
-    except OSError as error:
-        unfinished.unlink(missing_ok=True)
-        raise RecordingError(
-            "{path} cannot be written: {reason}.",
-            checklist=_MAY_WRITE,
-            details=str(error),
-            path=path,
-            reason=reason_of(error),
-        ) from error
+    with writing(path), whole_file(path) as file:
+        file.write("".join(lines).encode())
 
 
 def _named(path: Path, number: int) -> Path:

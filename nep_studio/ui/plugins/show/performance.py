@@ -21,7 +21,7 @@ from nep_studio.run.controller import Request
 from nep_studio.run.session import Ending
 from nep_studio.run.timeline import Line, Timeline
 from nep_studio.settings import ShowOptions
-from nep_studio.ui.messages import Told
+from nep_studio.ui.messages import LoggedMessage
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -220,7 +220,7 @@ class Performance(QObject):
             self._play(document)
         self.changed.emit()
 
-    def _on_told(self, told: Told) -> None:
+    def _on_told(self, told: LoggedMessage) -> None:
         """A project that cannot be opened is told by a message only."""
         message = told.message
         if self.state == "opening" and message.kind == "error":

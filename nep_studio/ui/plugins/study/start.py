@@ -34,7 +34,7 @@ from nep_studio.study.records import (
     participant_number,
 )
 from nep_studio.ui.documents import Document
-from nep_studio.ui.messages import Message, Told
+from nep_studio.ui.messages import LoggedMessage, Message
 from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
@@ -307,7 +307,7 @@ class StudyRecorder(QObject):
         if edits:
             self.note("edits", number=edits)
 
-    def _on_told(self, told: Told) -> None:
+    def _on_told(self, told: LoggedMessage) -> None:
         if told.message.kind in ("error", "warning"):
             self.note("error_told", told.message.title)
 

@@ -12,7 +12,7 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import (
     USUAL_NAME,
     WATCH,
-    free_watch_name,
+    free_name,
     use_watch,
     watch_entry,
 )
@@ -110,7 +110,7 @@ class WatchKit(QObject):
         editor = self._host.workbench.canvas.editor
         folder = self._host.services.settings.last_folder / RECORDINGS
         blank = Plan(
-            free_watch_name(editor),
+            free_name(editor, USUAL_NAME),
             gestures=self._gestures(),
             folder=folder,
             equip=lambda node: with_takes(node, editor.project),

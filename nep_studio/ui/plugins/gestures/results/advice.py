@@ -16,7 +16,7 @@ from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .findings import HOUR_S, NOTHING, Findings, LeftOut, id_of_take
-from .labels import Sign, Words
+from .labels import StatusIcon, Words
 
 # What a sentence of advice is, and what it is made from.
 
@@ -436,7 +436,7 @@ class AdviceRow(QWidget):
         super().__init__(of)
         self.advice = advice
         self.setAccessibleName(f"{_kind_words(advice.kind)}: {advice.words}")
-        sign = Sign(look, self)
+        sign = StatusIcon(look, self)
         sign.show_icon(*_SIGNS[advice.kind])
         sign.setToolTip(_kind_words(advice.kind))
         self.words = Words(advice.words)

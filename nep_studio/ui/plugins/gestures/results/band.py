@@ -24,7 +24,7 @@ from nodes.perceptual.recognition.gmr import Gmr
 from nodes.perceptual.recognition.model import Model, Recogniser
 from nodes.perceptual.recognition.streams import EvenStream, mirrored
 
-from .certainties import Looks, is_mirrored
+from .certainties import CertaintyHistory, is_mirrored
 from .labels import Words
 
 WIDE = 2.0
@@ -337,10 +337,10 @@ class BandPanel(QWidget):
             self.gesture.setCurrentIndex(max(0, self.gesture.findData(chosen)))
         self._on_chosen()
 
-    def follow(self, looks: Looks) -> None:
+    def follow(self, history: CertaintyHistory) -> None:
         """Show the last movement, if it is another one and may be a gesture."""
-        since_s, name = looks.now_s - LOOKED_BACK_S, str(self.gesture.currentData() or "")
-        found = looks.best(name, since_s) if name else looks.most_certain(since_s)
+        since_s, name = history.now_s - LOOKED_BACK_S, str(self.gesture.currentData() or "")
+        found = history.best(name, since_s) if name else history.most_certain(since_s)
         if found is not None and found.certainty >= _LEAST and found != self._shown:
             self._shown = found
             self._compute(found.gesture)

@@ -32,7 +32,7 @@ _GAP_S = 0.5
 
 
 @dataclass(frozen=True)
-class LookedAt:
+class Certainties:
     """One look: when it was, and for each gesture the certainty and the length of its window."""
 
     end_s: float
@@ -40,7 +40,7 @@ class LookedAt:
     lengths_s: Floats
 
 
-class Looks:
+class CertaintyHistory:
     """The looks of the last half minute of one stream, and the triggers among them.
 
     ``triggers`` are what would have been recognised with the ``points``, the oldest first.
@@ -48,7 +48,7 @@ class Looks:
 
     def __init__(self, gestures: Sequence[Gesture] = ()) -> None:
         self.gestures = tuple(gestures)
-        self.kept: deque[LookedAt] = deque()
+        self.kept: deque[Certainties] = deque()
         self.triggers: list[Detection] = []
         self._points: dict[str, float] = {}
         self._picker = self._new_picker()
@@ -71,7 +71,7 @@ class Looks:
         for look in self.kept:
             self._pick(look)
 
-    def add(self, look: LookedAt) -> None:
+    def add(self, look: Certainties) -> None:
         """Keep a look, and forget those that are too old."""
         if self.kept and look.end_s < self.kept[-1].end_s:
             self.kept.clear()  # another stream, or a clock that begins anew
@@ -98,7 +98,7 @@ class Looks:
         wanted = {name: self._points.get(name, TRIGGER) for name in self.names}
         return PeakPicker(self.gestures, wanted)
 
-    def _pick(self, look: LookedAt) -> None:
+    def _pick(self, look: Certainties) -> None:
         found = []
         if look.end_s - self._last_s > _GAP_S:
             found.append(self._picker.flush())
@@ -146,7 +146,7 @@ class Wanted:
 
 
 class Listening(QObject):
-    """``model_read`` gives the Model, ``looked`` a list of LookedAt, ``failed`` an error."""
+    """``model_read`` gives the Model, ``looked`` a list of Certainties, ``failed`` an error."""
 
     model_read = Signal(object)
     looked = Signal(object)
@@ -190,11 +190,11 @@ class Listening(QObject):
             talk.orders.put(None)
 
     def _take_news(self) -> None:
-        looks: list[LookedAt] = []
+        looks: list[Certainties] = []
         talk = self._talk
         while talk is not None and talk is self._talk and not talk.news.empty():
             told = talk.news.get()
-            if isinstance(told, LookedAt):
+            if isinstance(told, Certainties):
                 looks.append(told)
                 continue
             looks.clear()  # they were by another model
@@ -245,7 +245,7 @@ class _Listener:
             model, method=wanted.method, gravity_included=wanted.gravity_included
         )
         self._spotter.looked = lambda end_s, certainties, lengths_s: news.put(
-            LookedAt(end_s, certainties.copy(), lengths_s)
+            Certainties(end_s, certainties.copy(), lengths_s)
         )
         self._mirrors = is_mirrored(wanted.wrist, model)
         news.put(model)

@@ -22,7 +22,7 @@ class Words(QLabel):
             self.setProperty("role", role)
 
 
-class Sign(QLabel):
+class StatusIcon(QLabel):
     """An icon in a colour of the theme, as large as the text."""
 
     def __init__(self, look: Look, parent: QWidget | None = None) -> None:

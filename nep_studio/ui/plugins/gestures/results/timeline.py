@@ -16,7 +16,7 @@ from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import count_words, tr
 from nodes.perceptual.recognition.features import Detection
 
-from .certainties import KEPT_S, Looks
+from .certainties import KEPT_S, CertaintyHistory
 from .findings import Tuning
 from .threshold import PointSlider
 
@@ -34,7 +34,7 @@ class TriggerTimeline(InLines):
     ) -> None:
         super().__init__(parent)
         self._title, self._look = title, look
-        self._looks = Looks()
+        self._history = CertaintyHistory()
         self._triggers: Sequence[Detection] = ()
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as the live curves are
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -42,10 +42,10 @@ class TriggerTimeline(InLines):
         look.theme_changed.connect(self.update)
         follow_words(self, self._say)
 
-    def show_looks(self, looks: Looks, triggers: Sequence[Detection]) -> None:
+    def show_history(self, history: CertaintyHistory, triggers: Sequence[Detection]) -> None:
         """Show these."""
         is_new = len(triggers) != len(self._triggers)
-        self._looks, self._triggers = looks, triggers
+        self._history, self._triggers = history, triggers
         if is_new:
             self._say()
         self.update()
@@ -65,7 +65,7 @@ class TriggerTimeline(InLines):
     def x_of(self, time_s: float) -> float:
         """Where a moment is."""
         area = self.area()
-        return area.right() - (self._looks.now_s - time_s) / KEPT_S * area.width()
+        return area.right() - (self._history.now_s - time_s) / KEPT_S * area.width()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint everything."""
@@ -110,7 +110,7 @@ class TriggerTimeline(InLines):
                 self.x_of(look.end_s),
                 area.bottom() - min(float(look.certainties.max()), 1.0) * high,
             )
-            for look in self._looks.kept
+            for look in self._history.kept
         ]
         painter.setPen(QPen(theme.colour("plot_1"), max(1.5, line / 10)))
         painter.drawPolyline(QPolygonF(points))

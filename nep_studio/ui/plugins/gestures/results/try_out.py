@@ -21,8 +21,8 @@ from nodes.perceptual.recognition.features import Detection
 from nodes.perceptual.recognition.model import Model
 
 from .band import BandPanel
-from .certainties import KEPT_S, Listening, LookedAt, Looks, Wanted
-from .labels import Sign, Words
+from .certainties import KEPT_S, Certainties, CertaintyHistory, Listening, Wanted
+from .labels import StatusIcon, Words
 from .threshold import both_sides
 from .timeline import GestureBar, TriggerTimeline
 from .training import Training
@@ -72,16 +72,16 @@ USUAL_S = 1.5
 
 
 class CorrectionBar(QWidget):
-    """``looks`` gives what the recogniser saw in the last half minute."""
+    """``history`` gives what the recogniser saw in the last half minute."""
 
     def __init__(
         self,
         controller: GestureController,
-        looks: Callable[[], Looks],
+        history: Callable[[], CertaintyHistory],
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._controller, self._looks = controller, looks
+        self._controller, self._history = controller, history
         self.missed = labelled(
             QPushButton(),
             text="It missed it",
@@ -107,10 +107,10 @@ class CorrectionBar(QWidget):
 
     def keep_missed(self, name: str, _is_on: bool = False) -> None:
         """Keep the movement of the last seconds that is most like a gesture as a take of it."""
-        live, looks = self._controller.live, self._looks()
+        live, history = self._controller.live, self._history()
         if live is None:
             return
-        best = looks.best(name, looks.now_s - MISSED_S)
+        best = history.best(name, history.now_s - MISSED_S)
         end_s = best.t_end if best is not None else live.last_t
         start_s = best.t_start if best is not None else end_s - USUAL_S
         title = self._controller.gestures[name].title
@@ -122,7 +122,7 @@ class CorrectionBar(QWidget):
         live = self._controller.live
         if live is None:
             return
-        recent = [one for one in self._looks().triggers if one.t_end > live.last_t - ALARM_S]
+        recent = [one for one in self._history().triggers if one.t_end > live.last_t - ALARM_S]
         end_s = recent[-1].t_end if recent else live.last_t
         start_s = recent[-1].t_start if recent else end_s - 2 * USUAL_S
         is_kept = keep_false_alarm(self._controller, start_s, end_s)
@@ -157,7 +157,7 @@ class TryOut(QWidget):
     ) -> None:
         super().__init__(parent)
         self.controller, self.training, self.tuning = controller, training, training.tuning
-        self.looks = Looks()
+        self.history = CertaintyHistory()
         self.model: Model | None = None
         self.problem: RecordingError | None = None
         self.listening = Listening(self)
@@ -186,13 +186,13 @@ class TryOut(QWidget):
 
     def _make(self) -> None:
         look = self.controller.look
-        self.sign = Sign(look)
+        self.sign = StatusIcon(look)
         self.said = Words(role="title")
         self.steps = Words(role="hint")
         self.bars: dict[str, GestureBar] = {}
         self.meaning = Words(role="hint")
         self.timeline = TriggerTimeline(self._title, look)
-        self.corrections = CorrectionBar(self.controller, lambda: self.looks)
+        self.corrections = CorrectionBar(self.controller, lambda: self.history)
         self.band = BandPanel(self.controller, self._title)
         self._flash_over = QTimer(self, singleShot=True, interval=FLASH_MS)
         self._say_soon = QTimer(self, singleShot=True, interval=ANNOUNCE_MS)
@@ -241,11 +241,11 @@ class TryOut(QWidget):
     def _begin(self, model: Model | None) -> None:
         """Forget what was looked at by another model."""
         self.model = model
-        self.looks = Looks(model.gestures if model is not None else ())
-        self.looks.set_points(self.tuning.points)
+        self.history = CertaintyHistory(model.gestures if model is not None else ())
+        self.history.set_points(self.tuning.points)
         self.band.use_model(model)
         self._fill_bars()
-        self._show_looks()
+        self._show_history()
 
     def _on_model_read(self, model: Model) -> None:
         """A new recogniser looks at the last half minute too: its effect is seen at once."""
@@ -272,12 +272,12 @@ class TryOut(QWidget):
 
     # What is seen
 
-    def _on_looked(self, looks: list[LookedAt]) -> None:
+    def _on_looked(self, looks: list[Certainties]) -> None:
         if self.model is None:
             return
         for look in looks:
-            self.looks.add(look)
-        last = self.looks.triggers[-1] if self.looks.triggers else None
+            self.history.add(look)
+        last = self.history.triggers[-1] if self.history.triggers else None
         if last is not None and last.t_end > self._told_s:
             self._told_s = last.t_end
             self._flashing = last
@@ -285,34 +285,34 @@ class TryOut(QWidget):
             self._say_soon.start()
             self._show_state()
             self.recognised.emit(last)
-        self._show_looks()
-        self.band.follow(self.looks)
+        self._show_history()
+        self.band.follow(self.history)
 
-    def _show_looks(self) -> None:
-        certainties = self.looks.certainties()
+    def _show_history(self) -> None:
+        certainties = self.history.certainties()
         flashing = self._flashing.gesture if self._flashing is not None else ""
         for name, bar in self.bars.items():
             bar.show_certainty(certainties.get(name, 0.0), is_flashing=name == flashing)
-        self.timeline.show_looks(self.looks, tuple(self.looks.triggers))
+        self.timeline.show_history(self.history, tuple(self.history.triggers))
 
     def _on_flash_over(self) -> None:
         self._flashing = None
         self._show_state()
-        self._show_looks()
+        self._show_history()
 
     def _announce(self) -> None:
-        triggers = self.looks.triggers
+        triggers = self.history.triggers
         if triggers:
             announce(self, self._title(triggers[-1].gesture))
 
     def _on_point_changed(self, name: str) -> None:
         self._moved = name
-        self.looks.set_points(self.tuning.points)
-        self._told_s = max(self._told_s, self.looks.now_s)
+        self.history.set_points(self.tuning.points)
+        self._told_s = max(self._told_s, self.history.now_s)
         if name in self.bars:
             self.bars[name].show_gesture(name)
         self._show_meaning(name)
-        self._show_looks()
+        self._show_history()
 
     def _show_meaning(self, name: str) -> None:
         """What the recognition point that is moved means for takes and everyday movement."""

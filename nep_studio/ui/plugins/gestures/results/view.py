@@ -26,7 +26,7 @@ from nep_studio.ui.words import language_code, tr
 from .advice import Advice, AdviceList, Known, advice_on, false_triggers, headline, takes_of_pair
 from .confusion import ConfusionView
 from .findings import METHODS, method_words
-from .labels import Sign, Words, card
+from .labels import StatusIcon, Words, card
 from .threshold import PointPanel
 from .training import QUICK_S, Training
 
@@ -51,7 +51,7 @@ class TrainBar(QWidget):
         self.progress.setRange(0, 100)
         labelled(self.progress, name="Progress of the training")
         self.progress.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self.sign = Sign(look)
+        self.sign = StatusIcon(look)
         self.status = Words()
         self.by_itself = labelled(
             QCheckBox(),

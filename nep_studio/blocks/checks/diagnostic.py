@@ -1,4 +1,4 @@
-"""A problem of a program as data: what is wrong, where, and what to do about it."""
+"""A diagnostic of a program as data: what is wrong, where, and what to do about it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Fix:
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class Diagnostic:
     """What is wrong with a program.
 
     An ``error`` keeps the program from running, a ``warning`` does not, ``info`` is good to know.
@@ -39,7 +39,7 @@ class Problem:
     fix: Fix | None = None
 
 
-Found = Iterator[Problem | None]
+Found = Iterator[Diagnostic | None]
 """What a check finds, one after the other; None wherever it may rest."""
 
 
