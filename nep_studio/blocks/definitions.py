@@ -126,17 +126,13 @@ def _word_or_slot(token: re.Match[str], group: str) -> str | Slot:
             raise SentenceError(f"slot “{name}”: a choice names its table, choice(table)")
         return Slot(name, kind, named["table"], group, named["master"] or "")
     if kind_name == "slider":
-        return _slider(name, kind, group, more)
+        ends = _RANGE.fullmatch(more)
+        if ends is None or float(ends["low"]) >= float(ends["high"]):
+            raise SentenceError(f"slot “{name}”: a slider has its ends, slider(0..100)")
+        return Slot(name, kind, group=group, low=float(ends["low"]), high=float(ends["high"]))
     if more:
         raise SentenceError(f"slot “{name}”: {kind_name} has nothing in parentheses")
     return Slot(name, kind, group=group)
-
-
-def _slider(name: str, kind: Kind, group: str, more: str) -> Slot:
-    ends = _RANGE.fullmatch(more)
-    if ends is None or float(ends["low"]) >= float(ends["high"]):
-        raise SentenceError(f"slot “{name}”: a slider has its ends, slider(0..100)")
-    return Slot(name, kind, group=group, low=float(ends["low"]), high=float(ends["high"]))
 
 
 def slots_of(parts: tuple[Part, ...]) -> dict[str, Slot]:

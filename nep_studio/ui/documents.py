@@ -102,7 +102,10 @@ class Document(QObject):
 
     def save(self, path: Path) -> None:
         """Write the project to a file, which is its file from now on; raises ProjectFileError."""
-        self._name_after(path)
+        # A project without a name of its own is called like its file
+        rename = RenameProject(path.stem)
+        if self.project.name == new_name() and self.editor.why_not(rename) is None:
+            self.editor.apply(rename)
         files.save(self.project, path)
         self.editor.history.seal()
         self.path, self._stamp = path, _stamp(path)
@@ -132,12 +135,6 @@ class Document(QObject):
         if self._journal is not None:
             self._journal.close(keep=keep)
             self._journal = None
-
-    def _name_after(self, path: Path) -> None:
-        """A project without a name of its own is called like its file."""
-        rename = RenameProject(path.stem)
-        if self.project.name == new_name() and self.editor.why_not(rename) is None:
-            self.editor.apply(rename)
 
     def _on_edited(self, changes: Changes) -> None:
         self.edited.emit(changes)

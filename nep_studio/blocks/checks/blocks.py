@@ -205,19 +205,14 @@ def _told(block: Block, definition: Definition, place: _Place) -> _Misplaced | N
         remedy = "Move it under the “define” block that it comes from."
         return ("error", "parameter_outside", reason, remedy)
     if block.type in (CODE_LINES, CODE_VALUE):
-        return _wrong_python(block, definition, place)
-    return None
-
-
-def _wrong_python(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
-    text = str(definition.value(block, "code"))
-    try:
-        if block.type == CODE_VALUE:
-            read_value(text)
-        else:
-            read_lines(text, in_loop=place.loop)
-    except CodeTextRefused as refused:
-        return ("error", "wrong_python", refused.sentence, "Change the code.")
+        text = str(definition.value(block, "code"))
+        try:
+            if block.type == CODE_VALUE:
+                read_value(text)
+            else:
+                read_lines(text, in_loop=place.loop)
+        except CodeTextRefused as refused:
+            return ("error", "wrong_python", refused.sentence, "Change the code.")
     return None
 
 

@@ -66,7 +66,17 @@ class MoveBlocks(msgspec.Struct, tag_field="edit", frozen=True, tag=True):
         """Move the blocks."""
         roots = _require_run(project, self.first, self.count)
         old = place_of(project, self.first, self.count)
-        _require_outside(project, self.place, roots)
+        # A place must not be inside the blocks that are moved there
+        place = self.place
+        owner = place.stack if isinstance(place, NewStack | InStack) else place.block
+        moved = set(roots)
+        while owner in project.blocks:
+            if owner in moved:
+                raise EditRefused("A block cannot be put inside itself.")
+            owner = project.parents[owner].owner
+        stack = project.stacks.get(place.stack) if isinstance(place, InStack) else None
+        if stack is not None and stack.body == roots:
+            raise EditRefused("These blocks are a stack already.")
         _require_free(project, self.place, roots, moved=True)
         take(project, self.first, self.count)
         put(project, roots, self.place)
@@ -99,19 +109,6 @@ def _require_whole(edit: CreateBlocks) -> None:
     ids = [block.id for block in edit.blocks]
     if not edit.roots or sorted([*inside, *edit.roots]) != sorted(ids) or len(set(ids)) < len(ids):
         raise EditRefused("These blocks are not complete.")
-
-
-def _require_outside(project: Project, place: Place, roots: list[str]) -> None:
-    """A place must not be inside the blocks that are moved there."""
-    owner = place.stack if isinstance(place, NewStack | InStack) else place.block
-    moved = set(roots)
-    while owner in project.blocks:
-        if owner in moved:
-            raise EditRefused("A block cannot be put inside itself.")
-        owner = project.parents[owner].owner
-    stack = project.stacks.get(place.stack) if isinstance(place, InStack) else None
-    if stack is not None and stack.body == roots:
-        raise EditRefused("These blocks are a stack already.")
 
 
 def _require_free(

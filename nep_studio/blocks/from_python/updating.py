@@ -51,7 +51,10 @@ class ChainUpdater:
         project = self._editor.project
         stack = project.stack_of(first)
         hat = project.blocks[first]
-        if self._hat_text(first) == wanted[0].text:
+        # The lines of a hat, to the one that begins the function
+        lines = [self._lines[number - 1] for number in self._code.lines_of(first)]
+        end = next((n for n, line in enumerate(lines, 1) if line.startswith("def ")), 0)
+        if "\n".join(lines[:end]) == wanted[0].text:
             pass
         elif hat.type != wanted[0].type:
             roots, blocks = blocks_of(project, self._editor.language, wanted[:1])
@@ -124,12 +127,6 @@ class ChainUpdater:
         roots, blocks = blocks_of(self._editor.project, self._editor.language, chain)
         self._editor.apply(CreateBlocks(roots, blocks, place))
         return len(roots)
-
-    def _hat_text(self, hat: str) -> str:
-        """The lines of a hat, to the one that begins the function."""
-        lines = [self._lines[number - 1] for number in self._code.lines_of(hat)]
-        end = next((n for n, line in enumerate(lines, 1) if line.startswith("def ")), 0)
-        return "\n".join(lines[:end])
 
     def _text(self, block: str) -> str:
         """The lines that a block makes with all inside it, without their margin."""

@@ -20,7 +20,7 @@ from ..deployment import robot_entries, robots_used
 from ..editor import Editor
 from ..generate.names import RESERVED, python_name
 from ..places import InStack
-from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure, Project
+from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
 from .learning import (
     VARIABLE_NAME,
     CodeUnread,
@@ -67,7 +67,10 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
                 assigned.append(name)
     for name in [*assigned, *_shared(tree)]:
         if name not in names.robots and name not in names.variables and name not in RESERVED:
-            names.variables[name] = editor.add_variable(_free(editor.project, name))
+            # A name for a new variable that no other has; its Python name is the same
+            project = editor.project
+            taken = {variable.name for variable in project.variables}
+            names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
     _require_variables(names, tree)
     return names
 
@@ -190,12 +193,6 @@ def _shared(tree: ast.Module) -> Iterator[str]:
                 yield name
             case ast.For(target=ast.Name(id=name)) if name != "_":
                 yield name
-
-
-def _free(project: Project, name: str) -> str:
-    """A name for a new variable that no other has; its Python name is the same."""
-    taken = {variable.name for variable in project.variables}
-    return name if name not in taken else f"{name}_"
 
 
 # Read expressions: what goes into the field of a slot, and which block is plugged into it.

@@ -106,14 +106,6 @@ class Workbench(QWidget):
         self.bubble: ProblemBubble | None = None
         self._run_problem: Problem | None = None
         self._usual_scale = usual_scale(studio)
-        self.panels = Panels(self._middle(), studio.look, studio.settings, self)
-        self.add_side_panel(self.helpers.palette, tr("Blocks"), "blocks", "left")
-        self.add_side_panel(self.code, tr("Code"), "code", "right")
-        self.add_side_panel(self.outline, tr("Outline"), "list-tree", "right")
-        self.add_side_panel(self.problems, tr("Problems"), "circle-check", "bottom", is_shown=False)
-        self._connect()
-
-    def _middle(self) -> QWidget:
         middle = QFrame()
         box = QVBoxLayout(middle)
         box.setContentsMargins(0, 0, 0, 0)
@@ -121,7 +113,12 @@ class Workbench(QWidget):
         box.addWidget(self.pages_bar)
         box.addWidget(self.helpers.find_bar)
         box.addWidget(self.canvas, 1)
-        return middle
+        self.panels = Panels(middle, studio.look, studio.settings, self)
+        self.add_side_panel(self.helpers.palette, tr("Blocks"), "blocks", "left")
+        self.add_side_panel(self.code, tr("Code"), "code", "right")
+        self.add_side_panel(self.outline, tr("Outline"), "list-tree", "right")
+        self.add_side_panel(self.problems, tr("Problems"), "circle-check", "bottom", is_shown=False)
+        self._connect()
 
     def _connect(self) -> None:
         canvas = self.canvas
@@ -149,9 +146,16 @@ class Workbench(QWidget):
     def show_document(self, document: Document | None) -> None:
         """Work on another project; on none, the canvas is empty."""
         self._run_problem = None
-        editor = self._no_editor() if document is None else document.editor
+        editor = Editor(Project(), self._studio.language) if document is None else document.editor
         folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
-        self._set_editor(editor)
+        self.canvas.set_editor(editor)
+        self.pages_bar.set_editor(editor)
+        self.code.set_editor(editor)
+        self.outline.refresh()
+        self.helpers.refresh()
+        # Look at the corner of the page where reading begins, at the usual size
+        self.zoom_usual()
+        self.canvas.sight.show_beginning()
         self.checks.follow(None if document is None else editor, folder)
 
     def restore(self, line: int) -> None:
@@ -172,25 +176,9 @@ class Workbench(QWidget):
             self.show_document(None)
         self.checks.cancel()
 
-    def _no_editor(self) -> Editor:
-        return Editor(Project(), self._studio.language)
-
-    def _set_editor(self, editor: Editor) -> None:
-        self.canvas.set_editor(editor)
-        self.pages_bar.set_editor(editor)
-        self.code.set_editor(editor)
-        self.outline.refresh()
-        self.helpers.refresh()
-        self._show_corner()
-
     def zoom_usual(self) -> None:
         """Show the blocks with words as large as those of the window."""
         self.canvas.sight.zoom(usual_scale(self._studio))
-
-    def _show_corner(self) -> None:
-        """Look at the corner of the page where reading begins, at the usual size."""
-        self.zoom_usual()
-        self.canvas.sight.show_beginning()
 
     # Blocks and problems
 

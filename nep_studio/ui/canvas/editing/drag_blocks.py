@@ -47,7 +47,18 @@ def land(canvas: CanvasHost, cargo: Cargo, snap: Snap, dx: float, dy: float) -> 
         beside, at = _beside(cargo, dx, dy), _new_top(cargo, target)
         _do(canvas, lambda: cargo.join(canvas, target, beside, at))
         return
-    dx, dy = _into_view(canvas, cargo.bounds, dx, dy)
+    # The way, changed so that the beginning of the blocks is in the view, and on the page
+    bounds = cargo.bounds
+    seen = canvas.sight.visible_page_rect()
+    least = LEAST_SEEN_PX / canvas.sight.camera.scale
+    x, y = bounds.x + dx, bounds.y + dy
+    if canvas.look.measures.is_mirrored:
+        right = min(max(bounds.right + dx, seen.x + least), seen.right)
+        x = right - bounds.width
+    else:
+        x = min(max(x, seen.x), seen.right - least)
+    y = min(max(y, seen.y), seen.bottom - least)
+    dx, dy = _within(x) - bounds.x, _within(y) - bounds.y
     if snap.reason or _lies_on_blocks(canvas, cargo.chains[0], dx, dy):
         dx, dy = _bumped(canvas, cargo.bounds, dx, dy)
     if dx or dy or not cargo.hidden:
@@ -83,20 +94,6 @@ def _new_top(cargo: Cargo, target: Target) -> Point | None:
         assert mouth is not None
         x, y = x - (mouth[0] - chain.x), y - (mouth[1] - chain.y)
     return _within(x), _within(y)
-
-
-def _into_view(canvas: CanvasHost, bounds: Rect, dx: float, dy: float) -> Point:
-    """The way, changed so that the beginning of the blocks is in the view, and on the page."""
-    seen = canvas.sight.visible_page_rect()
-    least = LEAST_SEEN_PX / canvas.sight.camera.scale
-    x, y = bounds.x + dx, bounds.y + dy
-    if canvas.look.measures.is_mirrored:
-        right = min(max(bounds.right + dx, seen.x + least), seen.right)
-        x = right - bounds.width
-    else:
-        x = min(max(x, seen.x), seen.right - least)
-    y = min(max(y, seen.y), seen.bottom - least)
-    return _within(x) - bounds.x, _within(y) - bounds.y
 
 
 def _lies_on_blocks(canvas: CanvasHost, chain: Chain, dx: float, dy: float) -> bool:
@@ -159,7 +156,12 @@ class DragBlocks:
         self._show_delete_area(canvas, canvas.marks.delete_area(place))
         snap = Snap() if self.is_over_delete_area else self._search(canvas, dx, dy)
         if snap != self.snap:
-            self._show(canvas, snap)
+            self.snap = snap
+            gap = self._gap(canvas, snap.target) if snap.target is not None else None
+            if gap is not None:
+                self._ground.remember(_stack_of(canvas, gap.owner))
+            canvas.layers.set_preview(self.cargo.hidden, gap)
+            canvas.marks.drop_overlay.show(canvas, snap.target)
         canvas.marks.bubble.say(self._words(), pointer.view.toPoint())
         canvas.marks.floating.follow(canvas, pointer.view)
         self._scroll.follow(pointer.view, is_resting=self.is_over_delete_area)
@@ -198,14 +200,6 @@ class DragBlocks:
         if key not in self._reasons:
             self._reasons[key] = self.cargo.why_not(canvas, target)
         return self._reasons[key]
-
-    def _show(self, canvas: CanvasHost, snap: Snap) -> None:
-        self.snap = snap
-        gap = self._gap(canvas, snap.target) if snap.target is not None else None
-        if gap is not None:
-            self._ground.remember(_stack_of(canvas, gap.owner))
-        canvas.layers.set_preview(self.cargo.hidden, gap)
-        canvas.marks.drop_overlay.show(canvas, snap.target)
 
     def _gap(self, canvas: CanvasHost, target: Target) -> Gap | None:
         """Room in the chain, for blocks that go between others."""
@@ -301,7 +295,10 @@ class ExternalDrag(QObject):
             if event.type() == QEvent.Type.MouseButtonRelease:
                 watched.removeEventFilter(self)
                 self.deleteLater()
-                return self._release(event.globalPosition().toPoint())
+                place = event.globalPosition().toPoint()
+                if self._gesture is not None and self._canvas.pointing.gesture is self._gesture:
+                    self._canvas.pointing.release_at(_in_view(self._canvas, place))
+                return self._gesture is not None
         return False
 
     def _move(self, place: QPoint) -> bool:
@@ -313,11 +310,6 @@ class ExternalDrag(QObject):
         if self._canvas.pointing.gesture is self._gesture:
             self._canvas.pointing.move_to(_in_view(self._canvas, place))
         return True
-
-    def _release(self, place: QPoint) -> bool:
-        if self._gesture is not None and self._canvas.pointing.gesture is self._gesture:
-            self._canvas.pointing.release_at(_in_view(self._canvas, place))
-        return self._gesture is not None
 
 
 def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint) -> DragBlocks:

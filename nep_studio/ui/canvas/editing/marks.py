@@ -88,7 +88,10 @@ class DropOverlay:
         if target.join == "input":
             self._mark_slot(view, target)
         elif target.join == "above":
-            self._mark_line(view, target)
+            # A line along the top of a stack
+            width = view.look.measures.narrowest * (-1 if view.look.measures.is_mirrored else 1)
+            self._path.moveTo(target.x, target.y)
+            self._path.lineTo(target.x + width, target.y)
         elif target.join == "around":
             self._mark_around(view, target)
         if not self._path.isEmpty():
@@ -109,12 +112,6 @@ class DropOverlay:
         piece = next(piece for piece in owner.box.pieces if piece.key == place.slot)
         outline = view.look.block_painter.outlines.slot(piece.shape, piece.width, piece.height)
         self._path = outline.translated(rect.x, rect.y)
-
-    def _mark_line(self, view: CanvasHost, target: Target) -> None:
-        """A line along the top of a stack."""
-        width = view.look.measures.narrowest * (-1 if view.look.measures.is_mirrored else 1)
-        self._path.moveTo(target.x, target.y)
-        self._path.lineTo(target.x + width, target.y)
 
     def _mark_around(self, view: CanvasHost, target: Target) -> None:
         """A bracket beside the blocks that would go into the mouth."""
@@ -200,7 +197,11 @@ class Bubble(QLabel):
             return
         if text != self.text():
             self.setText(text)
-            self._take_size()
+            margins = self.contentsMargins()
+            sides = margins.left() + margins.right() + 2
+            widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
+            width = min(widest, self.fontMetrics().horizontalAdvance(self.text()) + sides)
+            self.resize(width, max(1, self.heightForWidth(width)))
         room = self._view.rect()
         place = at + QPoint(OFFSET_PX, OFFSET_PX)
         if place.x() + self.width() > room.right():
@@ -220,13 +221,6 @@ class Bubble(QLabel):
             radius = self.fontMetrics().height() / 3
             painter.drawRoundedRect(self.rect(), radius, radius)
         super().paintEvent(event)
-
-    def _take_size(self) -> None:
-        margins = self.contentsMargins()
-        sides = margins.left() + margins.right() + 2
-        widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
-        width = min(widest, self.fontMetrics().horizontalAdvance(self.text()) + sides)
-        self.resize(width, max(1, self.heightForWidth(width)))
 
 
 # Carried blocks outside the view: over the palette, on their way to the canvas or to the trash.

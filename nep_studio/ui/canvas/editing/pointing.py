@@ -197,7 +197,10 @@ class Pointing:
         """The mouse moved: with a gesture, or over the page."""
         last = self._last
         if self.gesture is None or last is None or isinstance(self.gesture, KeyboardCarry):
-            self._hover(event.position())
+            # Show by the cursor what a press would do
+            shape = self._cursor(event.position())
+            if self._canvas.area.viewport().cursor().shape() != shape:
+                self._canvas.area.viewport().setCursor(shape)
         elif not event.buttons() & last.button:  # the release went elsewhere
             self.cancel()
         else:
@@ -266,12 +269,6 @@ class Pointing:
             self.begin(PinchZoom(canvas, first, second))
         elif isinstance(self.gesture, PinchZoom):
             self.gesture.pinch(canvas, first, second)
-
-    def _hover(self, view: QPointF) -> None:
-        """Show by the cursor what a press would do."""
-        shape = self._cursor(view)
-        if self._canvas.area.viewport().cursor().shape() != shape:
-            self._canvas.area.viewport().setCursor(shape)
 
     def _cursor(self, view: QPointF) -> Qt.CursorShape:
         canvas = self._canvas

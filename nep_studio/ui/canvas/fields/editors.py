@@ -222,7 +222,10 @@ class FieldEditors(QObject):
         if edit is None:
             return False
         if edit.slot.kind.is_pressed:
-            return self._toggle(edit)
+            edit.set(not edit.value)
+            edit.end()
+            self.canvas.news.announced.emit(tr("on") if edit.value else tr("off"))
+            return True
         rect = page_rect_of(self.canvas, block, key)
         if rect is None:
             return False
@@ -333,12 +336,6 @@ class FieldEditors(QObject):
             else:
                 signal.disconnect(self._follow)
 
-    def _toggle(self, edit: Editing) -> bool:
-        edit.set(not edit.value)
-        edit.end()
-        self.canvas.news.announced.emit(tr("on") if edit.value else tr("off"))
-        return True
-
     def _end(self, *, restore: bool) -> None:
         closing, self._open = self._open, None
         assert closing is not None
@@ -347,16 +344,14 @@ class FieldEditors(QObject):
             closing.edit.restore()
         self.canvas.attempt(closing.edit.end)
         if not restore and closing.edit.slot.kind.name == "colour":
-            self._remember(str(closing.edit.value))
+            colour = str(closing.edit.value)
+            recent = [c for c in self.recent_colours if c != colour]
+            self.recent_colours = [colour, *recent][:MOST_RECENT_COLOURS]
         give_back_focus(self.canvas.area, cast(QWidget, closing))
         closing.dispose()
         rect = page_rect_of(self.canvas, closing.edit.block, closing.edit.key)
         if rect is not None:
             self.canvas.layers.update_page(rect.grown(4.0))
-
-    def _remember(self, colour: str) -> None:
-        recent = [c for c in self.recent_colours if c != colour]
-        self.recent_colours = [colour, *recent][:MOST_RECENT_COLOURS]
 
     def _follow(self) -> None:
         if self._open is None:

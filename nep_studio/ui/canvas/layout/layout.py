@@ -55,14 +55,27 @@ class SectionWriter:
         if definition is None:
             return self._unknown(block, boxes)
         if block.collapsed:
-            return [Section(self._collapsed(block))]
+            said = sentence(self._project, self._language, block.id)
+            text, width = self._pieces.cut(said, self._measures.widest * 0.6)
+            inside = sum(1 for _ in self._project.within([block.id])) - 1
+            words = Piece("words", 0, 0, width, self._measures.line, text)
+            items: list[Item] = [self._button("expand", "", inside), *self._comment(block), words]
+            if inside:
+                items += self._said("· " + count_words(inside, "1 block", "{n} blocks"))
+            return [Section(items)]
         sections = [Section(self._comment(block))]
         for part in definition.parts:
             if isinstance(part, Group):
                 self._group(block, definition, part, boxes, sections)
             else:
                 self._part(block, part, 0, boxes, sections)
-        self._buttons(block, definition, sections[-1])
+        # What adds a part to each group that may have more
+        for group in definition.groups.values():
+            count = block.groups.get(group.name, 0)
+            if count < group.maximum:
+                label = next((p for p in group.parts if isinstance(p, str) and p), "")
+                label = label.strip(" ,") if _has_body(group) or group.maximum == 1 else ""
+                sections[-1].items.append(self._button("add", group.name, count + 1, label))
         return sections
 
     def _part(
@@ -109,27 +122,8 @@ class SectionWriter:
             if can_leave and not has_body:
                 sections[-1].items.append(self._pieces.small_minus(group.name, number))
 
-    def _buttons(self, block: Block, definition: Definition, section: Section) -> None:
-        """What adds a part to each group that may have more."""
-        for group in definition.groups.values():
-            count = block.groups.get(group.name, 0)
-            if count < group.maximum:
-                label = next((p for p in group.parts if isinstance(p, str) and p), "")
-                label = label.strip(" ,") if _has_body(group) or group.maximum == 1 else ""
-                section.items.append(self._button("add", group.name, count + 1, label))
-
     def _comment(self, block: Block) -> list[Item]:
         return [self._button("comment", "", 0)] if block.comment else []
-
-    def _collapsed(self, block: Block) -> list[Item]:
-        said = sentence(self._project, self._language, block.id)
-        text, width = self._pieces.cut(said, self._measures.widest * 0.6)
-        inside = sum(1 for _ in self._project.within([block.id])) - 1
-        words = Piece("words", 0, 0, width, self._measures.line, text)
-        items: list[Item] = [self._button("expand", "", inside), *self._comment(block), words]
-        if inside:
-            items += self._said("· " + count_words(inside, "1 block", "{n} blocks"))
-        return items
 
     def _unknown(self, block: Block, boxes: Mapping[str, Box]) -> list[Section]:
         """A block of an unknown type: its type, what is plugged in, and its bodies."""
@@ -273,7 +267,13 @@ class Layout:
         else:
             self._fill_value(box, sections)
         if self.measures.is_mirrored:
-            _mirror(box)
+            # Exchange left and right inside a box
+            for piece in box.pieces:
+                piece.x = box.width - piece.x - piece.width
+            for plug in box.plugs:
+                plug.x = box.width - plug.x - plug.box.width
+            for mouth in box.mouths:
+                mouth.x = box.width - mouth.x
         return box
 
     def _is_plugged(self, block: Block) -> bool:
@@ -357,16 +357,6 @@ def _side_pad(outline: Outline, rows: list[Row], measures: Measures) -> float:
     if outline == "hexagon":
         return min(height / 2, 18 * measures.unit) + 2 * measures.unit
     return {"round": 9, "bracket": 9}.get(outline, 7) * measures.unit
-
-
-def _mirror(box: Box) -> None:
-    """Exchange left and right inside a box."""
-    for piece in box.pieces:
-        piece.x = box.width - piece.x - piece.width
-    for plug in box.plugs:
-        plug.x = box.width - plug.x - plug.box.width
-    for mouth in box.mouths:
-        mouth.x = box.width - mouth.x
 
 
 def _gap_box(gap: Gap, measures: Measures) -> Box:

@@ -444,12 +444,8 @@ def _covers(placed: Placed, x: float, y: float) -> bool:
         return False
     box, left, top = placed.box, x - placed.x, y - placed.y
     for mouth in box.mouths:
-        height = max(mouth.height, _mouth_height(box, mouth))
+        height = max(mouth.height, box.segments[2 * box.mouths.index(mouth) + 1])
         beside = left < mouth.x if box.is_mirrored else left > mouth.x
         if beside and mouth.y <= top <= mouth.y + height:
             return False
     return True
-
-
-def _mouth_height(box: Box, mouth: Chain) -> float:
-    return box.segments[2 * box.mouths.index(mouth) + 1]

@@ -88,7 +88,10 @@ class StaticLayer:
         if self._dirty.isEmpty() or self._pixmap.isNull():
             return
         with QPainter(self._pixmap) as painter:
-            for rect in _few_rects(self._dirty):
+            # The rectangles of a region, or the one around them when they are many
+            region = self._dirty
+            rects = rects_of(region)
+            for rect in rects if len(rects) <= 4 else [region.boundingRect()]:
                 painter.save()
                 painter.setClipRect(rect)
                 painter.scale(camera.scale, camera.scale)
@@ -130,12 +133,6 @@ def rects_of(region: QRegion) -> list[QRect]:
     """The rectangles of a region."""
     rects: list[QRect] = list(region)  # type: ignore[call-overload]  # stubs lack __iter__
     return rects
-
-
-def _few_rects(region: QRegion) -> list[QRect]:
-    """The rectangles of a region, or the one around them when they are many."""
-    rects = rects_of(region)
-    return rects if len(rects) <= 4 else [region.boundingRect()]
 
 
 def _divided(rect: QRect, ratio: float) -> QRectF:
@@ -220,7 +217,13 @@ def make_sprite(
     width = min(bounds.width + 2 * margin, longest)
     height = min(bounds.height + 2 * margin, longest)
     left = bounds.right + margin - width if view.look.measures.is_mirrored else bounds.x - margin
-    left, top = _on_pixel(view, left, bounds.y - margin)
+    # The place of a whole pixel of the screen: the picture is then exactly that of the page
+    y = bounds.y - margin
+    camera, step = view.sight.camera, view.sight.camera.scale * view.area.devicePixelRatioF()
+    left, top = (
+        camera.x + floor((left - camera.x) * step) / step,
+        camera.y + floor((y - camera.y) * step) / step,
+    )
     pixmap = QPixmap(max(1, ceil(width * scale * ratio)), max(1, ceil(height * scale * ratio)))
     pixmap.fill(Qt.GlobalColor.transparent)
     shown = Rect(left, top, width, height)
@@ -232,15 +235,6 @@ def make_sprite(
             view.look.block_painter.paint(painter, boxes_of(chain, shown), scale)
     pixmap.setDevicePixelRatio(ratio)
     return Sprite(pixmap, width, height, scale, left, top)
-
-
-def _on_pixel(view: CanvasHost, x: float, y: float) -> tuple[float, float]:
-    """The place of a whole pixel of the screen: the picture is then exactly that of the page."""
-    camera, step = view.sight.camera, view.sight.camera.scale * view.area.devicePixelRatioF()
-    return (
-        camera.x + floor((x - camera.x) * step) / step,
-        camera.y + floor((y - camera.y) * step) / step,
-    )
 
 
 def _reachable(view: CanvasHost, bounds: Rect, held: QPointF) -> Rect:

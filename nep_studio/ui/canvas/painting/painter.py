@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPen
 
 from nep_studio.blocks.language import Language
 from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts, TextWidths
@@ -58,7 +58,11 @@ class PiecePainter:
         self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
     ) -> None:
         if piece.kind == "parameter":
-            self._pill(painter, piece, colours, with_text)
+            # A parameter looks like the block that is dragged out of it
+            self._shape(painter, piece, self._darker(colours.fill), colours.text)
+            if with_text:
+                painter.setPen(colours.text)
+                self._centred(painter, piece, piece.x, piece.width)
             return
         fill = QColor(piece.text) if piece.mark == "swatch" and piece.text else colours.field
         self._shape(painter, piece, fill, colours.field_line)
@@ -108,15 +112,6 @@ class PiecePainter:
         place = QPointF(left + (room - width) / 2, piece.y + (piece.height - height) / 2)
         painter.drawStaticText(place, self._hints.of(piece.hint))
         painter.setFont(usual)
-
-    def _pill(
-        self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
-    ) -> None:
-        """A parameter looks like the block that is dragged out of it."""
-        self._shape(painter, piece, self._darker(colours.fill), colours.text)
-        if with_text:
-            painter.setPen(colours.text)
-            self._centred(painter, piece, piece.x, piece.width)
 
     def _marks(self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours) -> None:
         """The little drawings in a field: arrow, tick, dial, bar."""
@@ -223,7 +218,11 @@ class BlockPainter:
 
     def _paint_box(self, painter: QPainter, box: Box, detail: int) -> None:
         if box.outline == "gap":
-            self._paint_gap(painter, box)
+            colour = self.theme.colour("snap")
+            colour.setAlphaF(0.28)
+            painter.setPen(QPen(self.theme.colour("snap"), 2 * self._measures.unit))
+            painter.setBrush(colour)
+            painter.drawPath(self.outlines.of(box))
             return
         colours, brush, pen = self._look(box)
         path = self.outlines.of(box)
@@ -231,25 +230,14 @@ class BlockPainter:
         painter.setBrush(brush)
         painter.drawPath(path)
         if box.is_disabled:
-            _hatch(painter, path, colours.line)
+            # Stripes: what is switched off shows it by more than its colour
+            faint = QColor(colours.line)
+            faint.setAlphaF(0.35)
+            painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
         if detail == 0:
             return
         for piece in box.pieces:
             self._pieces.paint(painter, piece, colours, with_text=detail == 2)
-
-    def _paint_gap(self, painter: QPainter, box: Box) -> None:
-        colour = self.theme.colour("snap")
-        colour.setAlphaF(0.28)
-        painter.setPen(QPen(self.theme.colour("snap"), 2 * self._measures.unit))
-        painter.setBrush(colour)
-        painter.drawPath(self.outlines.of(box))
-
-
-def _hatch(painter: QPainter, path: QPainterPath, colour: QColor) -> None:
-    """Stripes: what is switched off shows it by more than its colour."""
-    faint = QColor(colour)
-    faint.setAlphaF(0.35)
-    painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
 
 
 class Look:

@@ -164,7 +164,15 @@ def paint_mark(
     start = QPointF(rect.right() - inset if is_mirrored else rect.left() + inset, rect.center().y())
     end = QPointF(rect.left() + inset if is_mirrored else rect.right() - inset, rect.center().y())
     if mark == "arrow":
-        _arrow(painter, rect.center() if not is_plain and rect.width() < 40 * unit else end, unit)
+        at = rect.center() if not is_plain and rect.width() < 40 * unit else end
+        x, y = at.x(), at.y()
+        painter.drawPolyline(
+            [
+                QPointF(x - 4 * unit, y - 2 * unit),
+                QPointF(x, y + 2.5 * unit),
+                QPointF(x + 4 * unit, y - 2 * unit),
+            ]
+        )
     elif mark == "tick" and amount:
         _tick(painter, rect.center(), 5 * unit)
     elif mark == "dial":
@@ -195,17 +203,6 @@ def paint_sign(
 def round_pen(colour: QColor, width: float) -> QPen:
     """A pen with round ends."""
     return QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
-
-
-def _arrow(painter: QPainter, at: QPointF, unit: float) -> None:
-    x, y = at.x(), at.y()
-    painter.drawPolyline(
-        [
-            QPointF(x - 4 * unit, y - 2 * unit),
-            QPointF(x, y + 2.5 * unit),
-            QPointF(x + 4 * unit, y - 2 * unit),
-        ]
-    )
 
 
 def _tick(painter: QPainter, at: QPointF, half: float) -> None:
