@@ -141,7 +141,7 @@ def _why_not_page(
     elif isinstance(place, InStack) and place.stack in project.stacks:
         page = project.page_of(place.stack)
     elif isinstance(place, InBody) and place.block in project.blocks:
-        page = project.page_of(project.stack_of(place.block).id)
+        page = project.page_of(place.block)
     else:
         return None
     for block in roots:

@@ -14,7 +14,7 @@ from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import KnownChains, check_steps
-from nep_studio.blocks.checks.problem import Problem
+from nep_studio.blocks.checks.problem import SEVERITIES, Problem
 from nep_studio.blocks.definition_files import load_definitions, load_profiles, read_toml
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
@@ -48,16 +48,17 @@ def problem_steps(
     """The same in steps; ``known`` has what was found the last time."""
     known = known or KnownProblems()
     nodes, robots = node_entries(project, language), robot_entries(project, language)
-    gestures = _known_gestures(project, language)
+    learned = (project, project.extra_revision, language.choices.get("gestures"))
+    if known.learned != learned:
+        known.learned, known.gestures = learned, _known_gestures(project, language)
     found = [
         *(yield from check_steps(project, language, known.chains)),
-        *known.of_nodes(nodes, gestures, folder),
+        *known.of_nodes(nodes, known.gestures, folder),
         *(problem for entry in robots for problem in _robot(entry)),
         *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
         *(_reserved("robots", entry.name, entry.block_id) for entry in robots),
     ]
-    order = {"error": 0, "warning": 1, "info": 2}
-    return sorted((one for one in found if one is not None), key=lambda one: order[one.severity])
+    return [one for severity in SEVERITIES for one in found if one and one.severity == severity]
 
 
 class KnownProblems:
@@ -65,6 +66,9 @@ class KnownProblems:
 
     def __init__(self) -> None:
         self.chains = KnownChains()
+        self.learned: object = None
+        """What the gestures follow from: to read them takes as long as their recordings are."""
+        self.gestures: list[str] = []
         self._in_order: list[tuple[NodeEntry, list[str]]] = []
         """Nodes of the Nodes page, each with the gestures that were known then."""
 

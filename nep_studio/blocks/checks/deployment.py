@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from faults import Text, text_of
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.deployment import (
-    find_gestures_used,
-    find_robots_used,
+    NodeEntry,
     is_recognised,
-    node_entries,
     robot_entries,
-    rules,
 )
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
@@ -21,20 +18,32 @@ from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import sentence
 
-from .problem import Fix, Found, Problem, page_of
+from .problem import Fix, Found, Problem
+
+Uses = Mapping[tuple[str, str], tuple[str, str]]
+"""The first block that names a robot or a gesture, and its page, by kind and name."""
 
 
-def check_deployment(project: Project, language: Language) -> Found:
-    """Problems of which robots and nodes there are."""
-    yield from _missing_robots(project, language)
-    yield from _unrecognised_gestures(project, language)
-    yield from _names(project, language)
+def check_deployment(
+    project: Project, language: Language, nodes: tuple[NodeEntry, ...], uses: Uses
+) -> Iterator[Problem]:
+    """Problems of which robots and nodes there are; ``uses`` are those that rules name."""
+    robots = robot_entries(project, language)
+    yield from _missing_robots(language, {entry.name for entry in robots}, uses)
+    yield from _unrecognised_gestures(project, language, nodes, uses)
+    # robots are nodes too, so that all their names must differ
+    yield from _wrong_names(
+        [
+            *(("robots", entry.name, entry.block_id) for entry in robots),
+            *(("nodes", entry.name, entry.block_id) for entry in nodes),
+        ]
+    )
 
 
-def _missing_robots(project: Project, language: Language) -> Found:
-    listed = {entry.name for entry in robot_entries(project, language)}
-    used = yield from find_robots_used(project, language)
-    for name, block in used.items():
+def _missing_robots(language: Language, listed: set[str], uses: Uses) -> Iterator[Problem]:
+    for (kind, name), (block, page) in uses.items():
+        if kind != "robot":
+            continue
         if name == ALL_ROBOTS and not listed:
             sentence = Text("There is no robot on the Robots page.")
         elif name == ALL_ROBOTS or name in listed or not name.strip():
@@ -45,7 +54,7 @@ def _missing_robots(project: Project, language: Language) -> Found:
         yield Problem(
             "error",
             "robot_missing",
-            page_of(project, block),
+            page,
             block,
             sentence,
             ("Add the robot to the Robots page.", "Or choose another robot in this block."),
@@ -53,20 +62,23 @@ def _missing_robots(project: Project, language: Language) -> Found:
         )
 
 
-def _unrecognised_gestures(project: Project, language: Language) -> Found:
-    nodes, shipped = node_entries(project, language), language.choices.get("gestures", {})
+def _unrecognised_gestures(
+    project: Project, language: Language, nodes: tuple[NodeEntry, ...], uses: Uses
+) -> Iterator[Problem]:
+    shipped = language.choices.get("gestures", {})
     own, trained = own_gestures(project), trained_gestures(project)
-    used = yield from find_gestures_used(project, language)
-    for gesture, block in used.items():
+    for (kind, gesture), (block, page) in uses.items():
+        if kind != "gesture":
+            continue
         if gesture in own and gesture not in trained:
-            yield _untrained(own[gesture].title, page_of(project, block), block)
+            yield _untrained(own[gesture].title, page, block)
         elif gesture in trained or not gesture.strip():
             continue  # the project's own recogniser is started with the program
         elif not is_recognised(gesture, nodes, shipped, trained):
             yield Problem(
                 "warning",
                 "gesture_unrecognised",
-                page_of(project, block),
+                page,
                 block,
                 text_of(
                     "No node of the Nodes page recognises the gesture “{gesture}”.", gesture=gesture
@@ -91,12 +103,10 @@ def _untrained(title: str, page: str, block: str) -> Problem:
     )
 
 
-def _names(project: Project, language: Language) -> Iterator[Problem]:
-    """Robots are nodes too, so that all their names must differ."""
-    robots = [("robots", e.name, e.block_id) for e in robot_entries(project, language)]
-    nodes = [("nodes", e.name, e.block_id) for e in node_entries(project, language)]
+def _wrong_names(named: Iterable[tuple[str, str, str]]) -> Iterator[Problem]:
+    """The pages, names and blocks of robots and nodes whose names are no good."""
     seen: set[str] = set()
-    for page, name, block in [*robots, *nodes]:
+    for page, name, block in named:
         reason = why_not_name(name)
         if name == ALL_ROBOTS:
             reason = text_of(
@@ -144,7 +154,7 @@ def _lacking(
             yield Problem(
                 "error",
                 "robot_lacks",
-                page_of(project, block.id),
+                project.page_of(block.id),
                 block.id,
                 text_of(
                     "“{block}”: “{choice}” is not there for {robots}.",
@@ -221,10 +231,13 @@ def check_real_robots(project: Project, language: Language, chain: list[str]) ->
 # Checks of rules: nothing starts, two rules for the same thing, blocks under no rule.
 
 
-def check_rules(project: Project, language: Language) -> Iterator[Problem]:
-    """Problems of how stacks begin."""
-    chains = list(rules(project, language))
-    if not chains:
+def check_rules(
+    project: Project, language: Language, running: Iterable[list[str]]
+) -> Iterator[Problem]:
+    """Problems of the beginnings of the chains that become code."""
+    hats = [project.blocks[chain[0]] for chain in running]
+    hats = [hat for hat in hats if not hat.type.startswith(DEFINE)]
+    if not hats:
         yield Problem(
             "error",
             "no_rule",
@@ -233,21 +246,13 @@ def check_rules(project: Project, language: Language) -> Iterator[Problem]:
             "Nothing starts this program: it has no “when” block.",
             ("Drag a “when” block from the palette onto the page Behaviour.",),
         )
-    yield from _same_trigger(project, language, chains)
-    yield from _loose(project, language)
-
-
-def _same_trigger(
-    project: Project, language: Language, chains: list[list[str]]
-) -> Iterator[Problem]:
     first: dict[str, str] = {}
-    for chain in chains:
-        hat = project.blocks[chain[0]]
+    for hat in hats:
         if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
             yield Problem(
                 "warning",
                 "same_trigger",
-                page_of(project, hat.id),
+                project.page_of(hat.id),
                 hat.id,
                 text_of(
                     "Two rules begin with “{block}”. Both will run.",
@@ -272,21 +277,3 @@ def _trigger(language: Language, hat: Block) -> str:
 def _goal_name(definition: Definition, hat: Block) -> str:
     """What tells goals that begin alike from each other, and from rules: their name."""
     return f" goal {definition.value(hat, 'name')}" if "name" in definition.slots else ""
-
-
-def _loose(project: Project, language: Language) -> Iterator[Problem]:
-    for page, stack in project.stacks_of_kind("behaviour"):
-        first = project.blocks[stack.body[0]]
-        definition = language.definitions.get(first.type)
-        if definition is not None and definition.shape != "hat" and definition.page == "behaviour":
-            yield Problem(
-                "info",
-                "loose_block",
-                page,
-                first.id,
-                text_of(
-                    "“{block}” is under no “when” block and will not run.",
-                    block=sentence(project, language, first.id),
-                ),
-                ("Drag it under a “when” block, or leave it here for later.",),
-            )

@@ -294,15 +294,11 @@ def _spans(project: Project, code: Code) -> Iterator[tuple[str, int, int]]:
     """The stacks of the behaviour with their first and last lines."""
     spans: dict[str, tuple[int, int]] = {}
     for number, block in enumerate(code.blocks, start=1):
-        if block and project.kind_of_page(_page(project, block)) == "behaviour":
+        if block and project.kind_of_page(project.page_of(block)) == "behaviour":
             stack = project.stack_of(block).id
             spans[stack] = (spans.get(stack, (number, 0))[0], number)
     for stack, (first, last) in spans.items():
         yield stack, first, last
-
-
-def _page(project: Project, block: str) -> str:
-    return project.page_of(project.stack_of(block).id)
 
 
 def _function_name(line: str) -> str:

@@ -37,7 +37,7 @@ from nep_studio.blocks.program import PAGES, Block, Procedure, Project, Stack
 from nep_studio.blocks.slots import FieldValue
 
 from .animations import bring_animations, take_along
-from .selection import Run, members, page_of_block, require_runs, runs
+from .selection import Run, members, require_runs, runs
 
 Points = Mapping[str, tuple[float, float]]
 """Where blocks are on their page, in canvas units, as the canvas has laid them out."""
@@ -307,7 +307,7 @@ def duplicate(editor: Editor, ids: Iterable[str], at: Points = UNKNOWN) -> tuple
     ``at`` says where blocks lie that do not begin a stack.
     """
     project, ids = editor.project, list(ids)
-    page = page_of_block(project, require_runs(project, ids)[0].first)
+    page = project.page_of(require_runs(project, ids)[0].first)
     clip = copy(project, editor.language, ids, at)
     left, top = clip.corner
     with editor.transaction("duplicate blocks"):

@@ -27,7 +27,6 @@ from .selection import (
     chain_around,
     is_within_run,
     members,
-    page_of_block,
     require_runs,
     run_from,
     runs,
@@ -242,7 +241,7 @@ def page_at(project: Project, place: Place) -> str:
         return place.page
     if isinstance(place, InStack):
         return project.page_of(place.stack)
-    return page_of_block(project, place.block)
+    return project.page_of(place.block)
 
 
 Point = tuple[float, float]
@@ -484,7 +483,7 @@ def enclose(editor: Editor, block: str, run: Run) -> None:
         )
     with editor.transaction("put a block around"):
         if not isinstance(place_of(project, block, 1), NewStack):
-            stack, page = project.stack_of(run.first), page_of_block(project, run.first)
+            stack, page = project.stack_of(run.first), project.page_of(run.first)
             editor.apply(MoveBlocks(block, 1, editor.new_stack(page, stack.x, stack.y)))
         place = place_of(project, run.first, run.count)
         editor.apply(MoveBlocks(run.first, run.count, InBody(block, body, 0)))

@@ -90,11 +90,6 @@ def in_page_order(project: Project, ids: Collection[str]) -> list[str]:
     ]
 
 
-def page_of_block(project: Project, block: str) -> str:
-    """The page that a block is on."""
-    return project.page_of(project.stack_of(block).id)
-
-
 def is_within_run(project: Project, place: Place, run: Run) -> bool:
     """Whether a place is inside the blocks of a run."""
     owner = getattr(place, "block", "")

@@ -16,7 +16,7 @@ from nep_studio.blocks.program import Block
 from nep_studio.blocks.slots import FieldValue
 
 from .moving import Point, first_body, set_aside
-from .selection import Run, members, page_of_block, require_runs
+from .selection import Run, members, require_runs
 
 
 def wrap(editor: Editor, ids: Iterable[str], block_type: str) -> str:
@@ -25,7 +25,7 @@ def wrap(editor: Editor, ids: Iterable[str], block_type: str) -> str:
     A hat at the beginning stays outside. Raises EditRefused.
     """
     run = _without_hat(editor, _single(editor, ids))
-    page = page_of_block(editor.project, run.first)
+    page = editor.project.page_of(run.first)
     with editor.transaction("put a block around"):
         stack = editor.project.stack_of(run.first)
         outer = editor.create(block_type, editor.new_stack(page, stack.x, stack.y))

@@ -164,7 +164,7 @@ class Canvas(QAbstractScrollArea):
         project = self.editor.project
         if block_id not in project.blocks:
             return
-        self.show_page(project.page_of(project.stack_of(block_id).id))
+        self.show_page(project.page_of(block_id))
         placed = self.page_layout.placed(block_id)
         if placed is not None:
             self.sight.show_head(placed)

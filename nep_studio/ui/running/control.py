@@ -9,7 +9,6 @@ from PySide6.QtCore import QObject, Signal
 
 from nep_core.errors import NepError
 from nep_studio.blocks.checks.problem import Problem as BlockProblem
-from nep_studio.blocks.checks.problem import page_of
 from nep_studio.blocks.deployment import gestures_used, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.source_map import Code
@@ -261,7 +260,7 @@ class RunControl(QObject):
     def _mark(self, block: str, problem: Problem) -> None:
         """Show the sentence at the block that failed."""
         workbench = self._host.workbench
-        page = page_of(workbench.canvas.editor.project, block)
+        page = workbench.canvas.editor.project.page_of(block)
         sentence, steps = problem.sentence, problem.checklist
         shown = BlockProblem("error", "run", page, block, sentence, steps)
         workbench.show_run_problem(shown)
