@@ -15,7 +15,7 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.blocks.files import from_bytes, load
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import Changes, Project
+from nep_studio.blocks.program import Project
 from nep_studio.project.journal import Journal
 from nep_studio.project.picture_files import project_bytes_from
 
@@ -37,13 +37,10 @@ Stamp = tuple[int, int]
 class Document(QObject):
     """An editor, its file and its journal. ``changed`` tells of its title and of being saved.
 
-    ``edited`` gives the Changes of each step, ``settled`` those of several, for those who are slow.
     ``kept_changed`` tells that the journal cannot be written any more, or can be again.
     """
 
     changed = Signal()
-    edited = Signal(object)
-    settled = Signal(object)
     kept_changed = Signal()
 
     def __init__(
@@ -65,8 +62,8 @@ class Document(QObject):
         self._flush.timeout.connect(self.flush)
         self._flush.start()
         self._edits = edits_of(editor)
-        self._edits.edited.connect(self._on_edited)
-        self._edits.settled.connect(self._on_settled)
+        self._edits.edited.connect(self._tell)
+        self._edits.settled.connect(self._look_at_journal)
         self._shown = (self.path, self.title, self.is_modified)
         self._was_kept = self.is_kept
 
@@ -130,19 +127,11 @@ class Document(QObject):
             return
         self._is_open = False
         self._flush.stop()
-        self._edits.edited.disconnect(self._on_edited)
-        self._edits.settled.disconnect(self._on_settled)
+        self._edits.edited.disconnect(self._tell)
+        self._edits.settled.disconnect(self._look_at_journal)
         if self._journal is not None:
             self._journal.close(keep=keep)
             self._journal = None
-
-    def _on_edited(self, changes: Changes) -> None:
-        self.edited.emit(changes)
-        self._tell()
-
-    def _on_settled(self, changes: Changes) -> None:
-        self._look_at_journal()
-        self.settled.emit(changes)
 
     def _look_at_journal(self) -> None:
         if self.is_kept != self._was_kept:

@@ -36,7 +36,7 @@ def picture_of(
     font = QFont(font)
     font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
     widths = TextWidths(font)
-    measures = Measures(widths.line, widths, is_mirrored=is_mirrored)
+    measures = Measures(widths.line, widths.__getitem__, is_mirrored=is_mirrored)
     layout = PageLayout(editor.project, editor.language, measures)
     layout.show("behaviour")
     pixmap = QPixmap(size * ratio)
@@ -159,7 +159,7 @@ class PictureLook:
         font = QFont(self.font)
         font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
         widths = TextWidths(font)
-        return Measures(widths.line, widths, is_mirrored=self.is_mirrored)
+        return Measures(widths.line, widths.__getitem__, is_mirrored=self.is_mirrored)
 
 
 def arrange(project: Project, language: Language, measures: Measures) -> None:

@@ -223,7 +223,7 @@ class Canvas(QAbstractScrollArea):
     def _on_changes(self, changes: Changes) -> None:
         self.pointing.cancel()  # what is carried may not be there any more
         self.layers.repaint_page(self.page_layout.change(changes))
-        if self.page_layout.chains.is_waiting:
+        if self.page_layout.chains.waiting:
             self.later_layout.start()
         self.layers.repaint_page(self.notes.change(changes))
         self.selection.keep(self.editor.project.blocks)

@@ -26,6 +26,7 @@ from nep_studio.run.controller import (
     Subject,
 )
 from nep_studio.run.plan import Choices, PlannedNode
+from nep_studio.ui.edits import edits_of
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
@@ -35,7 +36,8 @@ from .stage import Breakpoints, Stage, statement_at
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
-    from nep_studio.ui.host import Host
+    from nep_studio.ui.edits import edits_of
+from nep_studio.ui.host import Host
 
 
 class RunControl(QObject):
@@ -82,11 +84,13 @@ class RunControl(QObject):
         if document is self._document:
             return
         if self._document is not None:
-            self._document.edited.disconnect(self._on_edited)
-            self._document.settled.disconnect(self._on_settled)
+            edits = edits_of(self._document.editor)
+            edits.edited.disconnect(self._on_edited)
+            edits.settled.disconnect(self._on_settled)
         if document is not None:
-            document.edited.connect(self._on_edited)
-            document.settled.connect(self._on_settled)
+            edits = edits_of(document.editor)
+            edits.edited.connect(self._on_edited)
+            edits.settled.connect(self._on_settled)
         self._document = document
         self._virtual = frozenset()
         self._wanted = self._needs()

@@ -180,7 +180,7 @@ STAYS: list[Callable[[object], None]] = [zoom_in_and_out, scroll_far]
 ENDS: list[Callable[[object], None]] = [show_other_page, hide_canvas, change_theme]
 
 
-@pytest.mark.parametrize("happening", STAYS)
+@pytest.mark.parametrize("occurrence", STAYS)
 def test_a_field_stays_open_over_its_block(two_stacks, occurrence) -> None:
     block = open_field(two_stacks)
 
@@ -191,7 +191,7 @@ def test_a_field_stays_open_over_its_block(two_stacks, occurrence) -> None:
     assert abs(editor.geometry().center().y() - two_stacks.field(block, "text").y()) < 4
 
 
-@pytest.mark.parametrize("happening", ENDS)
+@pytest.mark.parametrize("occurrence", ENDS)
 def test_a_field_keeps_what_was_typed_when_its_canvas_goes_away(two_stacks, occurrence) -> None:
     block = open_field(two_stacks)
 

@@ -13,6 +13,7 @@ from nep_studio.blocks.places import InBody, InInput, InStack, Place
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import Placed
+from nep_studio.ui.canvas.painting.shapes import slot_path
 from nep_studio.ui.theme.colours import Theme
 
 from .snapping import Target, slots
@@ -110,7 +111,7 @@ class DropOverlay:
             self._path = _outline(view, self._pushed)
             return
         piece = next(piece for piece in owner.box.pieces if piece.key == place.slot)
-        outline = view.look.block_painter.outlines.slot(piece.shape, piece.width, piece.height)
+        outline = slot_path(piece.shape, piece.width, piece.height, view.look.measures.unit)
         self._path = outline.translated(rect.x, rect.y)
 
     def _mark_around(self, view: CanvasHost, target: Target) -> None:

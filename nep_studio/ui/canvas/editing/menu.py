@@ -281,8 +281,8 @@ def _extract(canvas: CanvasHost, block: str) -> None:
     """Put a block alone beside its stack; what is below it moves up."""
     index, stack = canvas.page_layout.index, canvas.editor.project.stack_of(block).id
     x, y = canvas.page_layout.corners([block]).get(block, (0.0, 0.0))
-    if stack in index:
-        rect = index.rect(stack)
+    if stack in index.rects:
+        rect = index.rects[stack]
         x = rect.x - BESIDE if canvas.look.measures.is_mirrored else rect.right + BESIDE
     if canvas.attempt(lambda: set_aside(canvas.editor, Run(block, 1), (x, y))):
         canvas.selection.set([block])

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.slots import FieldValue
+from nep_studio.ui.canvas.painting.shapes import slot_path
 from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
@@ -219,7 +220,5 @@ class FieldRing:
         painter.setBrush(Qt.BrushStyle.NoBrush)
         x, y = placed.x + piece.x, placed.y + piece.y
         painter.translate(x, y)
-        painter.drawPath(
-            view.look.block_painter.outlines.slot(piece.shape, piece.width, piece.height)
-        )
+        painter.drawPath(slot_path(piece.shape, piece.width, piece.height, view.look.measures.unit))
         painter.translate(-x, -y)

@@ -59,12 +59,14 @@ def _rings(
     painter: QPainter, view: CanvasHost, blocks: list[Placed], colour: QColor, width: float
 ) -> None:
     """Lines around blocks; around very many, which are small then, plain rectangles."""
-    if len(blocks) <= MANY:
-        for placed in blocks:
-            _ring(painter, view, placed, colour, width)
-        return
     painter.setPen(QPen(colour, width))
     painter.setBrush(Qt.BrushStyle.NoBrush)
+    if len(blocks) <= MANY:
+        for placed in blocks:
+            painter.translate(placed.x, placed.y)
+            painter.drawPath(view.look.block_painter.outlines.of(placed.box))
+            painter.translate(-placed.x, -placed.y)
+        return
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     painter.drawRects([QRectF(*placed.rect) for placed in blocks])
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -108,17 +110,7 @@ def ring(painter: QPainter, view: CanvasHost, block_id: str, colour: QColor, wid
     """A line around a block."""
     placed = view.page_layout.placed(block_id)
     if placed is not None:
-        _ring(painter, view, placed, colour, width)
-
-
-def _ring(
-    painter: QPainter, view: CanvasHost, placed: Placed, colour: QColor, width: float
-) -> None:
-    painter.setPen(QPen(colour, width))
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.translate(placed.x, placed.y)
-    painter.drawPath(view.look.block_painter.outlines.of(placed.box))
-    painter.translate(-placed.x, -placed.y)
+        _rings(painter, view, [placed], colour, width)
 
 
 def _frame(painter: QPainter, placed: Placed, colour: QColor, pixel: float) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPen
+from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPainterPath, QPen
 
 from nep_studio.blocks.language import Language
 from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts, TextWidths
@@ -13,7 +13,7 @@ from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
 from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, Theme
 
-from .shapes import Outlines, paint_mark, paint_sign, round_pen
+from .shapes import Outlines, paint_marks, paint_sign, round_pen, slot_path
 
 # Paint what is inside a block: words, fields, sockets and buttons.
 
@@ -21,9 +21,8 @@ from .shapes import Outlines, paint_mark, paint_sign, round_pen
 class PiecePainter:
     """Paints the pieces of boxes."""
 
-    def __init__(self, theme: Theme, outlines: Outlines, measures: Measures) -> None:
+    def __init__(self, theme: Theme, measures: Measures) -> None:
         self._theme = theme
-        self._outlines = outlines
         self._measures = measures
         self._texts = Texts()
         self._hints = Texts()
@@ -37,7 +36,7 @@ class PiecePainter:
         if piece.piece == "words":
             if with_text:
                 painter.setPen(colours.text)
-                painter.drawStaticText(QPointF(piece.x, piece.y), self._texts.of(piece.text))
+                painter.drawStaticText(QPointF(piece.x, piece.y), self._texts[piece.text])
         elif piece.piece == "field":
             self._field(painter, piece, colours, with_text)
         elif piece.piece == "socket":
@@ -51,7 +50,8 @@ class PiecePainter:
         painter.setPen(QPen(line, self._measures.unit))
         painter.setBrush(fill)
         painter.translate(piece.x, piece.y)
-        painter.drawPath(self._outlines.slot(piece.shape, piece.width, piece.height))
+        unit = self._measures.unit
+        painter.drawPath(slot_path(piece.shape, piece.width, piece.height, unit))
         painter.translate(-piece.x, -piece.y)
 
     def _field(
@@ -71,7 +71,7 @@ class PiecePainter:
         lead = self._measures.line * 0.95 if piece.mark == "dial" else 0.0
         trail = self._measures.line * 0.75 if piece.opens else 0.0
         if piece.mark or piece.opens:
-            self._marks(painter, piece, fill, colours)
+            paint_marks(painter, piece, fill, colours, self._measures)
         if piece.mark in ("swatch", "tick"):
             return
         left = piece.x + (trail if self._measures.is_mirrored else lead)
@@ -88,14 +88,14 @@ class PiecePainter:
             width = self._measures.text_width(piece.text)
             top = piece.y + (piece.height - line) / 2
             place = QPointF(left + (room - width) / 2, top)
-            painter.drawStaticText(place, self._texts.of(piece.text))
+            painter.drawStaticText(place, self._texts[piece.text])
             return
         rows, pad = piece.text.split("\n"), self._measures.field_pad
         top = piece.y + (piece.height - line * len(rows)) / 2
         for number, row in enumerate(rows):
             width = self._measures.text_width(row)
             x = left + room - pad - width if self._measures.is_mirrored else left + pad
-            painter.drawStaticText(QPointF(x, top + number * line), self._texts.of(row))
+            painter.drawStaticText(QPointF(x, top + number * line), self._texts[row])
 
     def _hint(
         self, painter: QPainter, piece: Piece, colour: QColor, left: float, room: float
@@ -110,26 +110,8 @@ class PiecePainter:
         painter.setFont(self._hint_font)
         painter.setPen(colour)
         place = QPointF(left + (room - width) / 2, piece.y + (piece.height - height) / 2)
-        painter.drawStaticText(place, self._hints.of(piece.hint))
+        painter.drawStaticText(place, self._hints[piece.hint])
         painter.setFont(usual)
-
-    def _marks(self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours) -> None:
-        """The little drawings in a field: arrow, tick, dial, bar."""
-        rect = QRectF(piece.x, piece.y, piece.width, piece.height)
-        unit, is_mirrored = self._measures.unit, self._measures.is_mirrored
-        if piece.opens:
-            paint_mark(painter, "arrow", rect, fill, colours, unit, is_mirrored=is_mirrored)
-        if piece.mark in ("dial", "bar", "tick"):
-            paint_mark(
-                painter,
-                piece.mark,
-                rect,
-                fill,
-                colours,
-                unit,
-                is_mirrored=is_mirrored,
-                amount=piece.amount,
-            )
 
     def _button(self, painter: QPainter, piece: Piece, colours: BlockColours) -> None:
         """A round button with a sign, and a label beside it when it has one."""
@@ -146,7 +128,7 @@ class PiecePainter:
             width = self._measures.text_width(piece.text)
             beside = piece.x if mirrored else piece.x + piece.width - width
             y = piece.y + (size - self._measures.line) / 2
-            painter.drawStaticText(QPointF(beside, y), self._texts.of(piece.text))
+            painter.drawStaticText(QPointF(beside, y), self._texts[piece.text])
 
     def _darker(self, colour: QColor) -> QColor:
         """A shade deeper than the block: a hole in it."""
@@ -180,7 +162,7 @@ class BlockPainter:
         self.outlines = Outlines(measures)
         self._language = language
         self._measures = measures
-        self._pieces = PiecePainter(theme, self.outlines, measures)
+        self._pieces = PiecePainter(theme, measures)
         self._font = font
         self._looks: dict[tuple[str, bool], tuple[BlockColours, QBrush, QPen]] = {}
 
@@ -193,51 +175,43 @@ class BlockPainter:
         for placed in boxes:
             painter.translate(placed.x - x, placed.y - y)
             x, y = placed.x, placed.y
-            self._paint_box(painter, placed.box, detail)
+            box = placed.box
+            if box.outline == "gap":
+                self._paint_gap(painter, box)
+                continue
+            look = self._looks.get((box.type, box.is_disabled))
+            colours, brush, pen = look or self._new_look(box)
+            path = self.outlines.of(box)
+            painter.setPen(pen if detail else Qt.PenStyle.NoPen)
+            painter.setBrush(brush)
+            painter.drawPath(path)
+            if box.is_disabled:
+                _hatch(painter, path, colours.line)
+            for piece in box.pieces if detail else ():
+                self._pieces.paint(painter, piece, colours, with_text=detail == 2)
         painter.translate(-x, -y)
 
-    def colours(self, box: Box) -> BlockColours:
-        """The colours of a block."""
-        return self._look(box)[0]
-
-    def _look(self, box: Box) -> tuple[BlockColours, QBrush, QPen]:
-        key = (box.type, box.is_disabled)
-        look = self._looks.get(key)
-        if look is None:
-            colours = self._colours_of(box)
-            pen = QPen(colours.line, 1.2 * self._measures.unit)
-            look = self._looks[key] = (colours, QBrush(colours.fill), pen)
-        return look
-
-    def _colours_of(self, box: Box) -> BlockColours:
-        if box.is_disabled:
-            return self.theme.block(DISABLED)
+    def _new_look(self, box: Box) -> tuple[BlockColours, QBrush, QPen]:
         definition = self._language.definitions.get(box.type)
         name = definition.category.colour if definition is not None else PLACEHOLDER
-        return self.theme.block(name)
+        colours = self.theme.block(DISABLED if box.is_disabled else name)
+        pen = QPen(colours.line, 1.2 * self._measures.unit)
+        look = self._looks[box.type, box.is_disabled] = (colours, QBrush(colours.fill), pen)
+        return look
 
-    def _paint_box(self, painter: QPainter, box: Box, detail: int) -> None:
-        if box.outline == "gap":
-            colour = self.theme.colour("snap")
-            colour.setAlphaF(0.28)
-            painter.setPen(QPen(self.theme.colour("snap"), 2 * self._measures.unit))
-            painter.setBrush(colour)
-            painter.drawPath(self.outlines.of(box))
-            return
-        colours, brush, pen = self._look(box)
-        path = self.outlines.of(box)
-        painter.setPen(pen if detail else Qt.PenStyle.NoPen)
-        painter.setBrush(brush)
-        painter.drawPath(path)
-        if box.is_disabled:
-            # Stripes: what is switched off shows it by more than its colour
-            faint = QColor(colours.line)
-            faint.setAlphaF(0.35)
-            painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
-        if detail == 0:
-            return
-        for piece in box.pieces:
-            self._pieces.paint(painter, piece, colours, with_text=detail == 2)
+    def _paint_gap(self, painter: QPainter, box: Box) -> None:
+        colour = self.theme.colour("snap")
+        colour.setAlphaF(0.28)
+        painter.setPen(QPen(self.theme.colour("snap"), 2 * self._measures.unit))
+        painter.setBrush(colour)
+        painter.drawPath(self.outlines.of(box))
+
+
+def _hatch(painter: QPainter, path: QPainterPath, colour: QColor) -> None:
+    """Stripes: what is switched off shows it by more than its colour."""
+    faint = QColor(colour)
+    faint.setAlphaF(0.35)
+    painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
 
 
 class Look:
@@ -251,5 +225,5 @@ class Look:
         self.badge_font.setBold(True)
         self.badge_font.setPointSizeF(max(1.0, self.block_font.pointSizeF() * 0.8))
         widths = TextWidths(self.block_font)
-        self.measures = Measures(widths.line, widths, is_mirrored=is_mirrored)
+        self.measures = Measures(widths.line, widths.__getitem__, is_mirrored=is_mirrored)
         self.block_painter = BlockPainter(theme, language, self.measures, self.block_font)
