@@ -89,17 +89,8 @@ _NAMING = frozenset(("robot", "gesture", "state"))
 """The kinds of the slots that name a robot or a gesture."""
 
 
-def robots_used(project: Project, language: Language) -> dict[str, str]:
-    """The robots that rules name, each with the first block that does; "*" is all of them."""
-    return _first_uses(project, language, "robot")
-
-
-def gestures_used(project: Project, language: Language) -> dict[str, str]:
-    """The gestures that rules and questions name, each with the first block that does."""
-    return _first_uses(project, language, "gesture")
-
-
-def _first_uses(project: Project, language: Language, kind: str) -> dict[str, str]:
+def names_used(project: Project, language: Language, kind: str) -> dict[str, str]:
+    """The robots or gestures that rules name, each with the first block that does."""
     used: dict[str, str] = {}
     for chain in chains(project, language):
         for use in find_uses(project, language, chain):
@@ -143,11 +134,12 @@ def rules(project: Project, language: Language) -> Iterator[list[str]]:
 def chains(project: Project, language: Language) -> Iterator[list[str]]:
     """The rules, and the chains that define own blocks: all that becomes code."""
     definitions = language.of(project).definitions
-    for _, stack in project.stacks_of_kind("behaviour"):
-        first = project.blocks[stack.body[0]]
-        definition = definitions.get(first.type)
-        if definition is not None and definition.shape == "hat" and not first.disabled:
-            yield stack.body
+    for page, stacks in project.pages.items():
+        for stack in stacks if project.kind_of_page(page) == "behaviour" else ():
+            first = project.blocks[stack.body[0]]
+            definition = definitions.get(first.type)
+            if definition is not None and definition.shape == "hat" and not first.disabled:
+                yield stack.body
 
 
 def _enabled(project: Project, page: str, block_type: str) -> Iterator[Block]:

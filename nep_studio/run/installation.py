@@ -54,11 +54,15 @@ def problem_steps(
     found = [
         *(yield from check_steps(project, language, known.chains)),
         *known.of_nodes(nodes, known.gestures, folder),
-        *(problem for entry in robots for problem in _robot(entry)),
-        *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
-        *(_reserved("robots", entry.name, entry.block_id) for entry in robots),
+        *(
+            _no_address(entry)
+            for entry in robots
+            if entry.driver == "naoqi" and not entry.address.strip()
+        ),
+        *(_reserved("nodes", entry) for entry in nodes if entry.name in RESERVED_NAMES),
+        *(_reserved("robots", entry) for entry in robots if entry.name in RESERVED_NAMES),
     ]
-    return [one for severity in SEVERITIES for one in found if one and one.severity == severity]
+    return [one for severity in SEVERITIES for one in found if one.severity == severity]
 
 
 class KnownProblems:
@@ -145,26 +149,24 @@ def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Pr
     return Problem("error", "node_settings", "nodes", entry.block_id, words, checklist)
 
 
-def _robot(entry: RobotEntry) -> Iterator[Problem]:
-    if entry.driver == "naoqi" and not entry.address.strip():
-        yield Problem(
-            "error",
-            "robot_address",
-            "robots",
-            entry.block_id,
-            text_of("Where is {name}? A real robot needs its address.", name=entry.name),
-            (
-                "Press the robot's chest button once: it says its address. Write it here.",
-                "Or choose the robot on this screen.",
-            ),
-        )
+def _no_address(entry: RobotEntry) -> Problem:
+    return Problem(
+        "error",
+        "robot_address",
+        "robots",
+        entry.block_id,
+        text_of("Where is {name}? A real robot needs its address.", name=entry.name),
+        (
+            "Press the robot's chest button once: it says its address. Write it here.",
+            "Or choose the robot on this screen.",
+        ),
+    )
 
 
-def _reserved(page: str, name: str, block_id: str) -> Problem | None:
-    if name not in RESERVED_NAMES:
-        return None
-    sentence = text_of("“{name}” is the name of a part that every project has.", name=name)
-    return Problem("error", "reserved_name", page, block_id, sentence, ("Give it another name.",))
+def _reserved(page: str, entry: RobotEntry | NodeEntry) -> Problem:
+    sentence = text_of("“{name}” is the name of a part that every project has.", name=entry.name)
+    checklist = ("Give it another name.",)
+    return Problem("error", "reserved_name", page, entry.block_id, sentence, checklist)
 
 
 # Load the block language from the folders that hold its definitions and its robot profile.

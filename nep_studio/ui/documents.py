@@ -52,7 +52,7 @@ class Document(QObject):
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self.editor = editor
+        self.editor, self.project = editor, editor.project
         self.path = path
         self._is_open = True
         self._saved_position = -1 if is_unsaved else editor.history.position
@@ -65,12 +65,8 @@ class Document(QObject):
         self._edits.edited.connect(self._tell)
         self._edits.settled.connect(self._look_at_journal)
         self._shown = (self.path, self.title, self.is_modified)
-        self._was_kept = self.is_kept
-
-    @property
-    def project(self) -> Project:
-        """The project."""
-        return self.editor.project
+        self.is_kept = self._journal is not None and not self._journal.error
+        """Whether a journal keeps what is not saved yet."""
 
     @property
     def title(self) -> str:
@@ -81,11 +77,6 @@ class Document(QObject):
     def is_modified(self) -> bool:
         """Whether it differs from what was saved last."""
         return self.editor.history.position != self._saved_position
-
-    @property
-    def is_kept(self) -> bool:
-        """Whether a journal keeps what is not saved yet."""
-        return self._journal is not None and not self._journal.error
 
     @property
     def folder(self) -> Path:
@@ -131,11 +122,12 @@ class Document(QObject):
         self._edits.settled.disconnect(self._look_at_journal)
         if self._journal is not None:
             self._journal.close(keep=keep)
-            self._journal = None
+            self._journal, self.is_kept = None, False
 
     def _look_at_journal(self) -> None:
-        if self.is_kept != self._was_kept:
-            self._was_kept = self.is_kept
+        is_kept = self._journal is not None and not self._journal.error
+        if is_kept != self.is_kept:
+            self.is_kept = is_kept
             self.kept_changed.emit()
 
     def _tell(self) -> None:

@@ -132,7 +132,10 @@ def _length(project: Project, place: NewStack | InStack | InBody, leaving: Seque
         taken = place.stack in project.stacks or place.stack in project.blocks
         if place.page not in project.pages or taken:
             raise EditRefused("A stack cannot be made here.")
-        return len(project.pages[place.page]) - _leaves_page(project, leaving, place.page)
+        # a stack that is moved as a whole leaves the list of its page
+        stack = project.stacks.get(project.parents[leaving[0]].owner) if leaving else None
+        leaves = stack is not None and len(stack.body) == len(leaving)
+        return len(project.pages[place.page]) - (leaves and stack in project.pages[place.page])
     if isinstance(place, InBody):
         chain = require_block(project, place.block).bodies.get(place.slot, [])
     elif place.stack in project.stacks:
@@ -140,15 +143,6 @@ def _length(project: Project, place: NewStack | InStack | InBody, leaving: Seque
     else:
         raise EditRefused("This stack is not there any more.")
     return len(chain) - (len(leaving) if leaving and leaving[0] in chain else 0)
-
-
-def _leaves_page(project: Project, roots: Sequence[str], page: str) -> bool:
-    """Whether moving the blocks empties their stack, which then leaves this page's list."""
-    if not roots:
-        return False
-    parent = project.parents[roots[0]]
-    stack = project.stacks.get(parent.owner)
-    return stack is not None and len(stack.body) == len(roots) and stack in project.pages[page]
 
 
 def _adopt(project: Project, block: Block) -> None:

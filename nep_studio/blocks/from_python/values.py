@@ -16,7 +16,7 @@ from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
 from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue
 
-from ..deployment import robot_entries, robots_used
+from ..deployment import names_used, robot_entries
 from ..editor import Editor
 from ..generate.names import RESERVED, python_name
 from ..places import InStack
@@ -97,7 +97,7 @@ def _known(editor: Editor) -> SourceNames:
     names = SourceNames()
     for entry in robot_entries(editor.project, editor.language):
         names.robots.setdefault(_safe(entry.name.lower(), "robot"), entry.name)
-    for robot in robots_used(editor.project, editor.language):
+    for robot in names_used(editor.project, editor.language, "robot"):
         names.robots.setdefault(_safe(robot.lower(), "robot"), robot)
     names.robots.setdefault("all_robots", ALL_ROBOTS)
     for variable in editor.project.variables:

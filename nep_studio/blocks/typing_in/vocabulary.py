@@ -19,7 +19,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.finding import folded
 from nep_studio.blocks.slots import FieldValue
 
-from ..deployment import robot_entries, robots_used
+from ..deployment import names_used, robot_entries
 from ..from_python.values import ValueReader
 from ..generate.names import python_name
 from ..program import ALL_ROBOTS, Project
@@ -245,7 +245,7 @@ class Filler:
     def __post_init__(self) -> None:
         for entry in robot_entries(self.project, self.language):
             self.robots[folded(entry.name)] = entry.name
-        for name in robots_used(self.project, self.language):
+        for name in names_used(self.project, self.language, "robot"):
             self.robots[folded(name)] = name
         self.robots |= {"all robots": ALL_ROBOTS, "all": ALL_ROBOTS}
         self.variables = {folded(v.name): v.id for v in self.project.variables}

@@ -86,6 +86,7 @@ class Canvas(QAbstractScrollArea):
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
+        self.area: QAbstractScrollArea = self
         self.editor = editor
         self.accessible: object = None
         self.news = CanvasNews(self)
@@ -119,11 +120,6 @@ class Canvas(QAbstractScrollArea):
         viewport.setAcceptDrops(True)
         viewport.setAttribute(Qt.WidgetAttribute.WA_AcceptTouchEvents)
         viewport.ungrabGesture(Qt.GestureType.PanGesture)  # two fingers are ours
-
-    @property
-    def area(self) -> QAbstractScrollArea:
-        """The widget itself."""
-        return self
 
     @property
     def page(self) -> str:

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from nep_core.errors import NepError
 from nep_studio.blocks.checks.problem import Problem as BlockProblem
-from nep_studio.blocks.deployment import gestures_used, node_entries, robot_entries
+from nep_studio.blocks.deployment import names_used, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes, Project
@@ -185,12 +185,12 @@ class RunControl(QObject):
         """What the nodes of the open project follow from, but for what it keeps."""
         if (document := self._document) is None:
             return None
-        project, language = document.project, self._host.services.language
+        project, language = document.project, document.editor.language
         return (
             document.folder,
             node_entries(project, language),
             robot_entries(project, language),
-            list(gestures_used(project, language)),
+            list(names_used(project, language, "gesture")),
         )
 
     def _on_watching_changed(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -103,14 +104,6 @@ class LazyInitialiser(QObject):
         """Whether it looks for something to make at each turn of the event loop."""
         return self._turns.isActive()
 
-    @property
-    def workbench(self) -> Workbench:
-        """The workbench; when it is not there yet, all is made now."""
-        if self.made_workbench is None:
-            self.finish()
-        assert self.made_workbench is not None
-        return self.made_workbench
-
     def begin(self) -> None:
         """Let everything be made anew, once it is needed."""
         self.made_workbench = None
@@ -135,7 +128,7 @@ class LazyInitialiser(QObject):
         if not self.is_done:
             return
         self._window.actions_by_name.enable(is_open, *self._window.host.with_a_project)
-        for panel in self.workbench.panels.all:
+        for panel in self._window.workbench.panels.all:
             panel.action.setEnabled(is_open)
 
     def stop(self) -> None:
@@ -249,7 +242,10 @@ class MainWindow(QMainWindow):
     @property
     def workbench(self) -> Workbench:
         """Where the project is worked on; made when it is first asked for."""
-        return self.lazy.workbench
+        if self.lazy.made_workbench is None:
+            self.lazy.finish()
+        assert self.lazy.made_workbench is not None
+        return self.lazy.made_workbench
 
     @property
     def running(self) -> RunControl:
@@ -292,10 +288,10 @@ class MainWindow(QMainWindow):
     def follow_workbench(self) -> None:
         """Follow the workbench, now that it and all around it are made."""
         workbench = self.workbench
-        workbench.problems_found.connect(self._on_problems_found)
+        workbench.checks.found.connect(self._on_problems_found)
         workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
-        workbench.canvas.news.layout_changed.connect(self._on_canvas_changed)
-        workbench.canvas.selection.changed.connect(self._on_canvas_changed)
+        workbench.canvas.news.layout_changed.connect(partial(update_edit_actions, self))
+        workbench.canvas.selection.changed.connect(partial(update_edit_actions, self))
         self.update_actions()
         self.start_page.gallery.paint_pictures()
 
@@ -342,9 +338,6 @@ class MainWindow(QMainWindow):
         update_edit_actions(self)
 
     # What happens
-
-    def _on_canvas_changed(self) -> None:
-        update_edit_actions(self)
 
     def _on_document_changed(self, document: Document | None) -> None:
         self.lazy.finish()

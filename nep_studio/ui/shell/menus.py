@@ -179,7 +179,7 @@ def update_edit_actions(window: MainWindow) -> None:
     """Enable what can be done, and say what undo and redo would do."""
     actions, document = window.actions_by_name, window.files.document
     is_open = document is not None
-    selected = len(window.workbench.canvas.selection) if is_open else 0
+    selected = len(window.workbench.canvas.selection.ids) if is_open else 0
     data = QGuiApplication.clipboard().mimeData()
     actions.enable(bool(selected), *NEEDS_SELECTION)
     actions.enable(is_open and data is not None and bool(data.formats()), "paste")

@@ -83,7 +83,7 @@ class Minimap(QWidget):
 
     def _draw_chain(self, painter: QPainter, chain: Chain, x: float, y: float) -> None:
         """One bar for each row of pixels at most, in the colour of the block that is there."""
-        scale, colours = self._scale, self.canvas.look.block_painter.colours
+        scale, painted = self._scale, self.canvas.look.block_painter
         least = 1.0 / scale
         height = 0.0
         while height < chain.height:
@@ -93,7 +93,7 @@ class Minimap(QWidget):
             if box.block:
                 left = x - box.width * scale if chain.is_mirrored else x
                 rect = QRectF(left, y + top * scale, box.width * scale, (end - top) * scale)
-                painter.fillRect(rect, colours(box).fill)
+                painter.fillRect(rect, painted.look_of(box)[0].fill)
                 if scale >= INDENT_SCALE:
                     for mouth in box.mouths:
                         inner = left + mouth.x * scale

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
-
-from PySide6.QtCore import QObject, QRect, QSignalBlocker, Signal
+from PySide6.QtCore import QObject, QRect, QSignalBlocker
 from PySide6.QtGui import QFont, QFontInfo
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
@@ -85,9 +82,7 @@ NARROW_PALETTE = "NarrowPalette"
 
 
 class Workbench(QWidget):
-    """Where a project is worked on. ``problems_found`` gives what is not right yet."""
-
-    problems_found = Signal(list)
+    """Where a project is worked on."""
 
     def __init__(self, studio: Studio, messages: Messages, parent: QWidget) -> None:
         super().__init__(parent)
@@ -131,7 +126,7 @@ class Workbench(QWidget):
         canvas.news.problem_opened.connect(self.open_bubble)
         canvas.news.layout_changed.connect(self._messages.clear_passing)
         self.code.block_asked.connect(self.show_block)
-        self.checks.found.connect(self._on_problems_found)
+        self.checks.found.connect(self._show_problems)
         self.problems.opened.connect(self._on_problem_opened)
         self.problems.fix_asked.connect(self.fix)
         self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
@@ -147,7 +142,6 @@ class Workbench(QWidget):
         """Work on another project; on none, the canvas is empty."""
         self._run_problem = None
         editor = Editor(Project(), self._studio.language) if document is None else document.editor
-        folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
         self.canvas.set_editor(editor)
         self.pages_bar.set_editor(editor)
         self.code.set_editor(editor)
@@ -156,7 +150,7 @@ class Workbench(QWidget):
         # Look at the corner of the page where reading begins, at the usual size
         self.zoom_usual()
         self.canvas.sight.show_beginning()
-        self.checks.follow(None if document is None else editor, folder)
+        self.checks.follow(document)
 
     def restore(self, line: int) -> None:
         """Lay the panels out as the person left them; ``line`` is a line of text.
@@ -217,10 +211,6 @@ class Workbench(QWidget):
         bubble = self.bubble = ProblemBubble(there, self)
         bubble.fix_asked.connect(self.fix)
         bubble.show_at(QRect(viewport.mapToGlobal(corner), size))
-
-    def _on_problems_found(self, problems: list[Problem]) -> None:
-        self._show_problems()
-        self.problems_found.emit(problems)
 
     def _all_problems(self) -> list[Problem]:
         """What is not right, and why the program stopped."""

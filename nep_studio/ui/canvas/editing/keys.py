@@ -76,7 +76,7 @@ class Walk:
         canvas, cursor = self._canvas, self.cursor()
         if not cursor:
             return
-        if len(canvas.selection) <= 1 or self._anchor not in canvas.selection:
+        if len(canvas.selection.ids) <= 1 or self._anchor not in canvas.selection:
             self._anchor = navigation.statement_of(canvas.editor.project, cursor)
         stacks = reading_order(canvas)
         target = way(canvas.editor.project, stacks, cursor)
@@ -144,9 +144,8 @@ class Keyboard:
             bool(held & Modifier.AltModifier),
         )
         if isinstance(self._canvas.pointing.gesture, KeyboardCarry):
-            rule = self._carrying_rules.get(press)
-            if rule is not None:
-                rule()
+            if press in self._carrying_rules:
+                self._carrying_rules[press]()
             return True
         rule = self._rules.get(press)
         if rule is not None:

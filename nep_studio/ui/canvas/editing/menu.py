@@ -145,7 +145,7 @@ def finding(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
 def deleting(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Delete the selected blocks, or the block with all below it."""
     block, project = _block(canvas, place), canvas.editor.project
-    count = len(canvas.selection)
+    count = len(canvas.selection.ids)
     label = count_words(count, "Delete this block", "Delete {n} blocks")
     entries = [MenuEntry("delete", label, canvas.commands.delete, "trash-2", True, "Del")]
     below = run_from(project, block.id)
@@ -231,7 +231,8 @@ def _block(canvas: CanvasHost, place: MenuPlace) -> Block:
 
 
 def _can_wrap(canvas: CanvasHost) -> bool:
-    return bool(len(canvas.selection)) and why_not_wrap(canvas.editor, canvas.selection.ids) is None
+    ids = canvas.selection.ids
+    return bool(ids) and why_not_wrap(canvas.editor, ids) is None
 
 
 def _wraps(canvas: CanvasHost) -> tuple[MenuEntry, ...]:

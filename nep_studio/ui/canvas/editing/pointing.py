@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
@@ -284,7 +285,7 @@ class Pointing:
 
     def _moved(self, view: QPointF) -> Pointer:
         last = self._last or self._pointer(view)
-        return self._pointer(view, last.button, last.modifiers, is_touch=last.is_touch)
+        return replace(last, view=QPointF(view), page=self._canvas.sight.camera.to_page(view))
 
     def _pointer(
         self,

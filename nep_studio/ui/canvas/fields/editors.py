@@ -199,7 +199,8 @@ class FieldEditors(QObject):
         self.canvas = canvas
         self.recent_colours: list[str] = []
         self.comments = Comments(canvas)
-        self._open: OpenEditor | None = None
+        self.widget: OpenEditor | None = None
+        """The editor that is open."""
         self._left_comment = ""
         """The block whose comment the press has closed: its button does not open it again."""
         self._ring = FieldRing(canvas)
@@ -208,12 +209,7 @@ class FieldEditors(QObject):
     @property
     def place(self) -> Place | None:
         """The block and field that are edited now."""
-        return (self._open.edit.block, self._open.edit.key) if self._open is not None else None
-
-    @property
-    def widget(self) -> OpenEditor | None:
-        """The editor that is open."""
-        return self._open
+        return (self.widget.edit.block, self.widget.edit.key) if self.widget is not None else None
 
     def open(self, block: str, key: str) -> bool:
         """Edit the field ``key`` of a block; False when it has no editor."""
@@ -230,9 +226,9 @@ class FieldEditors(QObject):
         if rect is None:
             return False
         self.canvas.sight.show_rect(rect)
-        self._open = self._new(edit)
+        self.widget = self._new(edit)
         self._listen(is_open=True)
-        self._open.show_editor()
+        self.widget.show_editor()
         self.canvas.layers.update_page(rect.grown(4.0))
         return True
 
@@ -268,17 +264,17 @@ class FieldEditors(QObject):
 
     def close(self) -> None:
         """Keep what was typed, and take the editor away."""
-        if self._open is not None:
+        if self.widget is not None:
             self._end(restore=False)
 
     def close_if(self, widget: OpenEditor) -> None:
         """Keep what was typed in an editor that lost the keyboard, if it is still the open one."""
-        if widget is self._open:
+        if widget is self.widget:
             self.close()
 
     def cancel(self) -> None:
         """Make the field as it was, and take the editor away."""
-        if self._open is not None:
+        if self.widget is not None:
             self._end(restore=True)
 
     def go(self, *, forward: bool) -> None:
@@ -337,7 +333,7 @@ class FieldEditors(QObject):
                 signal.disconnect(self._follow)
 
     def _end(self, *, restore: bool) -> None:
-        closing, self._open = self._open, None
+        closing, self.widget = self.widget, None
         assert closing is not None
         self._listen(is_open=False)
         if restore:
@@ -354,13 +350,13 @@ class FieldEditors(QObject):
             self.canvas.layers.update_page(rect.grown(4.0))
 
     def _follow(self) -> None:
-        if self._open is None:
+        if self.widget is None:
             return
-        edit = self._open.edit
+        edit = self.widget.edit
         if page_rect_of(self.canvas, edit.block, edit.key) is None:
             self.close()
         else:
-            self._open.follow()
+            self.widget.follow()
 
     def _tell_tip(self, event: QHelpEvent) -> bool:
         hit = self.canvas.sight.hit(event.pos())

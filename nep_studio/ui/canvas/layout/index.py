@@ -174,8 +174,9 @@ class Camera:
 
     def page_rect(self, rect: QRectF) -> Rect:
         """A rectangle of the view on the page."""
-        x, y, width, height = (side / self.scale for side in rect.getRect())
-        return Rect(x + self.x, y + self.y, width, height)
+        scale = self.scale
+        x, y = rect.x() / scale + self.x, rect.y() / scale + self.y
+        return Rect(x, y, rect.width() / scale, rect.height() / scale)
 
     def zoom_at(self, point: QPointF, scale: float) -> None:
         """Zoom so that what is under a point of the view stays there."""

@@ -46,7 +46,7 @@ class SelectionOverlay:
 def _selected_in_view(view: CanvasHost) -> list[Placed]:
     """The selected blocks to draw a line around: of many only those that can be seen."""
     selected, layout = view.selection, view.page_layout
-    if len(selected) <= FEW:
+    if len(selected.ids) <= FEW:
         shown = (
             layout.placed(block) for block in selected.ids if block not in layout.layout.hidden
         )

@@ -179,8 +179,7 @@ class BlockPainter:
             if box.outline == "gap":
                 self._paint_gap(painter, box)
                 continue
-            look = self._looks.get((box.type, box.is_disabled))
-            colours, brush, pen = look or self._new_look(box)
+            colours, brush, pen = self.look_of(box)
             path = self.outlines.of(box)
             painter.setPen(pen if detail else Qt.PenStyle.NoPen)
             painter.setBrush(brush)
@@ -191,12 +190,15 @@ class BlockPainter:
                 self._pieces.paint(painter, piece, colours, with_text=detail == 2)
         painter.translate(-x, -y)
 
-    def _new_look(self, box: Box) -> tuple[BlockColours, QBrush, QPen]:
-        definition = self._language.definitions.get(box.type)
-        name = definition.category.colour if definition is not None else PLACEHOLDER
-        colours = self.theme.block(DISABLED if box.is_disabled else name)
-        pen = QPen(colours.line, 1.2 * self._measures.unit)
-        look = self._looks[box.type, box.is_disabled] = (colours, QBrush(colours.fill), pen)
+    def look_of(self, box: Box) -> tuple[BlockColours, QBrush, QPen]:
+        """The colours of a block, what fills it, and its line."""
+        look = self._looks.get((box.type, box.is_disabled))
+        if look is None:
+            definition = self._language.definitions.get(box.type)
+            name = definition.category.colour if definition is not None else PLACEHOLDER
+            colours = self.theme.block(DISABLED if box.is_disabled else name)
+            pen = QPen(colours.line, 1.2 * self._measures.unit)
+            look = self._looks[box.type, box.is_disabled] = (colours, QBrush(colours.fill), pen)
         return look
 
     def _paint_gap(self, painter: QPainter, box: Box) -> None:
