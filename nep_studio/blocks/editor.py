@@ -132,9 +132,12 @@ class History:
 
     def apply(self, edit: Edit, label: Words = "") -> None:
         """Apply an edit, as a step of its own when no transaction is open."""
-        with self.transaction(label or edit.label) as step:
-            step.edits.append(edit.apply(self._project))
-            self._applied.append(edit)
+        if self._open is None:
+            with self.transaction(label or edit.label):
+                self.apply(edit)
+            return
+        self._open.edits.append(edit.apply(self._project))
+        self._applied.append(edit)
 
     def undo(self) -> bool:
         """Take the last step back; False when there is none."""

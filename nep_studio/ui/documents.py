@@ -64,19 +64,14 @@ class Document(QObject):
         self._edits = edits_of(editor)
         self._edits.edited.connect(self._tell)
         self._edits.settled.connect(self._look_at_journal)
-        self._shown = (self.path, self.title, self.is_modified)
+        self.title = ""
+        """The name of its file, or of the project when it has none yet."""
+        self.is_modified = False
+        """Whether it differs from what was saved last."""
+        self._shown: object = None
+        self._tell()
         self.is_kept = self._journal is not None and not self._journal.error
         """Whether a journal keeps what is not saved yet."""
-
-    @property
-    def title(self) -> str:
-        """The name of its file, or of the project when it has none yet."""
-        return self.path.stem if self.path is not None else self.project.name
-
-    @property
-    def is_modified(self) -> bool:
-        """Whether it differs from what was saved last."""
-        return self.editor.history.position != self._saved_position
 
     @property
     def folder(self) -> Path:
@@ -131,6 +126,8 @@ class Document(QObject):
             self.kept_changed.emit()
 
     def _tell(self) -> None:
+        self.title = self.path.stem if self.path is not None else self.project.name
+        self.is_modified = self.editor.history.position != self._saved_position
         shown = (self.path, self.title, self.is_modified)
         if shown != self._shown:
             self._shown = shown

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import Any, TypeVar
 
 from ..deployment import chains, find_uses, node_entries, robot_entries
@@ -50,15 +51,18 @@ class KnownChains:
             yield
             stack = project.stack_of(chain[0]).id
             revision = project.revisions.get(stack, 0)
-            found += yield from self.find((look, stack), revision, look(project, language, chain))
+            of_chain = partial(look, project, language, chain)
+            found += yield from self.find((look, stack), revision, of_chain)
         return found
 
-    def find(self, key: object, of: object, look: Iterable[One | None]) -> Steps[list[One]]:
+    def find(
+        self, key: object, of: object, look: Callable[[], Iterable[One | None]]
+    ) -> Steps[list[One]]:
         """What is found, or was found already when it was the same as now that it follows from."""
         known = self._found.get(key)
         if known is None or known[0] != of:
             found = list[One]()
-            for one in look:
+            for one in look():
                 if one is None:
                     yield
                 else:
@@ -87,7 +91,7 @@ def check_steps(
     problems += yield from known.in_chains(check_blocks, project, language, every)
     problems += yield from known.in_chains(check_inside, project, language, running)
     if project.procedures:
-        own = check_own_blocks(project, language, running)
+        own = partial(check_own_blocks, project, language, running)
         always_anew = object()
         problems += yield from known.find(check_own_blocks, always_anew, own)
     for look in (check_limits, check_flow, check_abilities, check_real_robots):
@@ -96,7 +100,7 @@ def check_steps(
     nodes, uses = node_entries(project, language), dict[tuple[str, str], tuple[str, str]]()
     for use in (yield from known.in_chains(find_uses, project, language, running)):
         uses.setdefault((use.kind, use.name), (use.block, project.page_of(use.block)))
-    pages = check_deployment(project, language, nodes, uses)
+    pages = partial(check_deployment, project, language, nodes, uses)
     problems += yield from known.find(check_deployment, (nodes, uses), pages)
     return [one for severity in SEVERITIES for one in problems if one.severity == severity]
 

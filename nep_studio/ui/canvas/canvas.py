@@ -217,11 +217,13 @@ class Canvas(QAbstractScrollArea):
         return True
 
     def _on_changes(self, changes: Changes) -> None:
-        self.pointing.cancel()  # what is carried may not be there any more
+        if self.pointing.gesture is not None:
+            self.pointing.cancel()  # what is carried may not be there any more
         self.layers.repaint_page(self.page_layout.change(changes))
         if self.page_layout.chains.waiting:
             self.later_layout.start()
-        self.layers.repaint_page(self.notes.change(changes))
+        if changes.notes or changes.whole:
+            self.layers.repaint_page(self.notes.change(changes))
         self.selection.keep(self.editor.project.blocks)
         self.sight.update_scroll_bars()
         self.news.layout_changed.emit()

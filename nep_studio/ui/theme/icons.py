@@ -98,7 +98,7 @@ def paint_icon(painter: QPainter, rect: QRectF, name: str, colour: QColor) -> No
 
 def recoloured(name: str, colour: QColor) -> str:
     """Return the drawing of an icon, as SVG text, in one colour."""
-    return _drawing(name, colour.name())
+    return _source(name).replace("currentColor", colour.name())
 
 
 def application_icon() -> QIcon:
@@ -113,15 +113,11 @@ def _source(name: str) -> str:
     return icon_path(name).read_text(encoding="utf-8")
 
 
-@cache
-def _drawing(name: str, colour: str) -> str:
-    return _source(name).replace("currentColor", colour)
-
-
 @lru_cache(maxsize=256)
 def _renderer(name: str, colour: str) -> QSvgRenderer:
     """What draws an icon: to read it takes longer than to draw it."""
-    return QSvgRenderer(QByteArray(_drawing(name, colour).encode()))
+    drawing = _source(name).replace("currentColor", colour)
+    return QSvgRenderer(QByteArray(drawing.encode()))
 
 
 class _DrawnIcon(QIconEngine):

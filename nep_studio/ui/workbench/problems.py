@@ -64,7 +64,8 @@ class ProblemsPanel(QScrollArea):
     def __init__(self, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._look = look
-        self._problems: Sequence[Problem] = ()
+        self.shown: Sequence[Problem] = ()
+        """What is not right, and why the program stopped."""
         self.rows: list[ProblemRow] = []
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
@@ -74,8 +75,8 @@ class ProblemsPanel(QScrollArea):
 
     def show_problems(self, problems: Sequence[Problem]) -> None:
         """Show these; nothing is drawn again when they are the same."""
-        if list(problems) != list(self._problems):
-            self._problems = tuple(problems)
+        if list(problems) != list(self.shown):
+            self.shown = tuple(problems)
             self._refresh()
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -98,14 +99,14 @@ class ProblemsPanel(QScrollArea):
         self._is_old = False
         inner = QWidget()
         box = QVBoxLayout(inner)
-        shown = self._problems[:MOST_ROWS]
+        shown = self.shown[:MOST_ROWS]
         self.rows = [ProblemRow(problem, self._look, self) for problem in shown]
         for row in self.rows:
             box.addWidget(row)
-        hidden = len(self._problems) - len(shown)
+        hidden = len(self.shown) - len(shown)
         if hidden:
             box.addWidget(_hint(count_words(hidden, "and 1 more", "and {n} more")))
-        if not self._problems:
+        if not self.shown:
             box.addWidget(_all_well(self._look))
         box.addStretch(1)
         self.setWidget(inner)

@@ -93,7 +93,7 @@ class Workbench(QWidget):
         )
         make_accessible(self.canvas)
         self.pages_bar = PagesBar(editor, studio.look, self.canvas.attempt)
-        self.code = CodePane(editor, studio.look)
+        self.code = CodePane(editor, studio.look, self.canvas.selection)
         self.outline = Outline(self.canvas)
         self.problems = ProblemsPanel(studio.look)
         self.checks = LiveChecks(self)
@@ -120,7 +120,6 @@ class Workbench(QWidget):
         self.pages_bar.page_chosen.connect(canvas.show_page)
         canvas.news.page_changed.connect(self.pages_bar.show_page)
         canvas.news.page_changed.connect(self.code.show_page)
-        canvas.selection.changed.connect(self._on_selection_changed)
         canvas.news.refused.connect(self._messages.refuse)
         canvas.news.announced.connect(self._on_announced)
         canvas.news.problem_opened.connect(self.open_bubble)
@@ -200,7 +199,7 @@ class Workbench(QWidget):
 
     def open_bubble(self, block: str) -> None:
         """Show what is not right at a block, beside its badge."""
-        there = [problem for problem in self._all_problems() if problem.block == block]
+        there = [problem for problem in self.problems.shown if problem.block == block]
         placed = self.canvas.page_layout.placed(block)
         if not there or placed is None:
             return
@@ -212,15 +211,10 @@ class Workbench(QWidget):
         bubble.fix_asked.connect(self.fix)
         bubble.show_at(QRect(viewport.mapToGlobal(corner), size))
 
-    def _all_problems(self) -> list[Problem]:
-        """What is not right, and why the program stopped."""
-        stopped = self._run_problem
-        if stopped is None or stopped.block not in self.canvas.editor.project.blocks:
-            return self.checks.problems
-        return [stopped, *self.checks.problems]
-
     def _show_problems(self) -> None:
-        problems = self._all_problems()
+        problems, stopped = self.checks.problems, self._run_problem
+        if stopped is not None and stopped.block in self.canvas.editor.project.blocks:
+            problems = [stopped, *problems]
         self.problems.show_problems(problems)
         before = self.canvas.problems.problems
         self.canvas.problems.show(problems)
@@ -232,9 +226,6 @@ class Workbench(QWidget):
             self.show_block(problem.block)
         elif problem.page in self.canvas.editor.project.pages:
             self.canvas.show_page(problem.page)
-
-    def _on_selection_changed(self) -> None:
-        self.code.mark_blocks(self.canvas.selection.ids)
 
     def _on_announced(self, words: str) -> None:
         announce(self.canvas, words)

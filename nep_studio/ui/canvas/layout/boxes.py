@@ -6,7 +6,6 @@ block moves, and only the boxes around a changed block are made again.
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
@@ -79,10 +78,6 @@ class Chain:
     width: float
     height: float
     is_mirrored: bool = False
-
-    def index_at(self, y: float) -> int:
-        """The number of the box at a height, the nearest one where there is none."""
-        return max(0, min(bisect_right(self.ys, y) - 1, len(self.boxes) - 1))
 
 
 @dataclass(slots=True)

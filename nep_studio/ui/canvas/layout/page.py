@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import time
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -399,8 +400,9 @@ def boxes_touching(
     bottom = rect.y + rect.height
     if not chain.boxes or y > bottom or y + chain.height < rect.y - 20:
         return
-    first, last = chain.index_at(rect.y - 20 - y), chain.index_at(bottom - y)
-    for number in range(first, last + 1):
+    first, count = bisect_right(chain.ys, rect.y - 20 - y), len(chain.boxes)
+    end = min(bisect_right(chain.ys, bottom - y), count)
+    for number in range(max(min(first, count) - 1, 0), end):
         box = chain.boxes[number]
         left = x - box.width if chain.is_mirrored else x
         yield box, left, y + chain.ys[number]

@@ -150,8 +150,8 @@ def paint_background(painter: QPainter, rect: Rect, camera: Camera, theme: Theme
     painter.fillRect(whole, theme.colour("canvas"))
     if camera.scale < SMALLEST_DOT_SCALE:
         return
-    columns = range(int(rect.x // STEP), int(rect.right // STEP) + 2)
-    rows = range(int(rect.y // STEP), int(rect.bottom // STEP) + 2)
+    columns = range(int(rect.x // STEP), int((rect.x + rect.width) // STEP) + 2)
+    rows = range(int(rect.y // STEP), int((rect.y + rect.height) // STEP) + 2)
     painter.setPen(QPen(theme.colour("canvas_dot"), 2.0))
     painter.drawPoints([QPointF(x * STEP, y * STEP) for x in columns for y in rows])
 

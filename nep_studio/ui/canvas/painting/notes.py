@@ -58,8 +58,6 @@ class Notes:
     def change(self, changes: Changes) -> list[Rect]:
         """Take in what a step changed; gives the places to paint again."""
         before = self._rects
-        if not changes.notes and not changes.whole:
-            return []
         self.refresh()
         ids = changes.notes or {*before, *self._rects}
         found = [rects[i] for i in ids for rects in (before, self._rects) if i in rects]
