@@ -125,7 +125,9 @@ def _why_not_filled(
     reason = language.why_not_choice(slot, value, block, key)
     if reason is not None:
         return ("unknown_choice", reason, "Choose another one.")
-    return _why_not_number(definition, slot, value)
+    if kind.name in ("number", "duration"):
+        return _why_not_number(definition, slot, value)
+    return None
 
 
 def _why_not_number(definition: Definition, slot: Slot, value: FieldValue | None) -> _Wrong | None:

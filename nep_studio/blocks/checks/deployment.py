@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from faults import Text, text_of
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.deployment import (
     NodeEntry,
     is_recognised,
@@ -133,38 +133,46 @@ def _wrong_names(named: Iterable[tuple[str, str, str]]) -> Iterator[Problem]:
 def check_abilities(project: Project, language: Language, chain: list[str]) -> Found:
     """Choices that the robot of a block, or one of all robots, does not have."""
     for block in project.within(chain, enabled=True):
+        yield None
         robot = language.robot_of(block)
         asked = list(language.robots) if robot == ALL_ROBOTS else [robot]
-        if robots := [name for name in asked if name in language.robots]:
-            yield from _lacking(project, language, block, robots)
+        robots = [name for name in asked if name in language.robots]
+        if not robots:
+            continue
+        definition = language.definitions[block.type]
+        for key, slot in definition.keys(block.groups):
+            value = definition.value(block, key)
+            if slot.kind.name != "choice" or language.why_not_choice(slot, value, block, key):
+                continue  # what no robot has is told of by check_blocks
+            table = language.table_of(slot, block, key)
+            lacking = [name for name in robots if not _has(language, name, table, value)]
+            if lacking:
+                yield _lacks(project, language, block, (key, slot), lacking)
 
 
-def _lacking(
-    project: Project, language: Language, block: Block, robots: list[str]
-) -> Iterator[Problem]:
-    definition = language.definitions[block.type]
-    for key, slot in definition.keys(block.groups):
-        value = definition.value(block, key)
-        if slot.kind.name != "choice" or language.why_not_choice(slot, value, block, key):
-            continue  # what no robot has is told of by check_blocks
-        table = language.table_of(slot, block, key)
-        lacking = [name for name in robots if not _has(language, name, table, value)]
-        if lacking:
-            label = language.label_of(slot, value, block, key)
-            yield Problem(
-                "error",
-                "robot_lacks",
-                project.page_of(block.id),
-                block.id,
-                text_of(
-                    "“{block}”: “{choice}” is not there for {robots}.",
-                    block=sentence(project, language, block.id),
-                    choice=label,
-                    robots=[f"{name} ({language.robots[name].title})" for name in lacking],
-                ),
-                ("Choose another one.", "Or choose another robot in this block."),
-                _instead(language, block, key, table, lacking),
-            )
+def _lacks(
+    project: Project,
+    language: Language,
+    block: Block,
+    place: tuple[str, Slot],
+    lacking: list[str],
+) -> Problem:
+    key, slot = place
+    value = language.definitions[block.type].value(block, key)
+    return Problem(
+        "error",
+        "robot_lacks",
+        project.page_of(block.id),
+        block.id,
+        text_of(
+            "“{block}”: “{choice}” is not there for {robots}.",
+            block=sentence(project, language, block.id),
+            choice=language.label_of(slot, value, block, key),
+            robots=[f"{name} ({language.robots[name].title})" for name in lacking],
+        ),
+        ("Choose another one.", "Or choose another robot in this block."),
+        _instead(language, block, key, language.table_of(slot, block, key), lacking),
+    )
 
 
 def _has(language: Language, robot: str, table: str, value: object) -> bool:

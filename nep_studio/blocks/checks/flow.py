@@ -87,7 +87,10 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
         if definition is None or definition.flags.isdisjoint(_OF_POSTURE):
             continue
         robot = str(definition.value(block, "robot"))
-        if taken := _posture_taken(definition, block):
+        taken = next((_POSTURES[flag] for flag in definition.flags if flag in _POSTURES), "")
+        if "posture" in definition.flags:
+            taken = str(definition.value(block, "posture"))
+        if taken:
             if robot == ALL_ROBOTS:
                 postures.clear()
             postures[robot] = taken
@@ -105,13 +108,6 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
                 ("Let the robot stand first.",),
                 Fix("stand_first", "Stand first", {"block": block.id, "robot": robot}),
             )
-
-
-def _posture_taken(definition: Definition, block: Block) -> str:
-    """The posture that a block leaves a robot in, "" when it leaves it as it is."""
-    if "posture" in definition.flags:
-        return str(definition.value(block, "posture"))
-    return next((_POSTURES[flag] for flag in definition.flags if flag in _POSTURES), "")
 
 
 # Checks of what Python itself cannot take: loops in loops in loops, values in values.

@@ -121,13 +121,6 @@ def _require_free(
         if len(roots) != 1 or plugged not in (None, *leaving):
             raise EditRefused("There is a block in this slot already.")
         return
-    index = place.position if isinstance(place, NewStack) else place.index
-    if not 0 <= index <= _length(project, place, leaving):
-        raise EditRefused("There is no such place.")
-
-
-def _length(project: Project, place: NewStack | InStack | InBody, leaving: Sequence[str]) -> int:
-    """How long the list of a place is, once the blocks that are moved have left it."""
     if isinstance(place, NewStack):
         taken = place.stack in project.stacks or place.stack in project.blocks
         if place.page not in project.pages or taken:
@@ -135,14 +128,19 @@ def _length(project: Project, place: NewStack | InStack | InBody, leaving: Seque
         # a stack that is moved as a whole leaves the list of its page
         stack = project.stacks.get(project.parents[leaving[0]].owner) if leaving else None
         leaves = stack is not None and len(stack.body) == len(leaving)
-        return len(project.pages[place.page]) - (leaves and stack in project.pages[place.page])
-    if isinstance(place, InBody):
-        chain = require_block(project, place.block).bodies.get(place.slot, [])
-    elif place.stack in project.stacks:
-        chain = project.stacks[place.stack].body
+        there = project.pages[place.page]
+        index, length = place.position, len(there) - (leaves and stack in there)
     else:
-        raise EditRefused("This stack is not there any more.")
-    return len(chain) - (len(leaving) if leaving and leaving[0] in chain else 0)
+        if isinstance(place, InBody):
+            chain = require_block(project, place.block).bodies.get(place.slot, [])
+        elif place.stack in project.stacks:
+            chain = project.stacks[place.stack].body
+        else:
+            raise EditRefused("This stack is not there any more.")
+        left = len(leaving) if leaving and leaving[0] in chain else 0
+        index, length = place.index, len(chain) - left
+    if not 0 <= index <= length:
+        raise EditRefused("There is no such place.")
 
 
 def _adopt(project: Project, block: Block) -> None:

@@ -279,6 +279,9 @@ class Canvas(QAbstractScrollArea):
         """Begin a gesture that opens the block if it stays a click."""
         self.keyboard.is_space_pressed = False
         self.pointing.double_click(event)
+        is_plain = event.button() == Qt.MouseButton.LeftButton and not event.modifiers()
+        if is_plain and self.sight.hit(event.position()) is None:
+            self.news.page_double_clicked.emit(self.sight.to_page(event.position()))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Go on with the gesture."""

@@ -29,6 +29,7 @@ from .menus import (
     add_help_menu,
     add_toolbar,
     add_view_menu,
+    dress_toolbar,
     size_toolbar,
     style_check,
     update_edit_actions,
@@ -382,7 +383,7 @@ class MainWindow(QMainWindow):
             self.messages.tell(self._opening_message)
 
     def _on_theme_changed(self) -> None:
-        size_toolbar(self.toolbar)
+        dress_toolbar(self.toolbar)
         fit_icons(self.pages)
         self._on_problems_found(self.workbench.checks.problems if self.lazy.is_done else [])
 

@@ -438,15 +438,20 @@ def add_toolbar(window: MainWindow) -> QToolBar:
     bar.addActions([window.actions_by_name[name] for name in LAST_BUTTONS])
     window.addToolBar(bar)
     style_buttons(bar, window.look)
-    size_toolbar(bar)
+    dress_toolbar(bar)
     return bar
 
 
-def size_toolbar(bar: QToolBar) -> None:
-    """Let the icons be as large as the text asks for, with words where there is room for them."""
+def dress_toolbar(bar: QToolBar) -> None:
+    """Let the icons be as large as the text asks for."""
     side = round(bar.fontMetrics().height() * 1.25)
     bar.setIconSize(icon_room(side))
     _dress_rest(bar, side)
+    size_toolbar(bar)
+
+
+def size_toolbar(bar: QToolBar) -> None:
+    """Show words beside the icons where there is room for them."""
     names = [action.objectName() for action in bar.actions() if action.objectName()]
     all_words = [name for name in names if name not in ICON_ONLY]
     for kept in (all_words, *WORDS_KEPT):

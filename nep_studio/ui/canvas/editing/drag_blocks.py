@@ -236,7 +236,9 @@ class DragBlocks:
 
     def _end(self, canvas: CanvasHost) -> None:
         self._scroll.end()
-        canvas.marks.hide(canvas)
+        canvas.marks.bubble.hide()
+        canvas.marks.floating.hide()
+        canvas.marks.drop_overlay.show(canvas, None)
         canvas.layers.set_sprite(None)
         canvas.layers.set_preview(frozenset(), None)
         canvas.area.viewport().unsetCursor()

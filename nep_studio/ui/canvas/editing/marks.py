@@ -35,12 +35,6 @@ class DragMarks:
         self.drop_overlay = DropOverlay()
         self.delete_area: Callable[[QPoint], bool] = lambda point: False
 
-    def hide(self, host: CanvasHost) -> None:
-        """Nothing is carried any more."""
-        self.bubble.hide()
-        self.floating.hide()
-        self.drop_overlay.show(host, None)
-
 
 # Shows where carried blocks would go: the slot, the head of a stack, the blocks to go around.
 
