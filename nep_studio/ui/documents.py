@@ -64,6 +64,8 @@ class Document(QObject):
         self._edits = edits_of(editor)
         self._edits.edited.connect(self._tell)
         self._edits.settled.connect(self._look_at_journal)
+        self.folder = Path.cwd()
+        """Where the project's own files are."""
         self.title = ""
         """The name of its file, or of the project when it has none yet."""
         self.is_modified = False
@@ -72,11 +74,6 @@ class Document(QObject):
         self._tell()
         self.is_kept = self._journal is not None and not self._journal.error
         """Whether a journal keeps what is not saved yet."""
-
-    @property
-    def folder(self) -> Path:
-        """Where the project's own files are."""
-        return self.path.parent if self.path is not None else Path.cwd()
 
     def is_changed_by_others(self) -> bool:
         """Whether the file on the disk is another one than we have read or written."""
@@ -126,6 +123,7 @@ class Document(QObject):
             self.kept_changed.emit()
 
     def _tell(self) -> None:
+        self.folder = self.path.parent if self.path is not None else Path.cwd()
         self.title = self.path.stem if self.path is not None else self.project.name
         self.is_modified = self.editor.history.position != self._saved_position
         shown = (self.path, self.title, self.is_modified)

@@ -201,7 +201,7 @@ def update_edit_actions(window: MainWindow) -> None:
 
 
 def _label(window: MainWindow, name: str, step: Words, plain: str, with_step: str) -> None:
-    action = window.actions_by_name[name]
+    action = window.actions_by_name.by_name[name]
     words = tr(with_step, step=tr(step)) if step else plain
     action.setEnabled(bool(step))
     action.setText(words)

@@ -40,7 +40,7 @@ class LiveChecks(QObject):
         self._document, self._known = document, KnownProblems()
         self._edits = None if document is None else edits_of(document.editor)
         if self._edits is None:
-            self._tell([])
+            self.take([])
             return
         self._edits.edited.connect(self.cancel)
         self._edits.settled.connect(self.start)
@@ -60,7 +60,8 @@ class LiveChecks(QObject):
     def take(self, problems: list[Problem]) -> None:
         """Take what somebody else has just found: it need not be looked for again."""
         self.cancel()
-        self._tell(problems)
+        self.problems = problems
+        self.found.emit(problems)
 
     def cancel(self) -> None:
         """Give up the check that is under way."""
@@ -74,11 +75,7 @@ class LiveChecks(QObject):
         if check is None:
             self.start()  # of what was just opened
         elif check.run(SLICE_S):
-            self._check = None
-            self._tell(check.result)
+            self._check, self.problems = None, check.result
+            self.found.emit(self.problems)
         else:
             self._next.start()
-
-    def _tell(self, problems: list[Problem]) -> None:
-        self.problems = problems
-        self.found.emit(problems)

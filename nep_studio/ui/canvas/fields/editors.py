@@ -203,7 +203,7 @@ class FieldEditors(QObject):
         """The editor that is open."""
         self._left_comment = ""
         """The block whose comment the press has closed: its button does not open it again."""
-        self._ring = FieldRing(canvas)
+        self._ring = FieldRing(self)
         canvas.news.page_changed.connect(self.close)
 
     @property

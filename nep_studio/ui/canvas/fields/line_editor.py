@@ -157,7 +157,8 @@ class LineEditor(QLineEdit):
             self.setAccessibleDescription(words)
             if words:
                 self._editors.canvas.news.announced.emit(words)
-        self._tell_result()
+        if self._kind.is_number:
+            self._tell_result()
         self.follow()
 
     def _tell_result(self) -> None:

@@ -206,13 +206,14 @@ def give_back_focus(canvas: QWidget, closing: QWidget) -> None:
 class FieldRing:
     """Shows which field is being edited."""
 
-    def __init__(self, canvas: CanvasHost) -> None:
-        self._canvas = canvas
+    def __init__(self, editors: FieldEditors) -> None:
+        self._editors = editors
 
     def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the line around the field that is edited, in its shape."""
-        place = self._canvas.fields.place
-        found = piece_of(self._canvas, *place) if place is not None else None
+        if (editor := self._editors.widget) is None:
+            return
+        found = piece_of(view, editor.edit.block, editor.edit.key)
         if found is None:
             return
         placed, piece = found

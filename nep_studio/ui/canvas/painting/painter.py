@@ -179,7 +179,8 @@ class BlockPainter:
             if box.outline == "gap":
                 self._paint_gap(painter, box)
                 continue
-            colours, brush, pen = self.look_of(box)
+            look = self._looks.get((box.type, box.is_disabled))
+            colours, brush, pen = look or self.look_of(box)
             path = self.outlines.of(box)
             painter.setPen(pen if detail else Qt.PenStyle.NoPen)
             painter.setBrush(brush)
