@@ -102,9 +102,16 @@ def _why_not_here(
             return why_not_plugged(owner, place.slot, roots[0], language.definitions)
         if (reason := why_no_body(owner, place.slot, language.definitions)) is not None:
             return reason
-    return _why_not_page(roots, place, project, language) or _why_not_between(
-        roots, place, project, language
-    )
+    at = place.block if isinstance(place, InBody) else place.stack
+    page = place.page if isinstance(place, NewStack) else ""
+    if at in project.blocks or at in project.stacks:
+        page = page or project.page_of(at)
+    for root in roots if page else ():
+        definition = language.definitions.get(root.type)
+        if definition is not None and definition.page != project.kind_of_page(page):
+            right = Text(definition.page.title())
+            return text_of("This block belongs on the page {page}.", page=right)
+    return _why_not_between(roots, place, project, language)
 
 
 def _why_not_between(
@@ -131,26 +138,6 @@ def _why_not_between(
             definitions.get(below.type), first_in_stack=False
         )
     return reason
-
-
-def _why_not_page(
-    roots: list[Block], place: Place, project: Project, language: Language
-) -> Text | None:
-    if isinstance(place, NewStack):
-        page = place.page
-    elif isinstance(place, InStack) and place.stack in project.stacks:
-        page = project.page_of(place.stack)
-    elif isinstance(place, InBody) and place.block in project.blocks:
-        page = project.page_of(place.block)
-    else:
-        return None
-    for block in roots:
-        definition = language.definitions.get(block.type)
-        if definition is not None and definition.page != project.kind_of_page(page):
-            return text_of(
-                "This block belongs on the page {page}.", page=Text(definition.page.title())
-            )
-    return None
 
 
 # What happens to the blocks that use an own block when its sentence changes.

@@ -289,7 +289,7 @@ class Canvas(QAbstractScrollArea):
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """End the gesture."""
-        self.pointing.release(event)
+        self.pointing.release_at(event.position(), event.button())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Scroll or zoom."""

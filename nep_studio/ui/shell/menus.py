@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, QPalette
@@ -452,16 +452,20 @@ def dress_toolbar(bar: QToolBar) -> None:
 
 def size_toolbar(bar: QToolBar) -> None:
     """Show words beside the icons where there is room for them."""
-    names = [action.objectName() for action in bar.actions() if action.objectName()]
-    all_words = [name for name in names if name not in ICON_ONLY]
+    buttons = {
+        action.objectName(): cast(QToolButton, bar.widgetForAction(action))
+        for action in bar.actions()
+        if action.objectName()
+    }
+    all_words = [name for name in buttons if name not in ICON_ONLY]
     for kept in (all_words, *WORDS_KEPT):
-        for name in names:
+        for name, button in buttons.items():
             style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
             if name not in kept:
                 style = Qt.ToolButtonStyle.ToolButtonIconOnly
-            _button(bar, name).ensurePolished()  # else it has not its size yet
-            _button(bar, name).setToolButtonStyle(style)
-        keep_width(_button(bar, "run"))
+            button.ensurePolished()  # else it has not its size yet
+            button.setToolButtonStyle(style)
+        keep_width(buttons["run"])
         for sign in bar.findChildren(RunState):
             sign.be_tight(kept == WORDS_KEPT[-1])
         if (layout := bar.layout()) is not None:
@@ -478,13 +482,6 @@ def _dress_rest(bar: QToolBar, side: int) -> None:
         more.setIconSize(QSize(side, side))  # Qt makes it as narrow as it likes
         more.setToolTip(tr("More"))
         more.setAccessibleName(tr("More"))
-
-
-def _button(bar: QToolBar, name: str) -> QToolButton:
-    action = next(action for action in bar.actions() if action.objectName() == name)
-    button = bar.widgetForAction(action)
-    assert isinstance(button, QToolButton)
-    return button
 
 
 def _themes() -> list[tuple[str, str]]:

@@ -207,19 +207,16 @@ class Pointing:
         else:
             self.move_to(event.position())
 
-    def release(self, event: QMouseEvent) -> None:
-        """A mouse button came up."""
-        if self._last is not None and event.button() == self._last.button:
-            self.release_at(event.position())
-
     def move_to(self, view: QPointF) -> None:
         """Bring the gesture to a point of the view."""
         if self.gesture is not None:
             self._last = self._moved(view)
             self.gesture.move(self._canvas, self._last)
 
-    def release_at(self, view: QPointF) -> None:
-        """End the gesture at a point of the view."""
+    def release_at(self, view: QPointF, button: Qt.MouseButton | None = None) -> None:
+        """End the gesture at a point of the view; not if another button than its came up."""
+        if button is not None and (self._last is None or button != self._last.button):
+            return
         gesture, self.gesture = self.gesture, None
         if gesture is not None:
             self._last = self._moved(view)
