@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection
-from functools import reduce
+from functools import cached_property, reduce
 from typing import TYPE_CHECKING
 
 from faults import Text
@@ -42,13 +42,13 @@ class Cargo(ABC):
     chains: list[Chain]
     hidden: frozenset[str] = frozenset()
 
-    @property
+    @cached_property
     def bounds(self) -> Rect:
         """The rectangle around all of it, where it was picked up."""
         rects = (bounds_of(chain, chain.x, chain.y) for chain in self.chains)
         return reduce(Rect.united, rects)
 
-    @property
+    @cached_property
     def ends(self) -> Ends:
         """Where it can be joined to others: nowhere when it is several stacks."""
         return ends_of(self.chains[0]) if len(self.chains) == 1 else Ends()
