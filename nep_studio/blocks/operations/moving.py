@@ -27,7 +27,6 @@ from .selection import (
     chain_around,
     is_within_run,
     members,
-    require_runs,
     run_from,
     runs,
 )
@@ -356,15 +355,17 @@ def why_not_create(editor: Editor, clip: Clip, place: Place, *, wrap: bool = Fal
     return why_not_land(editor, load_of_clip(clip), place, wrap=wrap)
 
 
-def move_by(editor: Editor, ids: Iterable[str], dx: float, dy: float, at: Points = UNKNOWN) -> None:
-    """Move selected blocks on their page, as one step.
+def move_by(
+    editor: Editor, moved: Iterable[Run], dx: float, dy: float, at: Points = UNKNOWN
+) -> None:
+    """Move runs of blocks on their page, as one step.
 
     Whole stacks move; runs of blocks inside others come out and become stacks. ``at`` says where
     those lie now (by their first block).
     """
     project = editor.project
     with editor.transaction("move blocks"):
-        for run in require_runs(project, ids):
+        for run in moved:
             stack = project.stack_of(run.first)
             if stack.body[0] == run.first and len(stack.body) == run.count:
                 editor.apply(MoveStack(stack.id, stack.x + dx, stack.y + dy))

@@ -125,7 +125,7 @@ class PickedUp(Cargo):
 
     def put(self, canvas: CanvasHost, dx: float, dy: float) -> list[str]:
         """Move the blocks on their page."""
-        move_by(canvas.editor, self.hidden, dx, dy, self._at)
+        move_by(canvas.editor, self._carried.runs, dx, dy, self._at)
         return self._selected
 
     def throw_away(self, canvas: CanvasHost) -> Clip | None:
